@@ -1,0 +1,41 @@
+# The first two commands of the README: `make demo` and `make test`.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+# One BLAS thread per process: the matrices are small, and campaigns use processes.
+export OMP_NUM_THREADS = 1
+export OPENBLAS_NUM_THREADS = 1
+export MKL_NUM_THREADS = 1
+
+.PHONY: demo test test-slow lint types bench verification clean
+
+$(VENV)/.installed: pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --editable ".[dev]"
+	touch $@
+
+demo: $(VENV)/.installed
+	$(BIN)/python examples/pdms_lens.py
+
+test: $(VENV)/.installed
+	$(BIN)/python -m pytest -m "not slow" -n 2 -q
+
+test-slow: $(VENV)/.installed
+	$(BIN)/python -m pytest -m slow -n 2 -q
+
+lint: $(VENV)/.installed
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/.installed
+	$(BIN)/pyright
+
+bench: $(VENV)/.installed
+	$(BIN)/python benchmarks/bench.py
+
+verification: $(VENV)/.installed
+	$(BIN)/python benchmarks/verification.py --write
+
+clean:
+	rm -rf $(VENV) build dist out

@@ -1,0 +1,139 @@
+"""viscotack: how hard must one pull a soft, sticky, rate-dependent contact.
+
+The public names, in the order in which data flow. A name is imported when it is first used, so
+that ``import viscotack`` costs nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from . import bem as bem
+    from . import materials as materials
+    from . import theory as theory
+    from .bem import SimulationError as SimulationError
+    from .bem import solve as solve
+    from .case_file import read_case as read_case
+    from .geometry import Sphere as Sphere
+    from .materials import Elastic as Elastic
+    from .materials import Prony as Prony
+    from .materials import RelaxationPowerLaw as RelaxationPowerLaw
+    from .materials import RetardationPowerLaw as RetardationPowerLaw
+    from .materials import StandardSolid as StandardSolid
+    from .observables import PullOff as PullOff
+    from .observables import contact_radius_at_pull_off as contact_radius_at_pull_off
+    from .observables import crack_speed_at_pull_off as crack_speed_at_pull_off
+    from .observables import pull_off as pull_off
+    from .observables import pull_off_depth as pull_off_depth
+    from .observables import pull_off_force as pull_off_force
+    from .observables import summary as summary
+    from .observables import work_of_separation as work_of_separation
+    from .observables import work_to_pull_off as work_to_pull_off
+    from .plot import draw_force as draw_force
+    from .plot import draw_overview as draw_overview
+    from .plot import draw_radius as draw_radius
+    from .plot import draw_rates as draw_rates
+    from .plot import save_figure as save_figure
+    from .problem import Groups as Groups
+    from .problem import Problem as Problem
+    from .problem import Scales as Scales
+    from .protocol import AtDepth as AtDepth
+    from .protocol import AtForce as AtForce
+    from .protocol import AtRadius as AtRadius
+    from .protocol import Retraction as Retraction
+    from .record import from_dict as from_dict
+    from .record import run_id as run_id
+    from .record import to_dict as to_dict
+    from .result import Event as Event
+    from .result import Outcome as Outcome
+    from .result import Result as Result
+    from .result import columns as columns
+    from .result import load as load
+    from .result import save as save
+    from .result import write_csv as write_csv
+    from .traction import LennardJones as LennardJones
+    from .units import parse as parse
+
+# Module -> the public names it has.
+_NAMES = {
+    # words with units, and what a contact is made of
+    "units": ("parse",),
+    "traction": ("LennardJones",),
+    "geometry": ("Sphere",),
+    "protocol": (
+        "AtDepth",
+        "AtForce",
+        "AtRadius",
+        "Retraction",
+    ),
+    "materials": (
+        "Elastic",
+        "StandardSolid",
+        "Prony",
+        "RetardationPowerLaw",
+        "RelaxationPowerLaw",
+    ),
+    # the problem, in SI and in groups, in memory and in files
+    "problem": (
+        "Problem",
+        "Groups",
+        "Scales",
+    ),
+    "record": (
+        "to_dict",
+        "from_dict",
+        "run_id",
+    ),
+    "case_file": ("read_case",),
+    # the answer
+    "bem": (
+        "solve",
+        "SimulationError",
+    ),
+    "result": (
+        "Result",
+        "Event",
+        "Outcome",
+        "save",
+        "load",
+        "columns",
+        "write_csv",
+    ),
+    # its numbers and its pictures
+    "observables": (
+        "PullOff",
+        "pull_off",
+        "pull_off_force",
+        "pull_off_depth",
+        "contact_radius_at_pull_off",
+        "crack_speed_at_pull_off",
+        "work_to_pull_off",
+        "work_of_separation",
+        "summary",
+    ),
+    "plot": (
+        "draw_force",
+        "draw_radius",
+        "draw_overview",
+        "draw_rates",
+        "save_figure",
+    ),
+}
+_ROOMS = ("materials", "theory", "bem")
+_HOMES = {name: module for module, names in _NAMES.items() for name in names}
+
+__all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        return getattr(import_module(f".{_HOMES[name]}", __name__), name)
+    if name in _ROOMS:
+        return import_module(f".{name}", __name__)
+    raise AttributeError(f"module 'viscotack' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,93 @@
+r"""Balance of the surface at one instant: gaps at which tractions and displacements agree.
+
+With the stiffness S of the relaxed solid, the compliance c of this instant or step and the gap b that
+the drive and the past alone would leave, the gap g makes the energy
+
+.. math:: \Pi(g) = \frac{1}{2c} (g-b)^T S\, (g-b) + \sum_i A_i\, \varphi(g_i)
+
+stationary; :math:`\varphi` is the interface energy of the traction law. The tangent S/c + diag(A phi'')
+is symmetric, and its Cholesky factor exists exactly where the state is stable. :func:`descend` is Newton's
+method on this energy, always downhill: from a good guess it stays on the branch in two or three iterations;
+from a bad one, or where a branch ends, it finds the stable state that a contact without inertia would.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import lapack
+
+from viscotack.bem.halfspace import Surface
+from viscotack.traction import Traction
+
+# Newton converges quadratically: a last change of 1e-6 of the gap leaves an error near 1e-12.
+_LAST_CHANGE = 1e-6
+# A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
+_LARGEST_CLOSING = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """A gap, how many iterations it took, and whether it is a stable equilibrium."""
+
+    gap: npt.NDArray
+    iterations: int
+    stable: bool
+
+
+def _factor(stiffness: npt.NDArray, diagonal: npt.NDArray):
+    """Return the Cholesky factor of stiffness + diagonal, or None where it is not stable."""
+    tangent = stiffness.copy(order="F")
+    tangent.flat[:: len(tangent) + 1] += diagonal
+    factor, info = lapack.dpotrf(tangent, lower=1, overwrite_a=1, clean=0)
+    return None if info else factor
+
+
+def _limited(change: npt.NDArray, gap: npt.NDArray) -> float:
+    """Return the largest part of the change that closes no gap too far."""
+    closing = float(np.max(-change / gap))
+    return min(1.0, _LARGEST_CLOSING / closing) if closing > 0 else 1.0
+
+
+def descend(
+    surface: Surface,
+    law: Traction,
+    free_gap: npt.NDArray,
+    compliance: float,
+    guess: npt.NDArray,
+    *,
+    most_iterations: int = 500,
+) -> Balance:
+    """Return the stable equilibrium downhill from a guess.
+
+    Where the tangent is not positive definite, softening tractions are left out of it, which keeps the
+    direction downhill; the line search is in energy. Not stable if the iterations ran out.
+    """
+    S, A = surface.stiffness / compliance, surface.area
+    gap, u = guess, guess - free_gap
+    Su = S @ u
+    energy = 0.5 * float(u @ Su) + float(A @ law.energy(gap))
+    for iteration in range(1, most_iterations + 1):
+        curvature = A * law.stiffness(gap)
+        factor = _factor(S, curvature)
+        stable = factor is not None
+        if factor is None:
+            factor = _factor(S, np.maximum(curvature, 0.0))
+        residual = Su + A * law.traction(gap)
+        change, _ = lapack.dpotrs(factor, -residual, lower=1)
+        part, slope = _limited(change, gap), float(residual @ change)
+        while True:
+            trial = gap + part * change
+            u = trial - free_gap
+            Su = S @ u
+            trial_energy = 0.5 * float(u @ Su) + float(A @ law.energy(trial))
+            # Near the minimum round-off of the energy decides, not the slope.
+            if trial_energy <= energy + 1e-4 * part * slope + 1e-13 * abs(energy) or part < 1e-6:
+                break
+            part *= 0.5
+        gap, energy = trial, trial_energy
+        if stable and part == 1.0 and np.max(np.abs(change) / gap) < _LAST_CHANGE:
+            return Balance(gap, iteration, True)
+    return Balance(gap, most_iterations, False)

@@ -1,0 +1,173 @@
+r"""The elastic half-space under axisymmetric pressure, and the surface it offers to a contact.
+
+Pressure is given at the nodes :math:`r_0 = 0 < r_1 < \dots < r_N` and varies linearly between them
+*in* :math:`r^2`, that is in enclosed area: the "overlapping triangles" of Appendix V with flanks that
+make the displacement known in closed form. Every such hat is a combination of three caps
+:math:`p = c^2 - s^2` (for :math:`s<c`), whose displacement for :math:`E^*=1` is
+
+.. math::
+
+    U(r, c) = \frac{8}{3\pi} \int_0^{\min(r,c)} \frac{(c^2-t^2)^{3/2}}{\sqrt{r^2-t^2}}\, dt
+
+(Copson's form of Eq. 4.13 with the kernel of Eq. 4.14 and the factor s that the print lost).
+Inside (r < c, m = r^2/c^2) the integral is :math:`c^3 [2(2-m)E(m) - (1-m)K(m)]/3`, outside
+(m = c^2/r^2) it is :math:`c^4 [(4m-2)E(m) + (1-m)(2-3m)K(m)]/(3 m^2 r)`.
+
+The nodal compliance B (displacement at node i for a unit *force* on hat j) of plain collocation is
+symmetric only up to the discretisation error. It is replaced by its symmetric part, so that the
+discrete contact has an energy: equilibrium is its minimum, a Cholesky factor exists exactly where
+the state is stable, and the energy audit closes.
+
+Units here: lengths along the surface in beta = (R^2 dg / E0*)^(1/3), gaps and displacements in h0,
+pressure in dg/h0, force in dg beta^2 / h0. Then displacement = mu^2 B force.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import lapack
+from scipy.special import ellipe, ellipkm1
+
+from viscotack.traction import Traction
+
+# Below this ratio (c/r)^2 the closed form outside the cap loses digits to cancellation.
+_SERIES_BELOW = 0.05
+_SERIES_TERMS = 14
+
+
+def cap_displacement(radius: npt.ArrayLike, cap_radius: npt.ArrayLike) -> npt.NDArray:
+    """Return U(r, c), the displacement at r under the cap of pressure c^2 - s^2 with E* = 1.
+
+    Parameters
+    ----------
+    radius, cap_radius : array_like, broadcast together
+        r and c, not negative, in one unit of length; the result has this unit cubed.
+    """
+    r, c = np.broadcast_arrays(np.asarray(radius, float), np.asarray(cap_radius, float))
+    small, large = np.minimum(r, c), np.maximum(r, c)
+    q = small / np.where(large > 0, large, 1.0)
+    m, m1 = q * q, (1 - q) * (1 + q)
+    E = ellipe(m)
+    m1K = m1 * ellipkm1(np.maximum(m1, np.finfo(float).tiny))
+    inside = c**3 * (2 * (2 - m) * E - m1K) / 3
+    mm = np.maximum(m, _SERIES_BELOW)  # the closed form is not used below it
+    bracket = ((4 * mm - 2) * E + (2 - 3 * mm) * m1K) / (3 * mm * mm)
+    far = m < _SERIES_BELOW
+    if far.any():
+        bracket[far] = _outside_series(m[far])
+    outside = c**4 / np.where(large > 0, large, 1.0) * bracket
+    return 8 / (3 * np.pi) * np.where(r <= c, inside, outside)
+
+
+def _outside_series(m: npt.NDArray) -> npt.NDArray:
+    """Return (3 pi/16) 2F1(1/2, 1/2; 3; m), the bracket of the outside form for small m."""
+    total, term = np.zeros_like(m), np.ones_like(m)
+    for k in range(_SERIES_TERMS):
+        total = total + term
+        term = term * m * (0.5 + k) ** 2 / ((3 + k) * (1 + k))
+    return 3 * np.pi / 16 * total
+
+
+def influence(radius: npt.NDArray) -> npt.NDArray:
+    """Return G[i, j], the displacement at node i under hat j of unit pressure, for E* = 1.
+
+    The last hat is half a hat: pressure ends at the last node.
+    """
+    area = radius * radius
+    ramps = np.diff(cap_displacement(radius[:, None], radius[None, :]), axis=1) / np.diff(area)
+    disc = 4 / np.pi * radius[-1] * ellipe((radius / radius[-1]) ** 2)
+    return np.column_stack([ramps[:, 0], np.diff(ramps, axis=1), disc - ramps[:, -1]])
+
+
+def nodal_areas(radius: npt.NDArray) -> npt.NDArray:
+    """Return the integral of each hat over the surface; they add up to the whole disc."""
+    area = np.pi * radius * radius
+    half = np.diff(area) / 2
+    return np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A meshed half-space facing a sphere: all that equilibrium and memory need to know.
+
+    Attributes
+    ----------
+    radius : ndarray, shape (N,)
+        Nodes [beta].
+    area : ndarray, shape (N,)
+        Area of each node [beta^2].
+    stiffness : ndarray, shape (N, N)
+        Nodal forces [dg beta^2/h0] that hold unit displacements [h0] of the relaxed solid;
+        symmetric and positive definite.
+    rigid_gap : ndarray, shape (N,)
+        Gap [h0] at depth zero without displacement: 1 + mu r^2 / 2.
+    tabor : float
+        mu; force [1.5 pi R dg0] = 2 mu / (3 pi) times the sum of nodal forces.
+    """
+
+    radius: npt.NDArray
+    area: npt.NDArray
+    stiffness: npt.NDArray
+    rigid_gap: npt.NDArray
+    tabor: float
+
+    def force(self, law: Traction, gap: npt.NDArray) -> float:
+        """Return the normal force [1.5 pi R dg0], compression positive, with the far tail."""
+        nodal = -2 * self.tabor / (3 * np.pi) * float(self.area @ law.traction(gap))
+        # Beyond the last node the surface is flat: Derjaguin gives 2 pi R times the energy there.
+        return nodal + 4 / 3 * float(law.energy(gap[-1]))
+
+    def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:
+        """Return the interface energy [1.5 pi R dg0 h0], zero for surfaces far apart."""
+        nodal = 2 * self.tabor / (3 * np.pi) * float(self.area @ law.energy(gap))
+        return nodal + 4 / 3 * float(law.energy_beyond(gap[-1]))
+
+    def edge(self, gap: npt.NDArray, edge_gap: float) -> float:
+        """Return the contact radius [beta], where the gap last passes edge_gap; nan without one."""
+        below = np.flatnonzero(gap < edge_gap)
+        if len(below) == 0 or below[-1] == len(gap) - 1:
+            return float("nan")
+        i = int(below[-1])
+        r, g = self.radius, gap - edge_gap
+        linear = r[i] - g[i] * (r[i + 1] - r[i]) / (g[i + 1] - g[i])
+        if i == 0 or i + 2 >= len(r):
+            return float(linear)
+        # The cubic through four nodes, solved by Newton from the chord: a linear edge would move
+        # in jerks from node to node, and its speed would be noise.
+        x = (r[i - 1 : i + 3] - r[i]) / (r[i + 1] - r[i])
+        c = np.linalg.solve(np.vander(x, 4), g[i - 1 : i + 3])
+        s = (linear - r[i]) / (r[i + 1] - r[i])
+        for _ in range(4):
+            slope = (3 * c[0] * s + 2 * c[1]) * s + c[2]
+            if slope <= 0:
+                return float(linear)
+            s -= (((c[0] * s + c[1]) * s + c[2]) * s + c[3]) / slope
+        return float(r[i] + s * (r[i + 1] - r[i])) if 0 <= s <= 1 else float(linear)
+
+
+def half_space(radius: npt.NDArray, tabor: float) -> Surface:
+    """Return the surface with these nodes [beta] under a sphere of this Tabor number."""
+    area = nodal_areas(radius)
+    B = influence(radius) / area
+    B = (B + B.T) / 2
+    return Surface(
+        radius=radius,
+        area=area,
+        stiffness=_inverse(B) / tabor**2,
+        rigid_gap=1 + tabor * radius * radius / 2,
+        tabor=tabor,
+    )
+
+
+def _inverse(matrix: npt.NDArray) -> npt.NDArray:
+    """Return the inverse of a symmetric positive definite matrix, symmetric to the last bit."""
+    factor, info = lapack.dpotrf(matrix, lower=1)
+    if info == 0:
+        lower, info = lapack.dpotri(factor, lower=1, overwrite_c=1)
+    if info:
+        raise ArithmeticError("the influence matrix is not positive definite: the mesh is too fine")
+    lower = np.tril(lower)
+    return lower + np.tril(lower, -1).T

@@ -1,0 +1,101 @@
+r"""Where the nodes are: fine around the contact edge, growing away from it.
+
+The crack at the contact edge has a process zone of about :math:`0.75\,\beta/\mu^2` while it is
+slow (it grows when the crack is fast), which for a large Tabor number is a tiny part of the contact.
+Equal nodes in a zone around the edge and geometric growth outside it cost log(mu) nodes instead of
+mu^2. When the edge leaves its zone the march asks for new nodes around the new edge.
+
+Two things keep what a move costs small. The fine nodes of all meshes of a run lie on one lattice, so
+that nothing is interpolated where both meshes are fine. And the place of the first edge stays fine: the
+relaxed contact leaves a scar there that slow modes remember, and a fast crack pulls across it.
+
+Growth inside the contact is slower than outside: the pressure there is that of a crack, 1/sqrt(x) at a
+distance x from the edge, and every decade of x adds the same error, of second order in the growth, to the
+energy that the edge releases. Outside there is next to no pressure.
+
+At small Tabor numbers the process zone is larger than the contact; the gap then varies over
+:math:`\beta/\sqrt{\mu}`, the distance over which a paraboloid rises by about h0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+
+def edge_zone(tabor: float) -> float:
+    """Return the length [beta] over which the gap opens at the contact edge of the relaxed solid."""
+    return min(0.75 / tabor**2, 0.3 / np.sqrt(tabor))
+
+
+# Part of the half width that stays fine around the first edge.
+_SCAR = 0.4
+
+
+@dataclass(frozen=True)
+class Grading:
+    """How fine the nodes are, and where they end.
+
+    Attributes
+    ----------
+    spacing : float
+        Distance of the nodes around the edge [beta].
+    half_width : float
+        The fine zone reaches this far to both sides of the edge [beta].
+    growth_inside, growth_outside : float
+        Relative growth of the distance from node to node towards the centre and outwards.
+    outer_radius : float
+        Last node [beta].
+    """
+
+    spacing: float
+    half_width: float
+    growth_inside: float
+    growth_outside: float
+    outer_radius: float
+
+    def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
+        """Return the nodes [beta], from 0 outwards, for an edge and the first edge of the run."""
+        h = self.spacing
+        edge = first_edge + h * round((edge - first_edge) / h)
+        inward = int(min(self.half_width, edge) / h)
+        fine = edge + h * np.arange(-inward, int(self.half_width / h) + 1)
+        if fine[0] <= 2 * h:
+            fine = np.linspace(0.0, fine[-1], max(round(fine[-1] / h), 8) + 1)
+            inner = np.empty(0)
+        else:
+            away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 6, h))
+            inner = fine[0] - away[::-1] * (fine[0] / away[-1])  # the last one lands on r = 0
+            inner[0] = 0.0
+        parts, end = [inner, fine], fine[-1]
+        scar = first_edge + h * np.arange(-self._scar, self._scar + 1)
+        if scar[-1] > end + h / 2:
+            if scar[0] > end + h / 2:
+                parts.append(self._bridge(end, scar[0]))
+            parts.append(scar[scar > end + h / 2])
+            end = scar[-1]
+        parts.append(end + self._growing(self.outer_radius - end, self.growth_outside))
+        return np.concatenate(parts)
+
+    @property
+    def _scar(self) -> int:
+        """Fine nodes kept on each side of the first edge."""
+        return int(_SCAR * self.half_width / self.spacing)
+
+    def _growing(self, length: float, growth: float, largest: float = np.inf) -> npt.NDArray:
+        """Return growing distances from the fine zone, the first beyond `length` being the last."""
+        points, step = [0.0], self.spacing
+        while points[-1] < length:
+            step = min(step * (1 + growth), largest)
+            points.append(points[-1] + step)
+        return np.array(points[1:])
+
+    def _bridge(self, start: float, end: float) -> npt.NDArray:
+        """Return nodes between two fine zones, coarsest in the middle; neither end is included."""
+        length, points = end - start, [0.0]
+        while points[-1] < length:
+            nearer = min(points[-1], max(length - points[-1], 0.0))
+            points.append(points[-1] + self.spacing + self.growth_outside * nearer)
+        return start + np.array(points[1:-1]) * (length / points[-1])

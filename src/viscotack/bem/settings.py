@@ -1,0 +1,107 @@
+"""How fine a simulation is: everything follows from the accuracy that the caller asks for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscotack.bem.mesh import Grading, edge_zone
+
+# The accuracy at which the numbers of Settings.for_accuracy are stated.
+DEFAULT_ACCURACY = 2e-3
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Mesh, steps and modes of a simulation; dimensionless numbers for experts.
+
+    All parts are second order: halving every length divides the error by four.
+
+    Attributes
+    ----------
+    nodes_per_zone : float
+        Nodes over the length in which the gap opens at the edge.
+    fine_zones : float
+        The nodes are finest within this many such lengths of the edge.
+    growth_inside, growth_outside : float
+        Relative growth of the node distance from there to the centre and outwards.
+    reach : float
+        Rigid gap at the last node [h0]; the tail beyond is added in closed form.
+    step_error : float
+        Largest error of a linear load in a step, as displacement [h0].
+    force_change : float
+        Largest change of the force in a step, relative to |force| + 1.5 pi R dg0.
+    travel, first_travel : float
+        Largest and first travel of the drive in a step [(mu + 1) h0].
+    imbalance : float
+        Energy that may go missing in a step, relative to the largest term of the books.
+    mode_tolerance : float
+        Error of the compliance that the retardation modes may have, relative.
+    most_steps : int
+        Bound on the steps of a run.
+    """
+
+    nodes_per_zone: float
+    fine_zones: float
+    growth_inside: float
+    growth_outside: float
+    reach: float
+    step_error: float
+    force_change: float
+    travel: float
+    first_travel: float
+    imbalance: float
+    mode_tolerance: float
+    most_steps: int = 200_000
+
+    @classmethod
+    def for_accuracy(cls, accuracy: float) -> Settings:
+        """Return the settings that keep the pull-off force within this relative error."""
+        if not 1e-6 <= accuracy <= 0.1:
+            raise ValueError(
+                f"accuracy must be between 1e-6 and 0.1 (relative, on the pull-off force), "
+                f"got {accuracy}"
+            )
+        s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
+        return cls(
+            nodes_per_zone=6 / s,
+            fine_zones=5,
+            growth_inside=0.065 * s,
+            growth_outside=0.13 * s,
+            reach=100 / s,
+            step_error=3e-3 * s * s,
+            force_change=0.05 * s,
+            travel=0.05 * s,
+            first_travel=2e-4 * s,
+            imbalance=3e-5 * s * s,
+            mode_tolerance=0.05 * accuracy,
+        )
+
+    def coarser(self, factor: float) -> Settings:
+        """Return the settings whose errors, being of second order, are larger by this factor."""
+        s = float(np.sqrt(factor))
+        return replace(
+            self,
+            nodes_per_zone=self.nodes_per_zone / s,
+            growth_inside=self.growth_inside * s,
+            growth_outside=self.growth_outside * s,
+            reach=self.reach / s,
+            step_error=self.step_error * factor,
+            force_change=self.force_change * s,
+            travel=self.travel * s,
+            first_travel=self.first_travel * s,
+            imbalance=self.imbalance * factor,
+            mode_tolerance=self.mode_tolerance * factor,
+        )
+
+    def grading(self, tabor: float, depth: float) -> Grading:
+        """Return the grading of the nodes for a sphere at this Tabor number and depth [h0]."""
+        zone = edge_zone(tabor)
+        return Grading(
+            spacing=zone / self.nodes_per_zone,
+            half_width=zone * self.fine_zones,
+            growth_inside=self.growth_inside,
+            growth_outside=self.growth_outside,
+            outer_radius=float(np.sqrt(2 * (self.reach + max(depth, 0.0)) / tabor)),
+        )

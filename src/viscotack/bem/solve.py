@@ -1,0 +1,242 @@
+"""From a problem to a result: the one entry point of the simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+
+from viscotack.bem.march import SMALLEST_ENERGY, History, march
+from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
+from viscotack.bem.start import RADIUS_UNIT, Relaxed, relaxed
+from viscotack.materials import Modes
+from viscotack.observables import pull_off, work_to_pull_off
+from viscotack.problem import Groups, Problem
+from viscotack.result import Outcome, Result, receding_speed
+
+_UNTIL = ("pull-off", "detached")
+# Modes that are faster than this part of the first step are instantaneous for all purposes.
+_FASTEST = 0.2
+# The coarse companion of a run is less accurate by this factor; every error is of second order.
+_COARSER = 4.0
+# The estimate is the difference to the companion over _COARSER - 1, times this margin ...
+_MARGIN = 1.5
+# ... but never below this part of the accuracy: two errors may cancel in the difference.
+_FLOOR = 0.05
+
+
+class SimulationError(RuntimeError):
+    """A simulation that stopped before its end; `result` holds what there is, and the reason."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(result.status)
+        self.result = result
+
+
+def solve(
+    problem: Problem | Groups,
+    *,
+    accuracy: float = DEFAULT_ACCURACY,
+    until: str = "detached",
+    settings: Settings | None = None,
+    estimate_error: bool = True,
+    fields: bool = False,
+    throw: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> Result:
+    """Simulate the detachment of a rigid sphere from a viscoelastic half-space.
+
+    The sphere starts in a fully relaxed contact and is retracted at a constant rate. Pressure and
+    gap follow from the traction law and from the hereditary half-space (Eq. 4.11 to 4.15 of
+    Maghami, PhD thesis (2025)); mesh, steps and relaxation modes follow from the accuracy.
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        What is retracted, in SI or in dimensionless groups.
+    accuracy : float
+        Wanted relative error of the pull-off force, from 1e-6 to 0.1; the work to pull-off, whose end is
+        a flat minimum, has about five times this error.
+    until : {"detached", "pull-off"}
+        Run until the surfaces are apart, or only until the force minimum is passed (faster; the
+        work of separation is then not known).
+    settings : Settings, optional
+        Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
+    estimate_error : bool
+        Also run a coarser companion and state the errors of force and work from the difference.
+    fields : bool
+        Keep the profiles of pressure and gap at every step.
+    throw : bool
+        Raise when the run stops before its end; else the result's status says so.
+    progress : callable, optional
+        Called after every step with the done share of the way, from 0 to 1.
+
+    Returns
+    -------
+    Result
+        Dimensionless series, status, events, energies, error estimate and statistics.
+
+    Raises
+    ------
+    ValueError
+        If the relaxed start does not exist, or an argument is out of range.
+    SimulationError
+        If the run stops before its end, unless throw is False.
+
+    Notes
+    -----
+    Tested for Tabor numbers from 0.01 to 10, modulus ratios down to 1e-4, preloads from 0.01 to
+    500 h0 and rates from 0.1 to 1e10. Small strains are assumed, and inertia is neglected.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, RetardationPowerLaw, pull_off_force, solve
+    >>> material = RetardationPowerLaw(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73.0), rate=316.23)
+    >>> result = solve(groups, until="pull-off")
+    >>> f"{pull_off_force(result):.2f}"
+    '7.33'
+    """
+    if until not in _UNTIL:
+        raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
+    began = perf_counter()
+    chosen = Settings.for_accuracy(accuracy) if settings is None else settings
+    result = _run(problem, chosen, until, fields, progress)
+    estimate = None
+    if estimate_error and result.outcome is not Outcome.STOPPED:
+        companion = _run(problem, chosen.coarser(_COARSER), "pull-off", False, None)
+        estimate = _estimate(result, companion, accuracy)
+    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
+    result = replace(result, error_estimate=estimate, statistics=statistics)
+    if throw and result.outcome is Outcome.STOPPED:
+        raise SimulationError(result)
+    return result
+
+
+def _run(
+    problem: Problem | Groups,
+    settings: Settings,
+    until: str,
+    fields: bool,
+    progress: Callable[[float], None] | None,
+) -> Result:
+    groups = problem.groups()
+    law, tabor = groups.traction, groups.tabor
+    start = relaxed(groups.start, law, tabor, lambda depth: settings.grading(tabor, depth))
+    modes = _modes(groups, start, settings)
+    grading = settings.grading(tabor, start.depth)
+    history = march(
+        start,
+        modes,
+        law,
+        groups.rate,
+        grading,
+        settings,
+        until=until,
+        profiles=fields,
+        progress=progress,
+    )
+    return _result(problem, history, modes, fields)
+
+
+def _modes(groups: Groups, start: Relaxed, settings: Settings) -> Modes:
+    """Return the retardation modes that this run can tell apart."""
+    scale = groups.tabor + 1
+    shortest = _FASTEST * settings.first_travel * scale / groups.rate
+    longest = (max(start.depth, 0.0) + 5 * scale) / groups.rate
+    # Relative to the compliance at the shortest time: where k is tiny, that is tiny as well.
+    compliance = float(groups.material.creep(shortest))
+    return groups.material.retardation_modes(
+        shortest=shortest, longest=longest, tolerance=settings.mode_tolerance * compliance
+    )
+
+
+def _result(problem: Problem | Groups, history: History, modes: Modes, fields: bool) -> Result:
+    states, books = history.snapshots, history.books
+    first = states[0]
+    time = np.array([s.time for s in states])
+    contact_radius = np.array([s.edge for s in states]) / RADIUS_UNIT
+    heat = np.array([b.heat for b in books])
+    missing = np.array([b.imbalance(first, s) for b, s in zip(books, states, strict=True)])
+    largest = np.array([b.largest(first, s) for b, s in zip(books, states, strict=True)])
+    measure = np.maximum(np.maximum.accumulate(largest), SMALLEST_ENERGY)
+    return Result(
+        problem=problem,
+        time=time,
+        depth=np.array([s.depth for s in states]),
+        force=np.array([s.force for s in states]),
+        contact_radius=contact_radius,
+        edge_speed=receding_speed(time, contact_radius),
+        status=_status(history),
+        events=tuple(history.events),
+        statistics={
+            "steps": len(states) - 1,
+            "newton_iterations": history.iterations,
+            "rejected_steps": history.rejected,
+            "meshes": history.meshes,
+            "nodes": history.nodes,
+            "modes": len(modes.weights),
+        },
+        energy={
+            "drive": np.array([b.drive for b in books]),
+            "elastic": np.array([s.elastic - first.elastic for s in states]),
+            "interface": np.array([s.interface - first.interface for s in states]),
+            "heat": heat.sum(axis=1),
+            "jumps": np.array([b.jumps for b in books]),
+            "transfer": np.array([b.transfer for b in books]),
+            "mode_time": np.array(modes.times),
+            "mode_heat": heat[-1],
+        },
+        energy_residual=float(np.max(np.abs(missing) / measure)),
+        fields=_fields(history, time) if fields else None,
+    )
+
+
+def _status(history: History) -> str:
+    last = history.snapshots[-1]
+    if history.outcome == "steps":
+        return (
+            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met at a "
+            f"depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
+        )
+    if history.outcome == "pull-off":
+        return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
+    for event in history.events:
+        if event.kind == "jump out of contact":
+            return f"{Outcome.JUMPED} at depth {event.depth:.4g} h0 out of contact"
+    return f"{Outcome.DETACHED} without a jump"
+
+
+def _fields(history: History, time: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
+    longest = max(len(p.gap) for p in history.profiles)
+
+    def padded(values: np.ndarray) -> np.ndarray:
+        return np.concatenate([values, np.full(longest - len(values), np.nan)])
+
+    return {
+        "time": time,
+        "radius": np.array([padded(p.radius / RADIUS_UNIT) for p in history.profiles]),
+        "gap": np.array([padded(p.gap) for p in history.profiles]),
+        "pressure": np.array([padded(p.pressure) for p in history.profiles]),
+    }
+
+
+def _estimate(fine: Result, coarse: Result, accuracy: float) -> dict[str, float] | None:
+    """Return the relative errors of the fine run's force and work, from the coarse one's."""
+    if coarse.outcome is Outcome.STOPPED:
+        return None
+
+    def relative(quantity: Callable[[Result], float], floor: float) -> float:
+        value, other = quantity(fine), quantity(coarse)
+        share = abs(value - other) / max(abs(value), 1e-12) / (_COARSER - 1)
+        return max(_MARGIN * share, floor * accuracy)
+
+    return {
+        "force": relative(lambda r: pull_off(r).force, _FLOOR),
+        "work": relative(work_to_pull_off, 4 * _FLOOR),
+    }

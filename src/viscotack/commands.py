@@ -1,0 +1,330 @@
+"""The commands: reads flags and files, runs the simulation, writes words, tables and pictures.
+
+Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong.
+With --json exactly one object goes to standard output, everything else to standard error.
+"""
+
+import json
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any, NoReturn
+
+import typer
+from typer import Argument, Option
+
+from . import __version__, plot
+from .case_file import read_case
+from .flags import problem_from_flags
+from .observables import summary
+from .result import Outcome, Result, load, save, write_csv
+
+application = typer.Typer(
+    help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+simulate = typer.Typer(help="Simulate a contact.", no_args_is_help=True, rich_markup_mode=None)
+application.add_typer(simulate, name="simulate")
+
+
+class Until(StrEnum):
+    """How far to pull."""
+
+    PULL_OFF = "pull-off"
+    DETACHED = "detached"
+
+
+class PlotKind(StrEnum):
+    """What to draw."""
+
+    FORCE = "force"
+    RADIUS = "radius"
+    OVERVIEW = "overview"
+
+
+_DRAW = {
+    PlotKind.FORCE: plot.draw_force,
+    PlotKind.RADIUS: plot.draw_radius,
+    PlotKind.OVERVIEW: plot.draw_overview,
+}
+
+PlotFile = Annotated[
+    Path | None, Option("--plot", metavar="FILE", help="Draw to a .png, .pdf or .svg file.")
+]
+PlotWhat = Annotated[
+    PlotKind,
+    Option(
+        "--plot-kind",
+        help="force: against depth; radius: force against contact radius; overview: four pictures.",
+    ),
+]
+CsvFile = Annotated[
+    Path | None, Option("--csv", metavar="FILE", help="Write the curve as a table.")
+]
+AsJson = Annotated[
+    bool, Option("--json", help="Print one JSON object on standard output instead of words.")
+]
+
+
+def _flag(name: str, metavar: str, words: str) -> Any:
+    return Option(name, metavar=metavar, help=words, show_default=False)
+
+
+@application.callback(invoke_without_command=True)
+def _viscotack(
+    version: Annotated[bool, Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if version:
+        typer.echo(f"viscotack {__version__}")
+        raise typer.Exit
+
+
+@simulate.command("sphere")
+def simulate_sphere(
+    case: Annotated[
+        Path | None,
+        Argument(
+            metavar="CASE.toml",
+            help="A problem in SI with units, instead of the flags of the problem; "
+            "docs/input.md describes it.",
+            show_default=False,
+        ),
+    ] = None,
+    tabor: Annotated[
+        float | None,
+        _flag("--tabor", "MU", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)."),
+    ] = None,
+    material: Annotated[
+        str | None,
+        _flag(
+            "--material",
+            "MATERIAL",
+            "power-law (also when left out): modified power law by its retardation spectrum. "
+            "elastic: no memory, --rate is not needed. sls: standard linear solid, tau0 is its "
+            "retardation time. prony:FILE: CSV file with the header "
+            "'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
+            "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) "
+            "is then that of the header: s, ms, ..., or none.",
+        ),
+    ] = None,
+    modulus_ratio: Annotated[
+        float | None,
+        _flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1]."),
+    ] = None,
+    exponent: Annotated[
+        float | None, _flag("--exponent", "N", "Exponent of the power law, in (0, 3].")
+    ] = None,
+    preload: Annotated[
+        float | None,
+        _flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the solid."),
+    ] = None,
+    preload_force: Annotated[
+        float | None,
+        _flag(
+            "--preload-force",
+            "FORCE",
+            "Or: relaxed start under this force, in 1.5 pi R dg0, positive in compression.",
+        ),
+    ] = None,
+    preload_radius: Annotated[
+        float | None,
+        _flag(
+            "--preload-radius",
+            "RADIUS",
+            "Or: relaxed start at this contact radius, in (pi R^2 dg0/E0*)^(1/3).",
+        ),
+    ] = None,
+    rate: Annotated[
+        float | None,
+        _flag("--rate", "RATE", "Retraction speed, in h0/tau0 (prony: h0 per unit of time)."),
+    ] = None,
+    radius: Annotated[
+        str | None,
+        _flag(
+            "--radius",
+            "LENGTH",
+            'For answers in SI as well: sphere radius R with its unit, "5.19 mm". The next ones '
+            "go with it.",
+        ),
+    ] = None,
+    contact_modulus: Annotated[
+        str | None,
+        _flag("--contact-modulus", "PRESSURE", 'SI: E0* = E0/(1 - nu^2), "1.94 MPa".'),
+    ] = None,
+    work_of_adhesion: Annotated[
+        str | None,
+        _flag("--work-of-adhesion", "ENERGY", 'SI: dg0, "0.1523 J/m^2"; or --equilibrium-gap.'),
+    ] = None,
+    equilibrium_gap: Annotated[
+        str | None, _flag("--equilibrium-gap", "LENGTH", 'SI: h0, "1.55 um".')
+    ] = None,
+    tau0: Annotated[
+        str | None, _flag("--tau0", "TIME", 'SI: the time of the material, "18.76 ms".')
+    ] = None,
+    poisson_ratio: Annotated[
+        str | None, _flag("--poisson-ratio", "NU", "SI: Poisson ratio, 0 to 0.5.")
+    ] = None,
+    until: Annotated[
+        Until, Option(help="Stop just past the force minimum, or when the surfaces are apart.")
+    ] = Until.DETACHED,
+    accuracy: Annotated[
+        float, Option(metavar="RELATIVE", help="Accuracy wanted of the pull-off force.")
+    ] = 2e-3,
+    plot_file: PlotFile = None,
+    plot_kind: PlotWhat = PlotKind.FORCE,
+    csv_file: CsvFile = None,
+    save_file: Annotated[
+        Path | None,
+        Option("--save", metavar="FILE", help="Save all of the result, for viscotack show."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Pull a rigid sphere off a soft viscoelastic half-space.
+
+    The problem is stated by dimensionless numbers, or in SI by a file. R is the sphere radius,
+    E0 the rubbery modulus, dg0 the work of adhesion, h0 the equilibrium gap, tau0 the time of the
+    material.
+
+    Example: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+    """
+    flags = {
+        "tabor": tabor,
+        "material": material,
+        "modulus-ratio": modulus_ratio,
+        "exponent": exponent,
+        "preload": preload,
+        "preload-force": preload_force,
+        "preload-radius": preload_radius,
+        "rate": rate,
+        "radius": radius,
+        "contact-modulus": contact_modulus,
+        "work-of-adhesion": work_of_adhesion,
+        "equilibrium-gap": equilibrium_gap,
+        "tau0": tau0,
+        "poisson-ratio": poisson_ratio,
+    }
+    with _wrong_input():
+        _check_files(plot_file, csv_file, save_file)
+        if case is not None and any(value is not None for value in flags.values()):
+            names = ", ".join(f"--{name}" for name, value in flags.items() if value is not None)
+            raise ValueError(f"{case} states the whole problem; leave out {names}")
+        problem = problem_from_flags(flags) if case is None else read_case(case)
+        from .bem import solve
+
+        with _progress() as progress:
+            result = solve(
+                problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
+            )
+    if save_file is not None:
+        save(result, save_file)
+        typer.echo(f"saved {save_file}", err=True)
+    _report(result, as_json, plot_file, plot_kind, csv_file)
+    if result.outcome is Outcome.STOPPED:
+        raise typer.Exit(1)
+
+
+@application.command("show")
+def show(
+    file: Annotated[Path, Argument(metavar="FILE.npz", help="A result that --save wrote.")],
+    plot_file: PlotFile = None,
+    plot_kind: PlotWhat = PlotKind.FORCE,
+    csv_file: CsvFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Show a saved result.
+
+    Prints its summary; writes its curve as a table or draws it if wanted.
+    """
+    with _wrong_input():
+        _check_files(plot_file, csv_file)
+        result = load(file)
+    _report(result, as_json, plot_file, plot_kind, csv_file)
+
+
+def _check_files(plot_file: Path | None, *files: Path | None) -> None:
+    """Refuse output files that cannot be written before the work is done, not after it."""
+    if plot_file is not None:
+        plot.check_format(plot_file)
+    for file in (plot_file, *files):
+        if file is not None and not file.parent.is_dir():
+            raise ValueError(f"cannot write {file}: there is no folder {file.parent}")
+
+
+def _report(
+    result: Result, as_json: bool, plot_file: Path | None, kind: PlotKind, csv_file: Path | None
+) -> None:
+    if csv_file is not None:
+        write_csv(result, csv_file)
+        typer.echo(f"wrote {csv_file}", err=True)
+    if plot_file is not None:
+        plot.save_figure(_DRAW[kind](result), plot_file)
+        typer.echo(f"drew {plot_file}", err=True)
+    answer = summary(result)
+    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(answer))
+
+
+_WORDS = {
+    "pull_off_force": ("pull-off force", "1.5 pi R dg0", "N"),
+    "work_to_pull_off": ("work to pull-off", "1.5 pi R dg0 h0", "J"),
+    "work_of_separation": ("work of separation", "1.5 pi R dg0 h0", "J"),
+    "pull_off_depth": ("depth at pull-off", "h0", "m"),
+    "contact_radius_at_pull_off": ("contact radius there", "(pi R^2 dg0/E0*)^(1/3)", "m"),
+    "crack_speed_at_pull_off": ("crack speed there", "(R^2 dg0/E0*)^(1/3)/time unit", "m_per_s"),
+}
+
+
+def _words(answer: dict[str, Any]) -> str:
+    """Return a summary as lines a person reads."""
+    lines = [answer["status"]]
+    for name, (words, unit, si) in _WORDS.items():
+        if answer[name] is None:
+            continue
+        line = f"  {words:<21}{answer[name]:>12.5g}  {unit:<30}"
+        if f"{name}_{si}" in answer:
+            line += f"= {answer[f'{name}_{si}']:.4g} {si.replace('_per_', '/')}"
+        lines.append(line.rstrip())
+    for name, share in (answer["error_estimate"] or {}).items():
+        if share is not None:
+            lines.append(f"  {'error of the ' + name:<21}{share:>12.1e}  estimated, relative")
+    cost = answer["statistics"]
+    if cost.get("steps") is not None and answer["wall_time_s"] is not None:
+        lines.append(f"  {cost['steps']:.0f} steps in {answer['wall_time_s']:.2f} s")
+    return "\n".join(lines)
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[float], None] | None]:
+    """Show a bar on standard error while somebody looks at it; yields what moves it."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    looks = (TextColumn("pulling"), BarColumn(), TimeElapsedColumn())
+    with Progress(*looks, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("pulling", total=1.0)
+        yield lambda done: bar.update(task, completed=done)
+
+
+@contextmanager
+def _wrong_input() -> Iterator[None]:
+    """Turn an error about the input into a paragraph on standard error and exit status 2."""
+    try:
+        yield
+    except FileNotFoundError as error:
+        _stop(f"there is no file {error.filename}")
+    except (ValueError, OSError) as error:
+        _stop(str(error))
+
+
+def _stop(message: str) -> NoReturn:
+    typer.echo(f"viscotack: {message}", err=True)
+    raise typer.Exit(2)

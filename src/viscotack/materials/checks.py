@@ -1,0 +1,93 @@
+"""Checks of the numbers and arrays given to a material, each with the sentence it fails with."""
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+def positive(name: str, value: float, unit: str) -> float:
+    """Return a positive, finite number as a float."""
+    number = _number(value)
+    if not 0 < number < math.inf:
+        raise ValueError(
+            f"{name} must be a positive, finite number [{unit}], got {value!r}; give SI numbers"
+        )
+    return number
+
+
+def poisson_ratio(value: float) -> float:
+    """Return a Poisson ratio in [0, 0.5] as a float."""
+    number = _number(value)
+    if not 0 <= number <= 0.5:
+        raise ValueError(
+            f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {value!r}"
+        )
+    return number
+
+
+def glassy_modulus(value: float, *, rubbery_modulus: float) -> float:
+    """Return a short-time modulus that is not below the long-time one [Pa]."""
+    number = positive("glassy_modulus", value, "Pa")
+    if number < rubbery_modulus:
+        raise ValueError(
+            "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
+            f"{number:g} Pa < {rubbery_modulus:g} Pa; perhaps the two are exchanged"
+        )
+    return number
+
+
+def exponent(value: float) -> float:
+    """Return the exponent of a modified power law, in (0, 3]."""
+    number = positive("exponent", value, "-")
+    if number > 3:
+        raise ValueError(
+            f"exponent must lie in (0, 3], got {number:g}; "
+            "describe a spectrum that narrow by StandardSolid"
+        )
+    return number
+
+
+def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
+    """Return the window of time [s] and the tolerance of a set of modes as floats."""
+    shortest = positive("shortest", shortest, "s")
+    longest = positive("longest", longest, "s")
+    tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
+    if longest < shortest:
+        raise ValueError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
+    if tolerance >= 1:
+        raise ValueError(
+            f"tolerance is a part of the rubbery compliance and must be below 1, got {tolerance:g}"
+        )
+    return shortest, longest, tolerance
+
+
+def nonnegative(name: str, values: npt.ArrayLike, unit: str) -> npt.NDArray[np.float64]:
+    """Return times or frequencies in [0, inf] as an array of floats."""
+    array = np.asarray(values, dtype=float)
+    wrong = array[~(array >= 0)]  # true for nan as well
+    if wrong.size:
+        raise ValueError(f"{name} must not be negative or nan, got {wrong[0]} {unit}")
+    return array
+
+
+def like_input(values: Any) -> Any:
+    """Return a Python number for zero-dimensional values, the array itself otherwise."""
+    return values.item() if values.ndim == 0 else values
+
+
+def store(instance: Any, **checked: Any) -> None:
+    """Set the checked fields of a frozen dataclass; only its __post_init__ may do so."""
+    for name, value in checked.items():
+        object.__setattr__(instance, name, value)
+
+
+def _number(value: Any) -> float:
+    """Return a float, or nan for what is not a number (text needs a unit: see units.parse)."""
+    if isinstance(value, (str, bytes)):
+        return math.nan
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return math.nan

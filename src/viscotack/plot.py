@@ -1,0 +1,199 @@
+"""Pictures of a result. A simulation is open markers, a theory is a line, everywhere.
+
+Each function returns a matplotlib ``Figure`` that belongs to nobody else: no window is opened and
+no global state is left behind. :func:`save_figure` writes it in the package's style.
+"""
+
+import os
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .observables import pull_off
+from .problem import Problem
+from .result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
+# Name of a series -> words, dimensionless unit, name of the scale to SI, SI unit.
+_AXES = {
+    "depth": ("depth", "$h_0$", "length", "m"),
+    "force": ("force", r"$1.5\,\pi R\,\Delta\gamma_0$", "force", "N"),
+    "contact_radius": (
+        "contact radius",
+        r"$(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}$",
+        "radius",
+        "m",
+    ),
+    "time": ("time", "time unit", "time", "s"),
+    "edge_speed": (
+        "crack speed",
+        r"$(R^2 \Delta\gamma_0/E_0^*)^{1/3}$ per time unit",
+        "edge_speed",
+        "m/s",
+    ),
+}
+
+
+def draw_force(result: Result) -> "Figure":
+    """Return the force against the depth; the pull-off is marked."""
+    return _single(result, "depth", "force")
+
+
+def draw_radius(result: Result) -> "Figure":
+    """Return the force against the contact radius; the pull-off is marked."""
+    return _single(result, "contact_radius", "force")
+
+
+def draw_overview(result: Result) -> "Figure":
+    """Return four pictures: force by depth and by radius, radius and crack speed by time."""
+    with _style():
+        figure = _figure(figsize=(13.0, 9.0))
+        axes = figure.subplots(2, 2)
+        _curve(axes[0, 0], result, "depth", "force")
+        _curve(axes[0, 1], result, "contact_radius", "force")
+        _curve(axes[1, 0], result, "time", "contact_radius")
+        _curve(axes[1, 1], result, "time", "edge_speed")
+        if np.any(result.edge_speed > 0):
+            axes[1, 1].set_yscale("log", nonpositive="mask")
+        axes[0, 0].legend()
+        figure.suptitle(result.status, x=0.01, ha="left")
+    return figure
+
+
+def draw_rates(
+    speed: npt.ArrayLike,
+    pull_off_force: npt.ArrayLike,
+    *,
+    elastic_force: float,
+    title: str = "",
+    note: str = "",
+) -> "Figure":
+    """Return the pull-off force against the retraction speed, beside the elastic value.
+
+    Parameters
+    ----------
+    speed : array_like, shape (n,)
+        Retraction speeds [m/s].
+    pull_off_force : array_like, shape (n,)
+        Simulated pull-off forces [N].
+    elastic_force : float
+        Pull-off force of the relaxed solid [N], the slow limit, drawn as a line.
+    title, note : str
+        Words above the picture and in its corner.
+    """
+    v, F = np.asarray(speed, dtype=float) * 1e6, np.asarray(pull_off_force, dtype=float) * 1e3
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        axes.plot(v, F, "o", mfc="none", color="C0", label="simulation")
+        axes.axhline(
+            elastic_force * 1e3,
+            color="C1",
+            label=f"elastic, infinitely slow: {elastic_force * 1e3:.3g} mN",
+        )
+        axes.set_xscale("log")
+        axes.set_ylim(0, 1.12 * max(F.max(), elastic_force * 1e3))
+        axes.set_xlabel("retraction speed [µm/s]")
+        axes.set_ylabel("pull-off force [mN]")
+        axes.set_title(title)
+        axes.legend(loc="upper left")
+        if note:
+            axes.text(0.98, 0.03, note, transform=axes.transAxes, ha="right", va="bottom", size=11)
+    return figure
+
+
+def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
+    """Write a figure to a file; the ending (.png, .pdf, .svg) says in which format."""
+    with _style():
+        figure.savefig(path)
+
+
+def check_format(path: str | os.PathLike[str]) -> None:
+    """Raise ValueError unless a figure can be written to a file with this ending."""
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    known = FigureCanvasBase.get_supported_filetypes()
+    if Path(path).suffix.lstrip(".").lower() not in known:
+        raise ValueError(
+            f"cannot draw to {os.fspath(path)!r}: "
+            f"its ending must be one of {', '.join(sorted(known))}"
+        )
+
+
+def _style() -> AbstractContextManager[Any]:
+    import matplotlib.style
+
+    return matplotlib.style.context(Path(__file__).with_name("viscotack.mplstyle"))
+
+
+def _figure(**options: Any) -> "Figure":
+    from matplotlib.figure import Figure
+
+    return Figure(**options)
+
+
+def _single(result: Result, x: str, y: str) -> "Figure":
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        _curve(axes, result, x, y)
+        axes.legend()
+    return figure
+
+
+def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
+    (horizontal, xfactor, xlabel), (vertical, yfactor, ylabel) = (
+        _series(result, x),
+        _series(result, y),
+    )
+    known = np.isfinite(horizontal) & np.isfinite(vertical)
+    axes.plot(
+        horizontal[known],
+        vertical[known],
+        "-o",
+        lw=0.8,
+        mfc="white",
+        markevery=0.04,
+        label="simulation",
+    )
+    if y == "force":
+        axes.axhline(0, color="0.6", lw=1, zorder=0)
+        _mark_pull_off(axes, result, x, xfactor, yfactor, ylabel)
+    axes.set_xlabel(xlabel)
+    axes.set_ylabel(ylabel)
+
+
+def _mark_pull_off(
+    axes: "Axes", result: Result, x: str, xfactor: float, yfactor: float, ylabel: str
+) -> None:
+    try:
+        found = pull_off(result)
+    except ValueError:
+        return  # nothing to mark
+    force = found.force * yfactor
+    unit = ylabel.rpartition(" [")[2].rstrip("]")
+    words = (
+        f"pull-off, {force:.3g} {unit}"
+        if isinstance(result.problem, Problem)
+        else f"pull-off, {force:.4g}"
+    )
+    axes.plot(getattr(found, x) * xfactor, -force, "s", color="C1", ms=9, label=words, zorder=3)
+
+
+def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
+    """Return a series as drawn, the factor that made it so, and the label of its axis."""
+    values = getattr(result, name)
+    words, unit, scale, si_unit = _AXES[name]
+    if not isinstance(result.problem, Problem):
+        return values, 1.0, f"{words} / {unit}"
+    factor = getattr(result.problem.scales(), scale)
+    largest = np.nanmax(np.abs(values), initial=0.0) * factor
+    prefix = next(((p, w) for p, w in reversed(_PREFIXES) if largest >= p), _PREFIXES[0])
+    return values * factor / prefix[0], factor / prefix[0], f"{words} [{prefix[1]}{si_unit}]"

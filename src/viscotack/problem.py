@@ -1,0 +1,371 @@
+r"""A problem: material, traction law, geometry and protocol, in SI or in dimensionless groups.
+
+With :math:`E_0^* = E_0/(1-\nu^2)` the five groups of the sphere are
+
+.. math:: \mu = \left(\frac{R \Delta\gamma_0^2}{E_0^{*2} h_0^3}\right)^{1/3}, \quad
+          k = \frac{E_0}{E_\infty}, \quad n, \quad
+          \hat\delta_l = \frac{\delta_l}{h_0}, \quad \hat r = \frac{r\,\tau_0}{h_0}.
+
+They do not fix :math:`R/h_0`: whether strains are small can be judged only in SI, and going from
+groups to SI needs four scales. Source: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and 31, the
+Tabor number as corrected in Eq. 31.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from .geometry import Sphere
+from .protocol import AtDepth, AtForce, AtRadius, Retraction, Start
+from .traction import LennardJones, Traction
+from .units import finite, positive
+
+# Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
+# sphere's and strains are of order a/R: linear elasticity of the half-space ends about here.
+LARGEST_CONTACT = 0.5
+
+
+class Material(Protocol):
+    """What a problem asks of a material; for the type checker."""
+
+    @property
+    def rubbery_modulus(self) -> float: ...  # noqa: D102
+    @property
+    def glassy_modulus(self) -> float: ...  # noqa: D102
+    @property
+    def poisson_ratio(self) -> float: ...  # noqa: D102
+    @property
+    def modulus_ratio(self) -> float: ...  # noqa: D102
+    @property
+    def contact_modulus(self) -> float: ...  # noqa: D102
+    @property
+    def time_unit(self) -> float: ...  # noqa: D102
+    def reduced(self) -> "Material": ...  # noqa: D102
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Any: ...  # noqa: D102
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What one unit of each dimensionless output is in SI.
+
+    Attributes
+    ----------
+    force : float
+        1.5 pi R Delta-gamma_0 [N], the JKR pull-off force.
+    length : float
+        h_0 [m], for depths and gaps.
+    radius : float
+        (pi R^2 Delta-gamma_0/E_0*)^(1/3) [m], for contact radii.
+    work : float
+        1.5 pi R Delta-gamma_0 h_0 [J].
+    time : float
+        The material's time unit [s].
+    edge_speed : float
+        (R^2 Delta-gamma_0/E_0*)^(1/3) over the time unit [m/s]; no pi.
+    stress : float
+        Delta-gamma_0/h_0 [Pa], for pressures and tractions.
+    """
+
+    force: float
+    length: float
+    radius: float
+    work: float
+    time: float
+    edge_speed: float
+    stress: float
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A contact problem in SI.
+
+    Parameters
+    ----------
+    material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
+        The soft half-space.
+    traction : LennardJones
+        The forces across the gap.
+    geometry : Sphere
+        The rigid indenter.
+    protocol : Retraction
+        A relaxed start and the retraction from it.
+
+    Raises
+    ------
+    ValueError
+        If a part is of the wrong kind, or the contact is too large for small strain: the relaxed
+        contact radius, estimated by JKR, may be up to half the sphere radius, and so may
+        sqrt(2 R h_0), the radius over which an undeformed gap of h_0 is reached.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> problem = Problem(
+    ...     material=StandardSolid(
+    ...         rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+    ...     ),
+    ...     traction=LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6),
+    ...     geometry=Sphere(radius=5e-3),
+    ...     protocol=Retraction(start=AtForce(force=1.5e-3), speed=100e-6),
+    ... )
+    >>> f"{problem.tabor:.3f}"
+    '2.027'
+    """
+
+    material: Material
+    traction: Traction
+    geometry: Sphere
+    protocol: Retraction
+
+    def __post_init__(self) -> None:
+        _check_material(self.material)
+        _check_traction(self.traction)
+        for name, kind, example in (
+            ("geometry", Sphere, "Sphere(radius=5e-3)"),
+            ("protocol", Retraction, "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
+        ):
+            if not isinstance(getattr(self, name), kind):
+                given = type(getattr(self, name)).__name__
+                raise ValueError(f"{name} must be a {kind.__name__}, got {given}; try {example}")
+        self._check_small_strain()
+
+    @property
+    def tabor(self) -> float:
+        """Tabor number mu, range of the forces beside the elastic deformation; no unit."""
+        R, w, h0 = (
+            self.geometry.radius,
+            self.traction.work_of_adhesion,
+            self.traction.equilibrium_gap,
+        )
+        return (R * w**2 / (self.material.contact_modulus**2 * h0**3)) ** (1 / 3)
+
+    def scales(self) -> Scales:
+        """Return what one unit of each dimensionless output is in SI."""
+        R, w, h0 = (
+            self.geometry.radius,
+            self.traction.work_of_adhesion,
+            self.traction.equilibrium_gap,
+        )
+        beta = (R**2 * w / self.material.contact_modulus) ** (1 / 3)
+        force, time = 1.5 * np.pi * R * w, self.material.time_unit
+        return Scales(
+            force=force,
+            length=h0,
+            radius=np.pi ** (1 / 3) * beta,
+            work=force * h0,
+            time=time,
+            edge_speed=beta / time,
+            stress=w / h0,
+        )
+
+    def groups(self) -> "Groups":
+        """Return the dimensionless problem; its time unit is that of the material."""
+        unit = self.scales()
+        return Groups(
+            tabor=self.tabor,
+            material=self.material.reduced(),
+            start=_rescaled(
+                self.protocol.start,
+                depth=1 / unit.length,
+                force=1 / unit.force,
+                contact_radius=1 / unit.radius,
+            ),
+            rate=self.protocol.speed * unit.time / unit.length,
+            traction=self.traction.reduced(),
+        )
+
+    def _check_small_strain(self) -> None:
+        R, a = self.geometry.radius, _relaxed_radius(self)
+        if a > LARGEST_CONTACT * R:
+            raise ValueError(
+                "the start lies beyond small strain: its relaxed contact radius is about "
+                f"{a:.3g} m = {a / R:.2g} sphere radii, and the theory holds to {LARGEST_CONTACT}; "
+                f"reduce the preload of {self.protocol.start}, or use a larger sphere"
+            )
+        rim = float(np.sqrt(2 * R * self.traction.equilibrium_gap))
+        if rim > LARGEST_CONTACT * R:
+            raise ValueError(
+                f"equilibrium_gap of {self.traction.equilibrium_gap:.3g} m is too long beside the "
+                f"sphere radius of {R:.3g} m: the forces would reach where a sphere is no longer a "
+                f"paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
+            )
+
+
+@dataclass(frozen=True)
+class Groups:
+    """The dimensionless sphere problem.
+
+    Parameters
+    ----------
+    tabor : float
+        Tabor number mu; positive.
+    material : like that of a Problem
+        Reduced material: rubbery modulus 1, Poisson ratio 0, times in the time unit of the case.
+        ``material.reduced()`` makes one whose time unit is tau_0 (Prony: its longest time).
+    start : AtDepth, AtForce or AtRadius
+        Depth in h_0, force in 1.5 pi R Delta-gamma_0, radius in
+        (pi R^2 Delta-gamma_0/E_0*)^(1/3).
+    rate : float
+        Retraction speed in h_0 per time unit; positive.
+    traction : LennardJones
+        Reduced law; leave it out for Lennard-Jones.
+
+    Examples
+    --------
+    >>> from viscotack.materials import RetardationPowerLaw
+    >>> material = RetardationPowerLaw(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
+    >>> groups.modulus_ratio
+    0.1
+    """
+
+    tabor: float
+    material: Material
+    start: Start
+    rate: float
+    traction: Traction = LennardJones(1.0, 1.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "tabor", positive("tabor", self.tabor, "1"))
+        object.__setattr__(self, "rate", positive("rate", self.rate, "h0 per time unit"))
+        _check_material(self.material)
+        _check_traction(self.traction)
+        if self.material.rubbery_modulus != 1 or self.material.poisson_ratio != 0:
+            raise ValueError(
+                "the material of dimensionless groups must have a rubbery modulus of 1 and a "
+                f"Poisson ratio of 0, got {self.material}; pass material.reduced()"
+            )
+        if self.traction.work_of_adhesion != 1 or self.traction.equilibrium_gap != 1:
+            raise ValueError(
+                f"the traction law of dimensionless groups must be reduced, got {self.traction}; "
+                "pass traction.reduced()"
+            )
+        if not isinstance(self.start, Start):
+            raise ValueError(f"start must be AtDepth, AtForce or AtRadius, got {self.start!r}")
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus, k, in (0, 1]; no unit."""
+        return self.material.modulus_ratio
+
+    def groups(self) -> "Groups":
+        """Return itself, so that a problem in SI and one in groups can be treated alike."""
+        return self
+
+    def in_si(
+        self,
+        *,
+        radius: float,
+        contact_modulus: float,
+        equilibrium_gap: float | None = None,
+        work_of_adhesion: float | None = None,
+        time_unit: float,
+        poisson_ratio: float,
+    ) -> Problem:
+        """Return the problem in SI with these scales; give the gap or the work of adhesion.
+
+        Parameters
+        ----------
+        radius : float
+            Sphere radius R [m].
+        contact_modulus : float
+            E_0* = E_0/(1 - nu^2) [Pa].
+        equilibrium_gap, work_of_adhesion : float, optional
+            h_0 [m] or Delta-gamma_0 [J/m^2]: exactly one, the Tabor number fixes the other.
+        time_unit : float
+            What one unit of the groups' time is [s], tau_0 for a reduced material.
+        poisson_ratio : float
+            Poisson ratio of the half-space.
+
+        Raises
+        ------
+        ValueError
+            If both or neither of the last two are given, or the contact is too large.
+        """
+        R, E = positive("radius", radius, "m"), positive("contact_modulus", contact_modulus, "Pa")
+        if (equilibrium_gap is None) == (work_of_adhesion is None):
+            raise ValueError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
+        if equilibrium_gap is not None:
+            h0 = positive("equilibrium_gap", equilibrium_gap, "m")
+            w = float(np.sqrt(self.tabor**3 * E**2 * h0**3 / R))
+        else:
+            w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
+            h0 = (R * w**2 / (E**2 * self.tabor**3)) ** (1 / 3)
+        T, nu = positive("time_unit", time_unit, "s"), finite("poisson_ratio", poisson_ratio, "1")
+        if not 0 <= nu <= 0.5:
+            raise ValueError(f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {nu}")
+        start = _rescaled(
+            self.start,
+            depth=h0,
+            force=1.5 * np.pi * R * w,
+            contact_radius=(np.pi * R**2 * w / E) ** (1 / 3),
+        )
+        return Problem(
+            material=_material_in_si(self.material, E * (1 - nu**2), T, nu),
+            traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
+            geometry=Sphere(radius=R),
+            protocol=Retraction(start=start, speed=self.rate * h0 / T),
+        )
+
+
+def _check_material(material: Any) -> None:
+    if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
+        raise ValueError(
+            f"material must be one of viscotack.materials, got {type(material).__name__}; "
+            "for example Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)"
+        )
+
+
+def _check_traction(traction: Any) -> None:
+    if not hasattr(traction, "stiffness") or not hasattr(traction, "reduced"):
+        raise ValueError(
+            f"traction must be a traction law, got {type(traction).__name__}; "
+            "for example LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)"
+        )
+
+
+def _rescaled(start: Start, *, depth: float, force: float, contact_radius: float) -> Start:
+    """Return a start whose number is multiplied by the factor for its kind."""
+    if isinstance(start, AtDepth):
+        return AtDepth(start.depth * depth)
+    if isinstance(start, AtForce):
+        return AtForce(start.force * force)
+    return AtRadius(start.contact_radius * contact_radius)
+
+
+def _material_in_si(material: Any, modulus: float, time: float, poisson_ratio: float) -> Any:
+    """Return a reduced material with moduli and times multiplied; fields are told by name."""
+    changed: dict[str, Any] = {}
+    for field in fields(material):
+        value = getattr(material, field.name)
+        if field.name.endswith("_modulus"):
+            changed[field.name] = value * modulus
+        elif field.name == "tau0":
+            changed[field.name] = value * time
+        elif field.name == "branches":
+            changed[field.name] = tuple((E * modulus, t * time) for E, t in value)
+    return replace(material, **changed, poisson_ratio=poisson_ratio)
+
+
+def _relaxed_radius(problem: Problem) -> float:
+    """Return the JKR contact radius of the start [m], or 0 where JKR has none."""
+    start, E = problem.protocol.start, problem.material.contact_modulus
+    R, w = problem.geometry.radius, problem.traction.work_of_adhesion
+    if isinstance(start, AtRadius):
+        return start.contact_radius
+    if isinstance(start, AtForce):
+        P, P1 = start.force, 1.5 * np.pi * R * w
+        # eq. (2.3) solved for the radius, on the branch that a dead load keeps
+        return float((3 * R / (4 * E) * (np.sqrt(max(P + P1, 0)) + np.sqrt(P1)) ** 2) ** (1 / 3))
+    # eq. (2.4), delta = a^2/R - sqrt(2 pi a w/E*), with sqrt(a) = y (c R)^(1/3)
+    c = np.sqrt(2 * np.pi * w / E)
+    roots: Sequence[complex] | npt.NDArray = np.roots(
+        [1, 0, 0, -1, -start.depth * R / (c * R) ** (4 / 3)]
+    )
+    real = [y.real for y in roots if abs(y.imag) < 1e-9 * max(1.0, abs(y))]
+    return float(max(real, default=0.0) ** 2 * (c * R) ** (2 / 3))

@@ -1,0 +1,59 @@
+"""Domain checks shared by the theories: words in, arrays out, errors that help."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Number = float | npt.NDArray[np.float64]
+
+UNITS = {
+    "radius": " m",
+    "contact_radius": " m",
+    "cohesive_radius": " m",
+    "position": " m",
+    "depth": " m",
+    "equilibrium_gap": " m",
+    "contact_modulus": " Pa",
+    "strength": " Pa",
+    "work_of_adhesion": " J/m^2",
+    "force": " N",
+}
+# A limit computed by one formula and passed to another may miss it by the last digits.
+ROUND_OFF = 16 * np.finfo(float).eps
+
+
+def positive(**quantities: npt.ArrayLike) -> Any:
+    """Return the quantities as float arrays, all positive and finite; one alone is not a list."""
+    found = []
+    for name, value in quantities.items():
+        x = np.asarray(value, dtype=float)
+        bad = ~(np.isfinite(x) & (x > 0))
+        if np.any(bad):
+            raise ValueError(
+                f"{name} must be positive and finite, got {x[bad].flat[0]}{UNITS.get(name, '')}"
+            )
+        found.append(x)
+    return found[0] if len(found) == 1 else found
+
+
+def at_least(lower: npt.ArrayLike, hint: str, **quantity: npt.ArrayLike) -> Any:
+    """Return the quantity as a finite float array that is nowhere below the lower limit."""
+    ((name, value),) = quantity.items()
+    x, low = np.asarray(value, dtype=float), np.asarray(lower, dtype=float)
+    bad = ~(np.isfinite(x) & (x >= low - ROUND_OFF * np.abs(low)))
+    if np.any(bad):
+        unit = UNITS.get(name, "")
+        given = np.broadcast_to(x, bad.shape)[bad].flat[0]
+        limit = np.broadcast_to(low, bad.shape)[bad].flat[0]
+        raise ValueError(
+            f"{name} must be finite and at least {limit:.6g}{unit}, got {given}{unit}; {hint}"
+        )
+    return np.maximum(x, low)
+
+
+def plain(x: Any) -> Any:
+    """Return a float for a scalar result and the array otherwise."""
+    return float(x) if np.ndim(x) == 0 else x

@@ -1,0 +1,25 @@
+"""The scales of an elastic adhesive sphere, Eq. 4.16, in one place."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._checks import positive
+
+
+def contact_scales(
+    radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> tuple[Any, Any, Any]:
+    r"""Return the scales of contact radius [m], depth [m] and force [N].
+
+    .. math:: (\pi R^2 \Delta\gamma_0 / E^*)^{1/3}, \quad
+              (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}, \quad \pi R \Delta\gamma_0
+    """
+    R, E, w = positive(
+        radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    ratio = np.cbrt(np.pi * w / (E * R))
+    return R * ratio, R * ratio**2, np.pi * R * w

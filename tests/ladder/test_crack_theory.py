@@ -1,0 +1,257 @@
+"""The ladder of the viscoelastic crack: identities, limits with their exponents, units."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.special import gamma as gamma_function
+
+from viscotack.materials import (
+    Elastic,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.theory import greenwood, persson_brener
+
+MODULI = dict(rubbery_modulus=1.2e6, glassy_modulus=3e7, poisson_ratio=0.5)
+SOLIDS = [
+    StandardSolid(**MODULI, tau0=0.02),
+    Prony(
+        rubbery_modulus=1.2e6,
+        branches=((2e6, 1.0), (8e6, 1e-2), (1.9e7, 1e-5)),
+        poisson_ratio=0.5,
+    ),
+    RetardationPowerLaw(**MODULI, exponent=0.22, tau0=0.019),
+    RetardationPowerLaw(**MODULI, exponent=1.0, tau0=0.019),
+    RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
+    RelaxationPowerLaw(**MODULI, exponent=0.6, tau0=1e-3),
+]
+NAMES = ["standard", "prony", "broad", "integer", "narrow", "relaxation"]
+solids = pytest.mark.parametrize("material", SOLIDS, ids=NAMES)
+theories = pytest.mark.parametrize("theory", [persson_brener, greenwood])
+SPEEDS = [1e-3, 0.3, 20.0, 1e5]
+
+
+def narrow(exponent, modulus_ratio):
+    return RetardationPowerLaw(
+        rubbery_modulus=1e6,
+        glassy_modulus=1e6 / modulus_ratio,
+        exponent=exponent,
+        tau0=1e-3,
+        poisson_ratio=0.5,
+    )
+
+
+def slope(x, y):
+    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
+
+
+@solids
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_persson_brener_balances_the_loss_at_all_frequencies_below_the_cut_off(material, speed):
+    # Eq. 2.18: 1/Gamma = 1 - E0 (2/pi) int_0^1 sqrt(1 - x^2)/x C''(x omega_c) dx, x = 1/cosh s;
+    # trapezoidal, because C'' of any spectrum is analytic for |Im s| < pi/2
+    amplification = persson_brener.amplification(speed, material=material)
+    cut_off = 2 * np.pi * speed / amplification / material.time_unit
+    s = 0.1 * np.arange(1, 1000)
+    loss = -np.imag(material.complex_compliance(cut_off / np.cosh(s)))
+    lost = 2 / np.pi * material.rubbery_modulus * 0.1 * np.sum(np.tanh(s) ** 2 * loss)
+    assert 1 / amplification == pytest.approx(1 - lost, rel=1e-11, abs=0)
+
+
+@solids
+@pytest.mark.parametrize("speed", SPEEDS)
+def test_greenwood_closes_the_work_of_the_zone_with_the_creep_under_it(material, speed):
+    # Eq. 3.32 by parts: 1/Gamma = (1/2) int_0^1 H'(xi) E0 C(l Gamma (1 - xi)/v) dxi,
+    # H' = ln[(1 + sqrt xi)/(1 - sqrt xi)]
+    amplification = greenwood.amplification(speed, material=material)
+    passage = amplification / speed * material.time_unit
+
+    def opening(y):
+        # 1 - xi = y^2, against the logarithm and for the fast modes
+        root = np.sqrt(1 - y**2)
+        return np.log((1 + root) ** 2 / y**2) * material.creep(passage * y**2) * y
+
+    # in ln y: the creep of a broad spectrum needs every decade
+    total = quad(
+        lambda x: opening(np.exp(x)) * np.exp(x), -40, 0, epsabs=0, epsrel=1e-11, limit=400
+    )[0]
+    assert 1 / amplification == pytest.approx(material.rubbery_modulus * total, rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("ratio", [1e-3, 0.4, 0.999, 1.001, 7.0, 49.99, 50.01, 300.0])
+def test_zone_response_is_the_integral_of_the_opening_kernel(ratio):
+    def kernel(x):
+        # H of Eq. 3.33
+        root = np.sqrt(x)
+        H = 2 * root - (1 - x) * np.log((1 + root) / (1 - root)) if x < 1 else 2.0
+        return ratio / 2 * H * np.exp(-ratio * (1 - x))
+
+    split = [max(0.5, 1 - 10 / ratio)]
+    expected = quad(kernel, 0, 1, points=split, epsabs=0, epsrel=1e-12, limit=200)[0]
+    assert greenwood.zone_response(ratio) == pytest.approx(expected, rel=1e-10, abs=0)
+
+
+def test_zone_response_tends_to_a_third_and_to_one():
+    assert greenwood.zone_response(1e-9) == pytest.approx(1e-9 / 3, rel=1e-8, abs=0)
+    large = np.array([1e2, 1e4, 1e6])
+    rest = 1 - greenwood.zone_response(large) - (np.log(4 * large) + np.euler_gamma) / (2 * large)
+    # the next term is -1/(4 alpha^2)
+    assert slope(large[:2], rest[:2]) == pytest.approx(-2, abs=0.01)
+
+
+@solids
+@theories
+def test_speed_and_amplification_are_inverse(theory, material):
+    speed = np.geomspace(1e-4, 1e4, 9)
+    gamma = theory.amplification(speed, material=material)
+    # at the ends the speed follows from a small difference of Gamma from 1 or from 1/k
+    margin = (gamma - 1) * (1 / material.modulus_ratio - gamma) * material.modulus_ratio / gamma
+    found = theory.speed(gamma, material=material)
+    assert np.all(np.abs(found / speed - 1) * margin < 1e-12)
+
+
+@solids
+@theories
+def test_amplification_rises_from_one_to_the_ratio_of_the_moduli(theory, material):
+    speed = np.geomspace(1e-30, 1e90, 481)
+    gamma = theory.amplification(speed, material=material)
+    # a plateau between two modes is flat to round-off
+    assert np.all(np.diff(gamma) >= -1e-12 * gamma[1:])
+    assert gamma[0] == pytest.approx(1, abs=1e-9)
+    assert gamma[-1] == pytest.approx(1 / material.modulus_ratio, rel=1e-12, abs=0)
+    assert theory.amplification(0.0, material=material) == 1
+
+
+@theories
+def test_an_elastic_crack_takes_the_work_of_adhesion_at_any_speed(theory):
+    solid = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    np.testing.assert_array_equal(theory.amplification([0, 1e-3, 1e9], material=solid), 1)
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.6, 1.0, 1.6])
+def test_slow_crack_dissipates_in_proportion_to_its_speed(exponent):
+    # Gamma - 1 -> pi n (1 - k) v; in Greenwood's theory the slope carries a logarithm
+    material = narrow(exponent, 0.1)
+    speed = np.array([1e-3, 1e-4, 1e-5, 1e-6])
+    rise = persson_brener.amplification(speed, material=material) - 1
+    assert slope(speed, rise) == pytest.approx(1, abs=1e-3)
+    assert rise[-1] / speed[-1] == pytest.approx(np.pi * exponent * 0.9, rel=1e-4, abs=0)
+
+
+@pytest.mark.parametrize("exponent", [0.3, 0.6, 1.6])
+def test_fast_crack_approaches_the_ratio_of_the_moduli_as_the_spectrum_falls(exponent):
+    # 1 - I -> 2^-n Gamma(1 - n/2) / [(1 - n) Gamma(1 + n/2)] A^n for n < 1, A/(n - 1) for n > 1
+    material = narrow(exponent, 0.1)
+    speed = np.array([1e6, 1e8, 1e10]) ** (1 / min(exponent, 1))
+    missing = 10 - persson_brener.amplification(speed, material=material)
+    power = min(exponent, 1)
+    assert slope(speed, missing) == pytest.approx(-power, abs=1e-3)
+    A = 10 / (2 * np.pi * speed[-1])
+    if exponent < 1:
+        half = exponent / 2
+        factor = gamma_function(1 - half) / gamma_function(1 + half)
+        part = 2**-exponent / (1 - exponent) * factor * A**exponent
+    else:
+        part = A / (exponent - 1)
+    assert missing[-1] == pytest.approx(100 * 0.9 * part, rel=1e-3, abs=0)
+
+
+@pytest.mark.parametrize(("exponent", "power"), [(0.3, 3 / 13), (0.6, 3 / 8), (1.6, 1 / 2)])
+def test_between_the_limits_amplification_is_a_power_of_the_speed(exponent, power):
+    # n/(1 + n) below n = 1 and 1/2 above, for a glassy modulus far away
+    material = narrow(exponent, 1e-30)
+    speed = np.array([1e24, 1e26])
+    gamma = persson_brener.amplification(speed, material=material)
+    assert slope(speed, gamma) == pytest.approx(power, abs=1e-3)
+
+
+def test_one_mode_has_the_explicit_inverse_of_the_appendix():
+    # y = (1 - 1/Gamma)/(1 - k), 2 pi v = 2 y Gamma/(1 - y^2)
+    k, gamma = 0.04, np.array([1.001, 1.5, 4.0, 20.0])
+    y = (1 - 1 / gamma) / (1 - k)
+    found = persson_brener.speed(gamma, material=SOLIDS[0])
+    np.testing.assert_allclose(2 * np.pi * found, 2 * y * gamma / (1 - y**2), rtol=1e-11)
+
+
+def test_one_mode_of_greenwood_is_explicit_in_its_parameter():
+    # Gamma = 1/[k + (1 - k) g(alpha)], v = Gamma/alpha
+    alpha = np.geomspace(1e-6, 1e6, 25)
+    gamma = 1 / (0.04 + 0.96 * greenwood.zone_response(alpha))
+    found = greenwood.amplification(gamma / alpha, material=SOLIDS[0])
+    np.testing.assert_allclose(found, gamma, rtol=1e-12)
+    found = greenwood.speed(gamma[6:-6], material=SOLIDS[0])
+    np.testing.assert_allclose(found, (gamma / alpha)[6:-6], rtol=1e-9)
+
+
+@pytest.mark.parametrize("material", [SOLIDS[0], SOLIDS[1]], ids=NAMES[:2])
+def test_fast_cracks_of_both_theories_agree_for_the_right_ratio_of_their_lengths(material):
+    # responses q and alpha/3 of a slow mode: 2 pi v / l0 = 3 v / l
+    speed = np.array([1e12, 1e14])
+    limit = 1 / material.modulus_ratio
+    tip = limit - persson_brener.amplification(speed, material=material)
+    zone = limit - greenwood.amplification(speed * 2 * np.pi / 3, material=material)
+    np.testing.assert_allclose(zone, tip, rtol=1e-3)
+    slow = persson_brener.amplification(1.0, material=material)
+    assert greenwood.amplification(2 * np.pi / 3, material=material) != pytest.approx(
+        slow, rel=0.01, abs=0
+    )
+
+
+def test_lengths_of_the_two_theories_differ_by_the_ratio_of_their_conventions():
+    case = dict(contact_modulus=1.9e6, work_of_adhesion=0.2, strength=5e6)
+    zone = greenwood.cohesive_zone_length(**case)
+    tip = persson_brener.crack_tip_length(**case, strength_ratio=np.pi / 9)
+    assert zone / tip == pytest.approx(np.pi**2 * (np.pi / 9) ** 2 / 4, rel=1e-14, abs=0)
+    # the stress of the slow crack, K = sqrt(2 E* w), at the distance l0 is alpha sigma_0
+    K = np.sqrt(2 * 1.9e6 * 0.2)
+    assert K / np.sqrt(2 * np.pi * tip) == pytest.approx(np.pi / 9 * 5e6, rel=1e-14, abs=0)
+    # a Dugdale zone cancels K = sqrt(8/pi) sigma_0 sqrt(l)
+    assert np.sqrt(8 / np.pi * zone) * 5e6 == pytest.approx(K, rel=1e-14, abs=0)
+
+
+POWER = st.floats(-9, 9)
+
+
+@theories
+@pytest.mark.parametrize("material", SOLIDS[1:3], ids=NAMES[1:3])
+@settings(max_examples=15, deadline=None)
+@given(load=POWER, time=POWER)
+def test_crack_theory_does_not_depend_on_the_units(theory, material, load, time):
+    F, T = 10**load, 10**time
+    if isinstance(material, Prony):
+        other = Prony(
+            rubbery_modulus=F * material.rubbery_modulus,
+            branches=tuple((F * E, T * tau) for E, tau in material.branches),
+            poisson_ratio=0.5,
+        )
+    else:
+        other = RetardationPowerLaw(
+            rubbery_modulus=F * material.rubbery_modulus,
+            glassy_modulus=F * material.glassy_modulus,
+            exponent=material.exponent,
+            tau0=T * material.tau0,
+            poisson_ratio=0.5,
+        )
+    speed = np.array([1e-2, 3.0, 1e4])
+    gamma = theory.amplification(speed, material=material)
+    np.testing.assert_allclose(theory.amplification(speed, material=other), gamma, rtol=1e-11)
+
+
+@settings(max_examples=15, deadline=None)
+@given(length=POWER, load=POWER)
+def test_crack_lengths_do_not_depend_on_the_units(length, load):
+    L, F = 10**length, 10**load
+    old = dict(contact_modulus=1.9, work_of_adhesion=0.2, strength=5.0)
+    new = dict(
+        contact_modulus=1.9 * F / L**2, work_of_adhesion=0.2 * F / L, strength=5.0 * F / L**2
+    )
+    found = persson_brener.crack_tip_length(**new, strength_ratio=0.4)
+    assert found == pytest.approx(
+        L * persson_brener.crack_tip_length(**old, strength_ratio=0.4), rel=1e-12, abs=0
+    )
+    found = greenwood.cohesive_zone_length(**new)
+    assert found == pytest.approx(L * greenwood.cohesive_zone_length(**old), rel=1e-12, abs=0)

@@ -1,0 +1,500 @@
+"""The ladder of the elastic theories: identities, limits with their exponents, units."""
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.special import ellipe
+
+from viscotack.theory import bradley, dmt, hertz, jkr, maugis
+
+# A glass bead of 1 mm on soft rubber; a 1 um tip on a stiffer one, in the middle of Maugis' range.
+BEAD = dict(radius=1e-3, contact_modulus=1.3e6, work_of_adhesion=0.05)
+TIP = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, strength=2e7)
+RIGID = dict(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(80)
+
+
+def integral(function, low, high):
+    """Gauss quadrature after x = sin: exact to round-off with inverse roots at both ends."""
+    angle = np.pi / 2 * NODES
+    x = (low + high) / 2 + (high - low) / 2 * np.sin(angle)
+    return np.sum(function(x) * WEIGHTS * np.cos(angle)) * np.pi / 2 * (high - low) / 2
+
+
+def disc_displacement(pressure, edge, position, contact_modulus):
+    """Displacement under a pressure on a disc, by Sneddon's pair of Abel transforms."""
+
+    def inner(x):
+        reach = np.sqrt(edge**2 - x**2)
+        return integral(lambda y: pressure(np.hypot(x, y)), 0, reach)
+
+    def outer(x):
+        return np.array([inner(point) for point in x]) / np.sqrt(position**2 - x**2)
+
+    return 4 / (np.pi * contact_modulus) * integral(outer, 0, min(position, edge))
+
+
+def slope(x, y):
+    """The exponent with which y follows x, on the last two levels."""
+    return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
+
+
+def uniform_displacement(r, c, strength, contact_modulus):
+    """Displacement inside a disc under uniform pressure."""
+    return 4 * strength * c / (np.pi * contact_modulus) * ellipe((r / c) ** 2)
+
+
+# Hertz ----------------------------------------------------------------------------------------
+
+
+def test_hertz_force_is_the_integral_of_its_pressure():
+    state = dict(radius=1e-3, contact_modulus=1.3e6)
+    total = integral(
+        lambda r: 2 * np.pi * r * hertz.pressure(r, contact_radius=1e-4, **state), 0, 1e-4
+    )
+    assert total == pytest.approx(hertz.force(1e-4, **state), rel=1e-12, abs=0)
+    assert hertz.pressure(1.01e-4, contact_radius=1e-4, **state) == 0
+
+
+@pytest.mark.parametrize("position", [1e-6, 0.6e-4, 0.999e-4, 1.001e-4, 1.7e-4, 1e-2])
+def test_hertz_surface_is_what_its_pressure_does_to_the_half_space(position):
+    u = disc_displacement(
+        lambda r: hertz.pressure(r, contact_radius=1e-4, radius=1e-3, contact_modulus=1.3e6),
+        1e-4,
+        position,
+        1.3e6,
+    )
+    found = hertz.surface_displacement(position, contact_radius=1e-4, radius=1e-3)
+    assert found == pytest.approx(u, rel=1e-11, abs=0)
+    opening = position**2 / 2e-3 - hertz.depth(1e-4, radius=1e-3) + u
+    gap = hertz.gap(position, contact_radius=1e-4, radius=1e-3)
+    assert gap == pytest.approx(opening, rel=1e-9, abs=1e-17)
+
+
+def test_hertz_force_is_the_derivative_of_its_energy():
+    # U = (8/15) E* sqrt(R) depth^(5/2), so that P = 5 U / (2 depth)
+    a = np.array([1e-6, 1e-4, 2e-4])
+    d = hertz.depth(a, radius=1e-3)
+    energy = 8 / 15 * 1.3e6 * np.sqrt(1e-3) * d**2.5
+    P = hertz.force(a, radius=1e-3, contact_modulus=1.3e6)
+    np.testing.assert_allclose(P, 2.5 * energy / d, rtol=1e-14)
+
+
+def test_hertz_inverses_return_the_radius():
+    a = np.geomspace(1e-9, 1e-3, 7)
+    d = hertz.depth(a, radius=1e-3)
+    P = hertz.force(a, radius=1e-3, contact_modulus=1.3e6)
+    np.testing.assert_allclose(hertz.contact_radius_at_depth(d, radius=1e-3), a, rtol=1e-14)
+    found = hertz.contact_radius_at_force(P, radius=1e-3, contact_modulus=1.3e6)
+    np.testing.assert_allclose(found, a, rtol=1e-14)
+
+
+def test_hertz_gap_opens_with_the_power_three_halves():
+    step = np.array([1e-8, 1e-10, 1e-12])
+    gap = hertz.gap(1e-4 * (1 + step), contact_radius=1e-4, radius=1e-3)
+    assert slope(step, gap) == pytest.approx(1.5, abs=1e-4)
+
+
+# JKR ------------------------------------------------------------------------------------------
+
+
+def test_jkr_force_is_the_derivative_of_its_energy():
+    # U(depth, a) = E* (depth^2 a - 2 depth a^3 / 3R + a^5 / 5R^2) - pi w a^2
+    R, E, w = BEAD.values()
+    a = np.geomspace(1e-7, 5e-4, 9)
+    d = jkr.depth(a, **BEAD)
+    by_depth = E * (2 * d * a - 2 * a**3 / (3 * R))
+    by_radius = E * (d - a**2 / R) ** 2 - 2 * np.pi * w * a
+    np.testing.assert_allclose(jkr.force(a, **BEAD), by_depth, rtol=1e-12)
+    np.testing.assert_allclose(by_radius, 0, atol=1e-12 * E * a[-1] ** 4 / R**2)
+
+
+def test_jkr_force_is_the_integral_of_its_pressure():
+    total = integral(
+        lambda r: 2 * np.pi * r * jkr.pressure(r, contact_radius=1e-4, **BEAD), 0, 1e-4
+    )
+    assert total == pytest.approx(jkr.force(1e-4, **BEAD), rel=1e-11, abs=0)
+    assert jkr.pressure(1.01e-4, contact_radius=1e-4, **BEAD) == 0
+
+
+def test_jkr_tension_at_the_edge_has_the_stress_intensity_of_griffith():
+    step = 1e-4 * 1e-12
+    K = -jkr.pressure(1e-4 - step, contact_radius=1e-4, **BEAD) * np.sqrt(2 * np.pi * step)
+    assert K == pytest.approx(np.sqrt(2 * 1.3e6 * 0.05), rel=1e-4, abs=0)
+
+
+@pytest.mark.parametrize("position", [1e-6, 0.6e-4, 0.999e-4, 1.001e-4, 1.7e-4, 1e-2])
+def test_jkr_surface_is_what_its_pressure_does_to_the_half_space(position):
+    u = disc_displacement(
+        lambda r: jkr.pressure(r, contact_radius=1e-4, **BEAD), 1e-4, position, 1.3e6
+    )
+    found = jkr.surface_displacement(position, contact_radius=1e-4, **BEAD)
+    # the quadrature loses digits where the tension grows without bound
+    assert found == pytest.approx(u, rel=3e-9, abs=0)
+    opening = position**2 / 2e-3 - jkr.depth(1e-4, **BEAD) + u
+    gap = jkr.gap(position, contact_radius=1e-4, **BEAD)
+    assert gap == pytest.approx(opening, rel=1e-9, abs=1e-16)
+
+
+def test_jkr_gap_opens_as_a_crack():
+    # Irwin: one face moves by (4 K / E*) sqrt(x / 2 pi), K = sqrt(2 E* w); the other is rigid
+    step = np.array([1e-8, 1e-10, 1e-12])
+    gap = jkr.gap(1e-4 * (1 + step), contact_radius=1e-4, **BEAD)
+    assert slope(step, gap) == pytest.approx(0.5, abs=1e-4)
+    irwin = 4 / 1.3e6 * np.sqrt(2 * 1.3e6 * 0.05) * np.sqrt(1e-4 * step / (2 * np.pi))
+    np.testing.assert_allclose(gap[-1], irwin[-1], rtol=1e-4)
+
+
+def test_jkr_branches_return_depth_and_force():
+    end, fold = jkr.pull_off(**BEAD), jkr.instability(**BEAD)
+    d = np.concatenate([fold.depth * np.array([1, 0.999, 0.5, 1e-9]), [0, 1e-12, 1e-5, 1e-2]])
+    a = jkr.contact_radius_at_depth(d, **BEAD)
+    np.testing.assert_allclose(jkr.depth(a, **BEAD), d, rtol=1e-12, atol=1e-14 * abs(fold.depth))
+    assert np.all(a >= fold.contact_radius * (1 - 1e-12))
+    b = jkr.unstable_contact_radius_at_depth(d[:4], **BEAD)
+    np.testing.assert_allclose(jkr.depth(b, **BEAD), d[:4], rtol=1e-12)
+    assert np.all(b <= fold.contact_radius * (1 + 1e-12))
+    P = np.concatenate([end.force * np.array([1, 0.999, 0.5, 1e-9]), [0, 1e-12, 1e-3]])
+    a = jkr.contact_radius_at_force(P, **BEAD)
+    np.testing.assert_allclose(jkr.force(a, **BEAD), P, rtol=1e-12, atol=1e-14 * abs(end.force))
+    assert np.all(a >= end.contact_radius * (1 - 1e-12))
+    b = jkr.unstable_contact_radius_at_force(P[:4], **BEAD)
+    np.testing.assert_allclose(jkr.force(b, **BEAD), P[:4], rtol=1e-12)
+    assert np.all(b <= end.contact_radius * (1 + 1e-12))
+
+
+def test_jkr_ends_are_the_minima_of_force_and_depth():
+    end, fold = jkr.pull_off(**BEAD), jkr.instability(**BEAD)
+    assert jkr.pull_off_force(radius=1e-3, work_of_adhesion=0.05) == pytest.approx(
+        -end.force, rel=1e-12, abs=0
+    )
+    for point, curve in ((end, jkr.force), (fold, jkr.depth)):
+        a = point.contact_radius * np.array([0.999, 1, 1.001])
+        below, here, above = curve(a, **BEAD)
+        # a smooth minimum: the two sides rise by the same second-order amount
+        assert (below - here) / (above - here) == pytest.approx(1, abs=2e-3)
+        assert below > here < above
+    for point in (end, fold):
+        assert jkr.force(point.contact_radius, **BEAD) == pytest.approx(
+            point.force, rel=1e-13, abs=0
+        )
+        assert jkr.depth(point.contact_radius, **BEAD) == pytest.approx(
+            point.depth, rel=1e-13, abs=0
+        )
+
+
+def test_jkr_work_is_the_integral_of_force_over_depth():
+    def force(d):
+        return jkr.force(jkr.contact_radius_at_depth(d, **BEAD), **BEAD)
+
+    start = jkr.depth(jkr.contact_radius_at_force(0.0, **BEAD), **BEAD)
+    work = integral(force, start, jkr.pull_off(**BEAD).depth)
+    assert jkr.work_to_pull_off(**BEAD) == pytest.approx(work, rel=1e-12, abs=0)
+    work = integral(force, start, jkr.instability(**BEAD).depth)
+    assert jkr.work_to_instability(**BEAD) == pytest.approx(work, rel=1e-9, abs=0)
+
+
+def test_jkr_tends_to_hertz_as_the_square_root_of_adhesion():
+    w = np.array([1e-6, 1e-8, 1e-10])
+    case = dict(radius=1e-3, contact_modulus=1.3e6)
+    missing = hertz.force(1e-4, **case) - jkr.force(1e-4, work_of_adhesion=w, **case)
+    assert slope(w, missing) == pytest.approx(0.5, abs=1e-6)
+    higher = hertz.depth(1e-4, radius=1e-3) - jkr.depth(1e-4, work_of_adhesion=w, **case)
+    assert slope(w, higher) == pytest.approx(0.5, abs=1e-6)
+
+
+def test_jkr_displacement_tends_to_that_of_a_point_force():
+    r = np.array([1e-2, 1e-1, 1.0])
+    point = jkr.force(1e-4, **BEAD) / (np.pi * 1.3e6 * r)
+    u = jkr.surface_displacement(r, contact_radius=1e-4, **BEAD)
+    assert slope(r, u / point - 1) == pytest.approx(-2, abs=1e-3)
+
+
+# DMT and Bradley ------------------------------------------------------------------------------
+
+
+def test_dmt_force_is_the_derivative_of_its_energy():
+    # U = (8/15) E* sqrt(R) depth^(5/2) - 2 pi R w depth
+    R, E, w = BEAD.values()
+    a = np.geomspace(1e-6, 3e-4, 5)
+    d = dmt.depth(a, radius=R)
+    slope_of_energy = 4 / 3 * E * np.sqrt(R) * d**1.5 - 2 * np.pi * R * w
+    np.testing.assert_allclose(dmt.force(a, **BEAD), slope_of_energy, rtol=1e-12)
+    np.testing.assert_allclose(dmt.contact_radius_at_depth(d, radius=R), a, rtol=1e-14)
+    found = dmt.contact_radius_at_force(dmt.force(a, **BEAD), **BEAD)
+    np.testing.assert_allclose(found, a, rtol=1e-6)
+    np.testing.assert_allclose(found[2:], a[2:], rtol=1e-12)
+
+
+def test_dmt_work_is_the_integral_of_force_over_depth():
+    def force(d):
+        return dmt.force(dmt.contact_radius_at_depth(d, radius=1e-3), **BEAD)
+
+    start = dmt.depth(dmt.contact_radius_at_force(0.0, **BEAD), radius=1e-3)
+    assert dmt.work_to_pull_off(**BEAD) == pytest.approx(
+        integral(force, start, 0), rel=1e-12, abs=0
+    )
+    assert force(0.0) == pytest.approx(
+        -dmt.pull_off_force(radius=1e-3, work_of_adhesion=0.05), rel=1e-12, abs=0
+    )
+
+
+def test_dmt_tends_to_hertz_in_proportion_to_adhesion():
+    w = np.array([1e-3, 1e-5, 1e-7])
+    case = dict(radius=1e-3, contact_modulus=1.3e6)
+    missing = hertz.force(1e-4, **case) - dmt.force(1e-4, work_of_adhesion=w, **case)
+    assert slope(w, missing) == pytest.approx(1, abs=1e-6)
+
+
+def test_bradley_force_is_the_integral_of_the_traction():
+    R, w, h0 = RIGID.values()
+    for depth in (-5e-10, -1e-10, 0.0, 5e-11):
+        # r dr = R dh over the gap h, and u = (h0/h)^2 makes the range finite
+        def pull(u):
+            traction = 8 * w / (3 * h0) * (u**1.5 - u**4.5)
+            return 2 * np.pi * R * traction * h0 / (2 * u**1.5)
+
+        total = integral(pull, 0, (h0 / (h0 - depth)) ** 2)  # noqa: B023
+        assert bradley.force(depth, **RIGID) == pytest.approx(-total, rel=1e-12, abs=0)
+
+
+def test_bradley_pull_off_is_the_minimum_of_its_force():
+    d = 3e-10 * np.array([-1e-3, 0, 1e-3])
+    below, here, above = bradley.force(d, **RIGID)
+    assert here == pytest.approx(
+        -bradley.pull_off_force(radius=1e-6, work_of_adhesion=0.05), rel=1e-12, abs=0
+    )
+    assert below > here < above
+    assert (below - here) / (above - here) == pytest.approx(1, abs=0.02)
+
+
+def test_bradley_work_is_the_integral_of_force_over_depth():
+    start = 3e-10 * (1 - 2 ** (-1 / 3))
+    assert bradley.force(start, **RIGID) == pytest.approx(0, abs=1e-14 * np.pi * 1e-6)
+    work = integral(lambda d: bradley.force(d, **RIGID), start, 0)
+    assert bradley.work_to_pull_off(**RIGID) == pytest.approx(work, rel=1e-12, abs=0)
+
+
+def test_bradley_attraction_falls_with_the_square_of_the_distance():
+    d = np.array([-3e-9, -3e-8, -3e-6, -3e-4])
+    gap = 3e-10 - d
+    assert slope(gap, bradley.force(d, **RIGID)) == pytest.approx(-2, abs=1e-4)
+
+
+# Maugis ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("ratio", [1.2, 1.7, 4.0])
+def test_maugis_state_solves_the_contact_problem(ratio):
+    R, E, w, s = TIP.values()
+    state = maugis.curve(ratio, **TIP)
+    a, c = state.contact_radius, state.cohesive_radius
+    known = dict(contact_radius=a, cohesive_radius=c, radius=R, contact_modulus=E, strength=s)
+
+    def pressed(r):
+        return maugis.pressure(r, **known) + s
+
+    # uniform tension on the whole disc c, the rest on the contact
+    load = integral(lambda r: 2 * np.pi * r * pressed(r), 0, a) - np.pi * c**2 * s
+    assert load == pytest.approx(state.force, rel=1e-11, abs=0)
+    for r in (0.3 * a, 0.9 * a):
+        u = disc_displacement(pressed, a, r, E) - uniform_displacement(r, c, s, E)
+        assert u == pytest.approx(state.depth - r**2 / (2 * R), rel=1e-9, abs=0)
+    u = disc_displacement(pressed, a, c, E) - uniform_displacement(c, c, s, E)
+    gap = c**2 / (2 * R) - state.depth + u
+    assert gap * s == pytest.approx(w, rel=1e-9, abs=0)
+    assert maugis.pressure(0.5 * (a + c), **known) == -s
+    assert maugis.pressure(1.01 * c, **known) == 0
+
+
+@pytest.mark.parametrize("strength", [2e5, 2e7, 2e9])
+def test_maugis_state_keeps_its_digits_from_a_thin_ring_to_a_point(strength):
+    # the equations as printed by Maugis, in 50 digits, at the state found
+    mp.mp.dps = 50
+    case = TIP | dict(strength=strength)
+    R, E, w, s = (mp.mpf(x) for x in case.values())
+    K = 4 * E / 3
+    lam = 2 * s * mp.cbrt(R / (mp.pi * w * K**2))
+    for ratio in (1 + 1e-8, 1 + 1e-5, 1.002, 1.0198, 1.0199, 1.03, 3.0, 1e3):
+        state = maugis.curve(ratio, **case)
+        m = mp.mpf(ratio)
+        root, angle = mp.sqrt(m**2 - 1), mp.asec(m)
+        A = lam / 2 * (root + (m**2 - 2) * angle)
+        B = 4 * lam**2 / 3 * (root * angle - m + 1)
+        a = 2 / (B + mp.sqrt(B**2 + 4 * A))
+        P = a**3 - lam * a**2 * (root + m**2 * angle)
+        d = a**2 - 4 * lam / 3 * a * root
+        radius, load = a * mp.cbrt(mp.pi * w * R**2 / K), P * mp.pi * w * R
+        depth = d * mp.cbrt(mp.pi**2 * w**2 * R / K**2)
+        assert state.contact_radius == pytest.approx(float(radius), rel=1e-13, abs=0)
+        assert state.force == pytest.approx(float(load), rel=1e-12, abs=0)
+        assert state.depth == pytest.approx(float(depth), rel=1e-12, abs=0)
+
+
+def test_maugis_state_without_contact_solves_its_problem():
+    R, E, w, s = TIP.values()
+    touching = maugis.touching_radius(**TIP)
+    for c in touching * np.array([0.2, 0.7, 1.0]):
+        state = maugis.curve_without_contact(c, **TIP)
+        centre = -state.depth - uniform_displacement(0, c, s, E)
+        edge = c**2 / (2 * R) - state.depth - uniform_displacement(c, c, s, E)
+        assert edge * s == pytest.approx(w, rel=1e-12, abs=0)
+        assert state.force == pytest.approx(-np.pi * c**2 * s, rel=1e-14, abs=0)
+        assert centre >= -1e-12 * edge
+    assert centre == pytest.approx(0, abs=1e-12 * edge)
+
+
+def test_maugis_curves_join_where_the_contact_is_a_point():
+    joint = maugis.curve_without_contact(maugis.touching_radius(**TIP), **TIP)
+    ratio = np.array([1e3, 1e4, 1e5])
+    state = maugis.curve(ratio, **TIP)
+    assert slope(ratio, state.cohesive_radius - joint.cohesive_radius) == pytest.approx(
+        -2, abs=0.01
+    )
+    assert slope(ratio, state.force - joint.force) == pytest.approx(-2, abs=0.01)
+    np.testing.assert_allclose(state.depth[-1], joint.depth, rtol=1e-4)
+    np.testing.assert_allclose(state.force[-1], joint.force, rtol=1e-8)
+
+
+@pytest.mark.parametrize("strength", [2e5, 2e7, 2e9])
+def test_maugis_pull_off_is_the_minimum_of_its_curve(strength):
+    case = TIP | dict(strength=strength)
+    end = maugis.pull_off(**case)
+    excess = end.cohesive_radius / end.contact_radius - 1
+    below, here, above = maugis.curve(1 + excess * np.array([0.999, 1, 1.001]), **case).force
+    assert here == pytest.approx(end.force, rel=1e-12, abs=0)
+    assert below > here < above
+    everywhere = maugis.curve(1 + np.geomspace(1e-7, 1e7, 400), **case).force
+    assert np.all(everywhere >= end.force)
+    assert maugis.pull_off_force(**case) == -end.force
+    assert np.sum(np.diff(np.sign(np.diff(everywhere))) != 0) == 1
+
+
+@pytest.mark.parametrize("strength", [2e5, 2e7, 2e9])
+def test_maugis_work_is_the_integral_of_force_over_depth(strength):
+    case = TIP | dict(strength=strength)
+    end = maugis.pull_off(**case)
+    last = np.log(end.cohesive_radius / end.contact_radius - 1)
+    x = np.linspace(-17, last, 40001)
+    state = maugis.curve(1 + np.exp(x), **case)
+    tension = np.minimum(state.force, 0)
+    # trapezoid on the curve alone, no derivative of it
+    work = np.sum((tension[1:] + tension[:-1]) / 2 * np.diff(state.depth))
+    assert maugis.work_to_pull_off(**case) == pytest.approx(work, rel=1e-6, abs=0)
+
+
+def test_maugis_parameter_follows_from_the_lennard_jones_strength():
+    R, E, w, h0 = 1e-6, 1e9, 0.05, 2e-9
+    tabor = (R * w**2 / (E**2 * h0**3)) ** (1 / 3)
+    peak = 16 * w / (9 * np.sqrt(3) * h0)
+    lam = maugis.maugis_parameter(radius=R, contact_modulus=E, work_of_adhesion=w, strength=peak)
+    assert maugis.parameter_from_tabor(tabor) == pytest.approx(lam, rel=1e-14, abs=0)
+
+
+def test_maugis_tends_to_jkr_with_the_square_of_its_parameter():
+    strength = np.array([1e9, 4e9, 16e9])
+    end = maugis.pull_off(**TIP | dict(strength=strength))
+    case = {name: TIP[name] for name in ("radius", "contact_modulus", "work_of_adhesion")}
+    goal = jkr.pull_off(**case)
+    for name in ("contact_radius", "depth", "force"):
+        rest = getattr(end, name) - getattr(goal, name)
+        assert slope(strength, rest) == pytest.approx(-2, abs=1e-3), name
+    work = maugis.work_to_pull_off(**TIP | dict(strength=strength)) - jkr.work_to_pull_off(**case)
+    assert slope(strength, work) == pytest.approx(-2, abs=2e-3)
+
+
+def test_maugis_tends_to_dmt_with_the_power_three_halves_of_its_parameter():
+    strength = np.array([1e4, 1e3, 1e2])
+    force = maugis.pull_off_force(**TIP | dict(strength=strength))
+    rest = dmt.pull_off_force(radius=1e-6, work_of_adhesion=0.05) - force
+    assert slope(strength, rest) == pytest.approx(1.5, abs=1e-4)
+
+
+# Units ----------------------------------------------------------------------------------------
+
+# exponents of length and of force
+LENGTH, FORCE, STRESS, ENERGY, NONE = (1, 0), (0, 1), (-2, 1), (1, 1), (0, 0)
+DIMENSION = dict(
+    radius=LENGTH,
+    contact_radius=LENGTH,
+    cohesive_radius=LENGTH,
+    equilibrium_gap=LENGTH,
+    contact_modulus=STRESS,
+    strength=STRESS,
+    work_of_adhesion=(-1, 1),
+)
+HERTZ = dict(radius=2.0, contact_modulus=3.0)
+JKR = HERTZ | dict(work_of_adhesion=5.0)
+MAUGIS = JKR | dict(strength=4.0)
+LJ = dict(radius=2.0, work_of_adhesion=5.0, equilibrium_gap=0.7)
+AT, AREA = dict(contact_radius=1.7), dict(radius=2.0)
+RING = HERTZ | AT | dict(cohesive_radius=2.9, strength=4.0)
+POINT, RING_POINT = (LENGTH, LENGTH, FORCE), (LENGTH, LENGTH, LENGTH, FORCE)
+ENERGY_ONLY = dict(radius=2.0, work_of_adhesion=5.0)
+FORMULAS = [
+    (hertz.force, (1.3, LENGTH), HERTZ, FORCE),
+    (hertz.depth, (1.3, LENGTH), AREA, LENGTH),
+    (hertz.contact_radius_at_depth, (1.3, LENGTH), AREA, LENGTH),
+    (hertz.contact_radius_at_force, (1.3, FORCE), HERTZ, LENGTH),
+    (hertz.pressure, (1.3, LENGTH), HERTZ | AT, STRESS),
+    (hertz.surface_displacement, (2.3, LENGTH), AREA | AT, LENGTH),
+    (hertz.gap, (2.3, LENGTH), AREA | AT, LENGTH),
+    (jkr.force, (1.3, LENGTH), JKR, FORCE),
+    (jkr.depth, (1.3, LENGTH), JKR, LENGTH),
+    (jkr.contact_radius_at_depth, (-1.3, LENGTH), JKR, LENGTH),
+    (jkr.unstable_contact_radius_at_depth, (-1.3, LENGTH), JKR, LENGTH),
+    (jkr.contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
+    (jkr.unstable_contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
+    (jkr.pull_off_force, None, ENERGY_ONLY, FORCE),
+    (jkr.pull_off, None, JKR, POINT),
+    (jkr.instability, None, JKR, POINT),
+    (jkr.work_to_pull_off, None, JKR, ENERGY),
+    (jkr.work_to_instability, None, JKR, ENERGY),
+    (jkr.pressure, (1.3, LENGTH), JKR | AT, STRESS),
+    (jkr.surface_displacement, (2.3, LENGTH), JKR | AT, LENGTH),
+    (jkr.gap, (2.3, LENGTH), JKR | AT, LENGTH),
+    (dmt.force, (1.3, LENGTH), JKR, FORCE),
+    (dmt.depth, (1.3, LENGTH), AREA, LENGTH),
+    (dmt.contact_radius_at_depth, (1.3, LENGTH), AREA, LENGTH),
+    (dmt.contact_radius_at_force, (-9.0, FORCE), JKR, LENGTH),
+    (dmt.pull_off_force, None, ENERGY_ONLY, FORCE),
+    (dmt.work_to_pull_off, None, JKR, ENERGY),
+    (bradley.force, (-1.3, LENGTH), LJ, FORCE),
+    (bradley.pull_off_force, None, ENERGY_ONLY, FORCE),
+    (bradley.work_to_pull_off, None, LJ, ENERGY),
+    (maugis.maugis_parameter, None, MAUGIS, NONE),
+    (maugis.parameter_from_tabor, (1.3, NONE), {}, NONE),
+    (maugis.curve, (1.3, NONE), MAUGIS, RING_POINT),
+    (maugis.touching_radius, None, MAUGIS, LENGTH),
+    (maugis.curve_without_contact, (0.4, LENGTH), MAUGIS, RING_POINT),
+    (maugis.pressure, (1.3, LENGTH), RING, STRESS),
+    (maugis.pull_off_force, None, MAUGIS, FORCE),
+    (maugis.pull_off, None, MAUGIS, RING_POINT),
+    (maugis.work_to_pull_off, None, MAUGIS, ENERGY),
+]
+POWER = st.floats(-9, 9)
+
+
+@pytest.mark.parametrize(
+    "formula", FORMULAS, ids=lambda formula: f"{formula[0].__module__[17:]}.{formula[0].__name__}"
+)
+@settings(max_examples=20, deadline=None)
+@given(length=POWER, load=POWER)
+def test_elastic_theory_does_not_depend_on_the_units(formula, length, load):
+    function, varying, parameters, dimension = formula
+
+    def converted(value, dimension):
+        return value * 10 ** (length * dimension[0] + load * dimension[1])
+
+    new = {name: converted(value, DIMENSION[name]) for name, value in parameters.items()}
+    old_values = () if varying is None else (varying[0],)
+    new_values = () if varying is None else (converted(*varying),)
+    old, found = function(*old_values, **parameters), function(*new_values, **new)
+    if isinstance(old, tuple):
+        expected = tuple(converted(x, d) for x, d in zip(old, dimension, strict=True))
+    else:
+        expected = converted(old, dimension)
+    assert found == pytest.approx(expected, rel=1e-9, abs=0)

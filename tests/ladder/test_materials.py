@@ -1,0 +1,558 @@
+"""The verification ladder of the materials: identities, limits, orders, peers."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from viscotack.materials import (
+    Elastic,
+    Modes,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.materials.interconversion import reciprocal
+from viscotack.materials.modes import compressed
+from viscotack.materials.spectrum import nodes
+
+# Ordinary numbers: 1 MPa rubber, 1 ms, k from 1e-1 to 1e-6, exponents with both integers.
+E0, TAU, NU = 1.2e6, 2e-3, 0.48
+POWER_LAWS = [RetardationPowerLaw, RelaxationPowerLaw]
+EXPONENTS = [0.2, 0.7, 1.0, 1.6, 2.0, 3.0]
+
+
+def power_law(kind, *, exponent, k, tau0=TAU):
+    return kind(
+        rubbery_modulus=E0,
+        glassy_modulus=E0 / k,
+        exponent=exponent,
+        tau0=tau0,
+        poisson_ratio=NU,
+    )
+
+
+def standard_solid(k=0.1):
+    return StandardSolid(rubbery_modulus=E0, glassy_modulus=E0 / k, tau0=TAU, poisson_ratio=NU)
+
+
+SOLIDS = {
+    "elastic": Elastic(rubbery_modulus=E0, poisson_ratio=NU),
+    "standard": standard_solid(),
+    "prony": Prony(
+        rubbery_modulus=E0,
+        branches=[(3e7, 1e-6), (4e6, 5e-4), (8e5, 2e-3), (9e5, 0.3)],
+        poisson_ratio=NU,
+    ),
+    "retardation 0.2": power_law(RetardationPowerLaw, exponent=0.2, k=1e-3),
+    "retardation 1": power_law(RetardationPowerLaw, exponent=1, k=0.1),
+    "retardation 1.6": power_law(RetardationPowerLaw, exponent=1.6, k=1e-6),
+    "relaxation 0.5": power_law(RelaxationPowerLaw, exponent=0.5, k=1e-3),
+    "relaxation 2": power_law(RelaxationPowerLaw, exponent=2, k=0.1),
+    "relaxation 3": power_law(RelaxationPowerLaw, exponent=3, k=1e-6),
+}
+every_solid = pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
+
+
+# ---- rung 1: identities ------------------------------------------------------------------------
+
+
+def reference(equation):
+    path = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
+    if not path.exists():
+        pytest.skip("the table of verified values is not beside this checkout")
+    values = json.loads(path.read_text())["values"]
+    found = [v for v in values if v["equation"] == equation]
+    assert found, equation
+    return found
+
+
+@pytest.mark.parametrize(
+    ("equation", "kind", "quantity"),
+    [
+        ("4.5", RelaxationPowerLaw, lambda m, x: m.relaxation(x["t_hat"] * TAU) / E0),
+        ("4.10/35", RetardationPowerLaw, lambda m, x: m.creep(x["t_hat"] * TAU) * E0),
+        (
+            "4.2/12 (E')",
+            RelaxationPowerLaw,
+            lambda m, x: m.complex_modulus(x["w_tau0"] / TAU).real / E0,
+        ),
+        (
+            "4.2/12 (E'')",
+            RelaxationPowerLaw,
+            lambda m, x: m.complex_modulus(x["w_tau0"] / TAU).imag / E0,
+        ),
+        (
+            "4.7/23 (C')",
+            RetardationPowerLaw,
+            lambda m, x: m.complex_compliance(x["w_tau0"] / TAU).real * E0,
+        ),
+        (
+            "4.7/23 (C'')",
+            RetardationPowerLaw,
+            lambda m, x: -m.complex_compliance(x["w_tau0"] / TAU).imag * E0,
+        ),
+    ],
+)
+def test_power_laws_have_the_verified_values(equation, kind, quantity):
+    for value in reference(equation):
+        x = value["inputs"]
+        solid = power_law(kind, exponent=x["n"], k=x["k"])
+        # the values carry 18 digits; the Bessel function of scipy 13 to 14
+        assert quantity(solid, x) == pytest.approx(value["value"], rel=1e-13, abs=0), x
+
+
+def test_silicone_has_the_verified_moduli():
+    pdms = RetardationPowerLaw(
+        rubbery_modulus=1.458e6,
+        glassy_modulus=3.089e9,
+        exponent=0.2207,
+        tau0=0.01876,
+        poisson_ratio=0.5,
+    )
+    for value in reference("4.27 with 4.7"):
+        modulus = pdms.complex_modulus(2 * np.pi * value["inputs"]["f_Hz"]) / 1e6
+        part = modulus.real if value["note"].startswith("PDMS E' ") else modulus.imag
+        assert part == pytest.approx(value["value"], rel=1e-13, abs=0), value["inputs"]
+
+
+def log_integral(function, *, first, last, step=0.08):
+    """Return the integral of a function that falls off at both ends of ln x."""
+    x = np.exp(np.arange(np.log(first), np.log(last), step))
+    return step * np.sum(function(x) * x)
+
+
+@every_solid
+def test_complex_modulus_is_the_transform_of_the_relaxation(solid):
+    # The Fourier integral tested with t -> exp(-t^2/2a^2) and t exp(-t^2/2a^2), whose cosine and
+    # sine transforms are Gaussian too: nothing oscillates, the trapezoidal rule in ln t is exact.
+    for a in TAU * np.array([1e-5, 1e-2, 0.3]):
+
+        def gauss(x, a=a):
+            return np.exp(-((x / a) ** 2) / 2)
+
+        def transient(t):
+            return solid.relaxation(t) - E0
+
+        def spectral(w, a=a):
+            return (solid.complex_modulus(w) - E0) * np.exp(-((a * w) ** 2) / 2)
+
+        late = dict(first=a * 1e-22, last=a * 12)
+        fast = dict(first=1e-80 / a, last=12 / a)
+        even = log_integral(lambda t: transient(t) * gauss(t), **late)
+        odd = log_integral(lambda t: transient(t) * t * gauss(t), **late)
+        loss = log_integral(lambda w: spectral(w).imag / w, **fast)
+        storage = log_integral(lambda w: spectral(w).real, **fast)
+        # cancellation of E' - E0 far below the frequency 1/a leaves 1e-16 E0 of each
+        assert_allclose(a * np.sqrt(2 / np.pi) * loss, even, rtol=1e-12, atol=1e-12 * E0 * a)
+        assert_allclose(
+            a**3 * np.sqrt(2 / np.pi) * storage, odd, rtol=1e-12, atol=1e-12 * E0 * a**2
+        )
+
+
+@every_solid
+def test_complex_compliance_is_the_transform_of_the_creep(solid):
+    for a in TAU * np.array([1e-5, 1e-2, 0.3]):
+        even = log_integral(
+            lambda t, a=a: (1 / E0 - solid.creep(t)) * np.exp(-((t / a) ** 2) / 2),
+            first=a * 1e-22,
+            last=a * 12,
+        )
+        loss = log_integral(
+            lambda w, a=a: -solid.complex_compliance(w).imag / w * np.exp(-((a * w) ** 2) / 2),
+            first=1e-80 / a,
+            last=12 / a,
+        )
+        assert_allclose(a * np.sqrt(2 / np.pi) * loss, even, rtol=1e-12, atol=1e-12 * a / E0)
+
+
+@every_solid
+def test_compliance_is_the_reciprocal_of_the_modulus(solid):
+    omega = 10.0 ** np.arange(-13, 13) / TAU
+    product = solid.complex_modulus(omega) * solid.complex_compliance(omega)
+    assert_allclose(product, 1, rtol=0, atol=1e-14)
+
+
+@every_solid
+def test_creep_and_relaxation_convolve_to_time(solid):
+    # int_0^t R(t - s) C(s) ds = t, with s = t/(1 + exp(-x)), which resolves both ends
+    x = np.arange(-60, 60, 0.1)
+    early, late = 1 / (1 + np.exp(-x)), 1 / (1 + np.exp(x))
+    for t in TAU * np.array([1e-12, 1e-6, 1e-2, 1, 1e2]):
+        integrand = solid.relaxation(t * late) * solid.creep(t * early) * early * late
+        assert 0.1 * np.sum(integrand) == pytest.approx(1, rel=1e-12)
+
+
+@every_solid
+def test_creep_and_relaxation_run_between_glassy_and_rubbery(solid):
+    t = np.concatenate(([0], TAU * 10.0 ** np.arange(-22, 4, 0.5), [np.inf]))
+    R, C = solid.relaxation(t), solid.creep(t)
+    assert_allclose([R[0], 1 / C[0]], solid.glassy_modulus, rtol=1e-13)
+    assert_allclose([R[-1], 1 / C[-1]], E0, rtol=1e-13)
+    assert np.all(np.diff(R) <= 1e-13 * R[1:]) and np.all(np.diff(C) >= -1e-13 * C[1:])
+    assert np.all(R * C <= 1 + 1e-13)
+
+
+@every_solid
+def test_complex_functions_run_between_rubbery_and_glassy(solid):
+    omega = np.concatenate(([0], 10.0 ** np.arange(-4, 25, 0.5) / TAU, [np.inf]))
+    E, C = solid.complex_modulus(omega), solid.complex_compliance(omega)
+    assert_allclose([E[0], 1 / C[0]], E0, rtol=1e-13)
+    assert_allclose([E[-1], 1 / C[-1]], solid.glassy_modulus, rtol=1e-13)
+    assert np.all(np.diff(E.real) >= -1e-13 * E.real[1:])
+    assert np.all(E.imag >= 0) and np.all(C.imag <= 0)
+
+
+@every_solid
+def test_reduced_twin_has_the_same_functions_in_its_own_units(solid):
+    twin, unit = solid.reduced(), solid.time_unit
+    assert (twin.rubbery_modulus, twin.time_unit, twin.contact_modulus) == (1, 1, 1)
+    assert twin.modulus_ratio == pytest.approx(solid.modulus_ratio, rel=1e-15)
+    t = 10.0 ** np.arange(-9, 3)
+    assert_allclose(twin.relaxation(t) * E0, solid.relaxation(t * unit), rtol=1e-13)
+    assert_allclose(twin.creep(t) / E0, solid.creep(t * unit), rtol=1e-13)
+    assert_allclose(twin.complex_modulus(t) * E0, solid.complex_modulus(t / unit), rtol=1e-13)
+    assert_allclose(twin.complex_compliance(t) / E0, solid.complex_compliance(t / unit), rtol=1e-13)
+
+
+def test_contact_modulus_is_that_of_plane_strain():
+    for solid in SOLIDS.values():
+        assert solid.contact_modulus == pytest.approx(E0 / (1 - 0.48**2), rel=1e-15)
+
+
+def test_standard_solid_creeps_two_thirds_in_its_retardation_time():
+    # k = 0.1: 1 - 0.9/e, and the relaxation is ten times faster
+    solid = standard_solid()
+    assert E0 * solid.creep(TAU) == pytest.approx(1 - 0.9 / np.e, rel=1e-15)
+    assert solid.relaxation_time == pytest.approx(0.1 * TAU, rel=1e-15)
+    assert solid.relaxation(solid.relaxation_time) == pytest.approx(E0 * (1 + 9 / np.e), rel=1e-14)
+
+
+def test_modes_creep_as_the_prony_series_they_were_taken_from():
+    # two branches by hand: E0 C(t) = 0.1 + 0.4 (1 - e^{-t/1 ms}) + 0.5 (1 - e^{-t/2 s})
+    modes = Modes(instantaneous=0.1, weights=(0.4, 0.5), times=(1e-3, 2.0), error=0.0)
+    by_hand = 1 - 0.4 * np.exp(-1.0) - 0.5 * np.exp(-1e-3 / 2)
+    assert modes.creep(1e-3) == pytest.approx(by_hand, rel=1e-15)
+    # and back: the same moduli from the relaxation of the same solid
+    moduli, times = reciprocal(0.1, np.array([0.4, 0.5]), np.array([1e-3, 2.0]))
+    prony = Prony(
+        rubbery_modulus=E0, branches=zip(E0 * moduli, times, strict=True), poisson_ratio=NU
+    )
+    t = 10.0 ** np.arange(-8, 3)
+    assert_allclose(E0 * prony.creep(t), modes.creep(t), rtol=1e-13)
+    assert prony.modulus_ratio == pytest.approx(0.1, rel=1e-13)
+
+
+def pole(branch):
+    return 10.0 ** branch[1]
+
+
+@settings(deadline=None, max_examples=50)
+@given(
+    st.lists(
+        st.tuples(st.floats(-8, 6), st.floats(-15, 10)),
+        min_size=1,
+        max_size=40,
+        unique_by=pole,
+    )
+)
+def test_interconversion_is_exact_for_any_branches(branches):
+    weights, poles = 10.0 ** np.array(sorted(branches, key=pole)).T
+    compliance, zeros = reciprocal(1.0, weights, poles)
+    assert np.all(compliance > 0) and np.all(zeros <= poles) and np.all(zeros[1:] >= poles[:-1])
+    s = 10.0 ** np.arange(-20, 15, 0.7)  # s C*(s) of the Laplace transform, all terms positive
+    modulus = 1 + s[:, None] / (s[:, None] + poles) @ weights
+    reciprocal_modulus = 1 / (1 + np.sum(weights)) + zeros / (s[:, None] + zeros) @ compliance
+    assert_allclose(modulus * reciprocal_modulus, 1, rtol=1e-12)  # 4e-14 is usual
+
+
+# ---- rung 2: limits ----------------------------------------------------------------------------
+
+
+def slope(x, y):
+    return np.polyfit(np.log(x), np.log(y), 1)[0]
+
+
+def test_prony_of_one_branch_is_the_standard_solid():
+    solid = standard_solid(k=1e-3)
+    branch = (solid.glassy_modulus - E0, solid.relaxation_time)
+    prony = Prony(rubbery_modulus=E0, branches=[branch], poisson_ratio=NU)
+    x = 10.0 ** np.arange(-10, 4, 0.5)
+    for method in ("relaxation", "creep"):
+        assert_allclose(getattr(prony, method)(x), getattr(solid, method)(x), rtol=1e-13)
+    for method in ("complex_modulus", "complex_compliance"):
+        assert_allclose(getattr(prony, method)(1 / x), getattr(solid, method)(1 / x), rtol=1e-13)
+    window = dict(shortest=1e-6, longest=1.0, tolerance=1e-9)
+    one, other = prony.retardation_modes(**window), solid.retardation_modes(**window)
+    assert one.weights == pytest.approx(other.weights, rel=1e-13)
+    assert one.times == pytest.approx(other.times, rel=1e-13)
+
+
+@pytest.mark.parametrize("n", [0.3, 1.0, 2.5])
+def test_prony_of_many_branches_tends_to_the_relaxation_power_law(n):
+    # the spectrum of Eq. 4.1 by the trapezoidal rule, written out
+    y = np.arange(-45 / n, 4, 0.15)
+    modulus = np.exp(n * y - np.exp(y))
+    solid = power_law(RelaxationPowerLaw, exponent=n, k=1e-3)
+    modulus *= (solid.glassy_modulus - E0) / np.sum(modulus)
+    prony = Prony(
+        rubbery_modulus=E0,
+        branches=zip(modulus, TAU * np.exp(-y), strict=True),
+        poisson_ratio=NU,
+    )
+    t = TAU * 10.0 ** np.arange(-6, 6.0)
+    assert_allclose(prony.relaxation(t), solid.relaxation(t), rtol=1e-12)
+    assert_allclose(prony.creep(t), solid.creep(t), rtol=1e-12)
+    assert_allclose(prony.complex_modulus(1 / t), solid.complex_modulus(1 / t), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "early", "power", "coefficient"),
+    [
+        # K_n for small argument: t^n Gamma(1 - n)/Gamma(1 + n) below 1, t/(n - 1) above
+        (0.2, 1e-6, -20, 0.2, 1.1642297137253 / 0.91816874239976),
+        (0.5, 0.1, -9, 0.5, 2.0),
+        (2.0, 1e-6, -9, 1.0, 1.0),
+        (3.0, 0.1, -7, 1.0, 0.5),
+    ],
+)
+def test_early_creep_is_a_power_of_time(n, k, early, power, coefficient):
+    solid = power_law(RetardationPowerLaw, exponent=n, k=k)
+    # early enough for the power, late enough that E0 C - k keeps 9 digits
+    t = 10.0 ** np.array([early, early + 1])
+    crept = (E0 * solid.creep(TAU * t) - k) / (1 - k)
+    assert slope(t, crept) == pytest.approx(power, abs=1e-3)
+    assert crept[0] / t[0] ** power == pytest.approx(coefficient, rel=1e-3)
+
+
+@pytest.mark.parametrize("n", [0.3, 1.0, 2.0])
+def test_late_relaxation_falls_with_the_exponent(n):
+    solid = power_law(RelaxationPowerLaw, exponent=n, k=1e-6)
+    t = np.array([1e4, 1e5, 1e6]) * TAU
+    assert slope(t, solid.relaxation(t) - E0) == pytest.approx(-n, abs=1e-3)
+
+
+@pytest.mark.parametrize("n", EXPONENTS)
+def test_slow_losses_of_the_retardation_form_are_those_of_a_dashpot(n):
+    # C'' -> (C0 - Cinf) n omega tau0: the mean retardation time is n tau0
+    solid = power_law(RetardationPowerLaw, exponent=n, k=0.1)
+    omega = np.array([1e-12, 1e-10, 1e-8]) / TAU
+    loss = -E0 * solid.complex_compliance(omega).imag
+    assert_allclose(loss, 0.9 * n * omega * TAU, rtol=1e-7)
+
+
+@pytest.mark.parametrize("kind", [*POWER_LAWS, "standard"])
+def test_solids_tend_to_the_elastic_one_as_the_moduli_meet(kind):
+    gap = np.array([1e-2, 1e-4, 1e-6])
+    away = []
+    for x in gap:
+        solid = (
+            standard_solid(k=1 - x)
+            if kind == "standard"
+            else power_law(kind, exponent=0.7, k=1 - x)
+        )
+        away.append([solid.relaxation(TAU) / E0 - 1, 1 - solid.creep(TAU / 50) * E0])
+    for distances in np.array(away).T:
+        assert slope(gap, distances) == pytest.approx(1, abs=2e-3)
+
+
+@pytest.mark.parametrize("kind", POWER_LAWS)
+def test_equal_moduli_are_elastic(kind):
+    solid = power_law(kind, exponent=0.7, k=1.0)
+    t = np.array([0, 1e-9, 1, np.inf])
+    assert_allclose(solid.relaxation(t), E0, rtol=1e-15)
+    assert_allclose(solid.creep(t), 1 / E0, rtol=1e-15)
+    assert_allclose(solid.complex_modulus(t), E0, rtol=1e-15)
+    modes = solid.retardation_modes(shortest=1e-6, longest=1.0, tolerance=1e-3)
+    assert (modes.instantaneous, modes.weights) == (1, ())
+
+
+power = st.floats(-6, 6)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.sampled_from(sorted(SOLIDS)), power, power, st.floats(-9, 3))
+def test_materials_do_not_depend_on_the_units(name, modulus, time, when):
+    old, M, T, t = SOLIDS[name], 10**modulus, 10**time, 10**when * TAU
+    scaled = dict(rubbery_modulus=old.rubbery_modulus * M)
+    if isinstance(old, Prony):
+        scaled["branches"] = [(E * M, tau * T) for E, tau in old.branches]
+    elif not isinstance(old, Elastic):
+        scaled |= dict(glassy_modulus=old.glassy_modulus * M, tau0=old.tau0 * T)
+    new = replace(old, **scaled)
+    assert new.relaxation(t * T) == pytest.approx(M * old.relaxation(t), rel=1e-12)
+    assert M * new.creep(t * T) == pytest.approx(old.creep(t), rel=1e-12)
+    for part in ("real", "imag"):
+        one = getattr(new.complex_modulus(1 / (t * T)), part)
+        other = getattr(old.complex_modulus(1 / t), part)
+        assert one == pytest.approx(M * other, rel=1e-12)
+    window = dict(shortest=1e-6 * TAU, longest=TAU)
+    one = new.retardation_modes(**{x: T * y for x, y in window.items()}, tolerance=1e-4)
+    other = old.retardation_modes(**window, tolerance=1e-4)
+    assert one.weights == pytest.approx(other.weights, rel=1e-9)
+    assert np.array(one.times) / T == pytest.approx(other.times, rel=1e-9)
+
+
+# ---- rung 3: orders ----------------------------------------------------------------------------
+
+
+def test_error_of_the_spectrum_nodes_falls_exponentially_with_their_distance():
+    # The first harmonic of the trapezoidal rule, 2 |Gamma(n + i s)|/Gamma(n) with s = 2 pi/h, is a
+    # wave in ln(1 + t) on R - E0; for n = 1/2 it is 2/sqrt(cosh(2 pi^2/h)), that is exp(-pi^2/h).
+    n, t = 0.5, np.expm1(np.arange(0, 6, 0.002))
+    h = np.array([1.2, 0.9, 0.7, 0.55, 0.45])
+    amplitude = []
+    for step in h:
+        weights, rate = nodes(n, smallest=1e-9, step=step)
+        wave = np.sqrt(1 + t) * (np.exp(-t[:, None] * rate) @ weights)  # Eq. 4.4
+        amplitude.append((np.max(wave) - np.min(wave)) / 2)
+    assert_allclose(amplitude, 2 / np.sqrt(np.cosh(2 * np.pi**2 / h)), rtol=0.01)
+    rate = np.polyfit(1 / h, np.log(amplitude), 1)[0]
+    assert rate == pytest.approx(-(np.pi**2), abs=0.1), amplitude
+
+
+WINDOWS = [(1e-9, 1e3), (1e-12, 1.0), (1e-12, 1e-6), (1e-3, 1e3), (10.0, 1e6), (1e-15, 1e10)]
+
+
+@pytest.mark.parametrize("kind", POWER_LAWS)
+@pytest.mark.parametrize("n", [0.05, 0.2, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("k", [0.5, 1e-4])
+def test_modes_keep_the_stated_error_over_their_window(kind, n, k):
+    solid = power_law(kind, exponent=n, k=k)
+    for shortest, longest in WINDOWS:
+        t = TAU * np.geomspace(shortest, longest, 1500)
+        exact = E0 * solid.creep(t)
+        for tolerance in (1e-2, 1e-4, 1e-7):
+            modes = solid.retardation_modes(
+                shortest=TAU * shortest, longest=TAU * longest, tolerance=tolerance
+            )
+            missed = np.max(np.abs(modes.creep(t) - exact))
+            assert missed <= modes.error <= tolerance, (shortest, longest, tolerance)
+            assert modes.instantaneous + sum(modes.weights) == pytest.approx(1, abs=1e-13)
+            assert np.all(np.diff(modes.times) > 0) and min(modes.weights, default=1) > 0
+            decades = np.log10(longest / shortest)
+            assert len(modes.times) <= 6 - np.log10(tolerance) + decades * (
+                1 - 0.5 * np.log10(tolerance)
+            )
+
+
+@pytest.mark.parametrize(
+    ("n", "window", "at_most"),
+    [
+        # non-negative least squares, the best there is, needs 24, 27 and 14 for these 12 decades
+        (0.2, (1e-9, 1e3), 28),
+        (0.6, (1e-9, 1e3), 28),
+        (1.6, (1e-9, 1e3), 16),
+        (0.2, (1e-12, 1e-6), 15),
+        (0.6, (1e-12, 1e-6), 5),
+    ],
+)
+def test_modes_are_few_and_their_stated_error_is_near_the_true_one(n, window, at_most):
+    solid = power_law(RetardationPowerLaw, exponent=n, k=1e-3)
+    t = TAU * np.geomspace(*window, 3000)
+    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-4)
+    assert len(modes.times) <= at_most
+    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) > modes.error / 4
+
+
+@pytest.mark.parametrize("name", ["standard", "prony"])
+def test_modes_of_branches_are_exact_inside_the_window_and_pruned_outside(name):
+    solid = SOLIDS[name]
+    t = 10.0 ** np.arange(-13, 6, 0.01)
+    modes = solid.retardation_modes(shortest=t[0], longest=t[-1], tolerance=1e-9)
+    assert len(modes.times) == len(getattr(solid, "branches", [1]))
+    assert np.max(np.abs(modes.creep(t) - E0 * solid.creep(t))) <= modes.error < 1e-12
+    for shortest, longest in [(1e-4, 1e6), (1e-10, 1e-7), (1e-4, 1e-2), (10.0, 1e3)]:
+        inside = t[(t >= shortest) & (t <= longest)]
+        for tolerance in (1e-2, 1e-5):
+            few = solid.retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
+            missed = np.max(np.abs(few.creep(inside) - E0 * solid.creep(inside)))
+            assert missed <= few.error <= tolerance
+            assert few.instantaneous + sum(few.weights) == pytest.approx(1, abs=1e-13)
+    assert solid.retardation_modes(shortest=10.0, longest=1e3, tolerance=1e-5).weights == ()
+    early = solid.retardation_modes(shortest=1e-12, longest=1e-9, tolerance=1e-3)
+    assert len(early.times) == 1
+
+
+def test_error_of_merged_slow_modes_is_second_order_in_the_window():
+    # same weight and same first rate of creep: what is lost is of the order (longest/time)^2
+    longest = 0.02 * 0.5 ** np.arange(5)
+    modes = [
+        compressed(
+            0.1,
+            np.array([0.4, 0.5]),
+            np.array([1.0, 3.0]),
+            shortest=1e-4,
+            longest=x,
+            tolerance=1e-3,
+            error=0.0,
+        )
+        for x in longest
+    ]
+    assert {len(m.times) for m in modes} == {1}
+    assert slope(longest, [m.error for m in modes]) == pytest.approx(2, abs=0.1)
+
+
+# ---- rung 4: peers -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+def test_creep_agrees_with_a_bessel_function_of_many_digits(n):
+    k = 1e-6
+    solid = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
+    with mpmath.workdps(120):
+        for t in 10.0 ** np.arange(-25, 4, 3):
+            order, x = mpmath.mpf(n), mpmath.mpf(t)
+            bessel = x ** (order / 2) * mpmath.besselk(order, 2 * mpmath.sqrt(x))
+            k_exact = mpmath.mpf(solid.rubbery_modulus) / mpmath.mpf(solid.glassy_modulus)
+            exact = 1 - 2 * (1 - k_exact) / mpmath.gamma(order) * bessel
+            assert E0 * solid.creep(t) == pytest.approx(float(exact), rel=1e-13)
+
+
+@pytest.mark.parametrize("n", [*EXPONENTS, 0.01, 1 + 1e-6])
+def test_complex_functions_agree_with_an_exponential_integral_of_many_digits(n):
+    relaxing = power_law(RelaxationPowerLaw, exponent=n, k=0.5, tau0=1.0)
+    creeping = power_law(RetardationPowerLaw, exponent=n, k=0.5, tau0=1.0)
+    with mpmath.workdps(50):
+        for x in 10.0 ** np.arange(-25, 26, 5):
+            s = mpmath.mpc(0, x)
+            phi = s * mpmath.exp(s) * mpmath.expint(n, s)  # Eq. 4.2
+            E = relaxing.complex_modulus(x) / E0
+            C = creeping.complex_compliance(1 / x) * E0
+            assert E.imag == pytest.approx(float(phi.imag), rel=1e-13, abs=0)
+            assert C.imag == pytest.approx(-float(phi.imag) / 2, rel=1e-13, abs=0)
+            assert E.real == pytest.approx(1 + float(phi.real), rel=1e-14)
+            assert C.real == pytest.approx(0.5 + float(phi.real) / 2, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "t"),
+    [
+        (0.2, 1e-6, 1e-20),
+        (0.5, 1e-6, 1e-20),
+        (0.2, 1e-6, 1e-8),
+        (0.2, 1e-6, 1e20),
+        (1.0, 0.1, 1.0),
+        (3.0, 1e-4, 1e-3),
+    ],
+)
+def test_interconversion_agrees_with_an_inverse_laplace_transform_of_many_digits(n, k, t):
+    creeping = power_law(RetardationPowerLaw, exponent=n, k=k, tau0=1.0)
+    relaxing = power_law(RelaxationPowerLaw, exponent=n, k=k, tau0=1.0)
+    with mpmath.workdps(30):
+        ratio = mpmath.mpf(creeping.rubbery_modulus) / mpmath.mpf(creeping.glassy_modulus)
+
+        def phi(s):
+            return s * mpmath.exp(s) * mpmath.expint(n, s)
+
+        R = mpmath.invertlaplace(lambda s: 1 / s / (ratio + (1 - ratio) * phi(1 / s)), t)
+        C = mpmath.invertlaplace(lambda s: 1 / s / (1 + (1 / ratio - 1) * phi(s)), t)
+    assert creeping.relaxation(t) / E0 == pytest.approx(float(R), rel=1e-12)
+    assert relaxing.creep(t) * E0 == pytest.approx(float(C), rel=1e-12)

@@ -1,0 +1,366 @@
+import json
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import viscotack
+from synthetic import jkr_detachment, jkr_result
+from viscotack import bem
+from viscotack.cli import main
+from viscotack.flags import problem_from_flags
+from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.problem import Groups, Problem
+from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.result import load
+
+SPHERE = ["simulate", "sphere"]
+ISSUE = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73 --rate 316.23".split()
+ELASTIC = "--material elastic --tabor 3.24 --preload 20".split()
+
+
+@pytest.fixture
+def fake(monkeypatch):
+    """Replace the simulation by a ready result; returns what it was asked for."""
+    asked = {"result": jkr_detachment()}
+
+    def solve(problem, **options):
+        asked.update(options, problem=problem)
+        return viscotack.Result(
+            **{
+                **{f: getattr(asked["result"], f) for f in asked["result"].__dataclass_fields__},
+                "problem": problem,
+            }
+        )
+
+    monkeypatch.setattr(bem, "solve", solve)
+    return asked
+
+
+def call(arguments):
+    """Return the exit status of a command."""
+    with pytest.raises(SystemExit) as caught:
+        main([str(a) for a in arguments])
+    return caught.value.code or 0
+
+
+def wrong(arguments, capsys):
+    """Return the message of a refused command: one paragraph, nothing on standard output."""
+    assert call(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "Traceback" not in err
+    return err
+
+
+def test_the_five_numbers_are_the_power_law(fake, capsys):
+    assert call([*SPHERE, *ISSUE]) == 0
+    expected = Groups(
+        tabor=3.24,
+        material=RetardationPowerLaw(
+            rubbery_modulus=1, glassy_modulus=10, exponent=0.8, tau0=1, poisson_ratio=0
+        ),
+        start=AtDepth(73),
+        rate=316.23,
+    )
+    assert fake["problem"] == expected
+    assert fake["accuracy"] == 2e-3
+    assert fake["until"] == "detached"
+    assert fake["throw"] is False
+    out = capsys.readouterr().out
+    assert "jumped at depth" in out
+    assert "pull-off force" in out and "1.5 pi R dg0" in out
+
+
+@pytest.mark.parametrize(
+    ("flags", "start"),
+    [
+        (["--preload", "-1.5"], AtDepth(-1.5)),
+        (["--preload-force", "2.5"], AtForce(2.5)),
+        (["--preload-radius", "3.61"], AtRadius(3.61)),
+    ],
+)
+def test_a_start_is_by_depth_force_or_radius(flags, start, fake):
+    call([*SPHERE, "--material", "elastic", "--tabor", "2", *flags])
+    assert fake["problem"].start == start
+    assert fake["problem"].material == Elastic(rubbery_modulus=1, poisson_ratio=0)
+
+
+def test_the_standard_solid_needs_no_exponent(fake):
+    call([*SPHERE, *"--material sls --tabor 2 --modulus-ratio 0.25 --preload 5 --rate 3".split()])
+    assert fake["problem"].material == StandardSolid(
+        rubbery_modulus=1, glassy_modulus=4, tau0=1, poisson_ratio=0
+    )
+
+
+def test_a_prony_file_sets_the_unit_of_time(fake, tmp_path):
+    path = tmp_path / "series.csv"
+    path.write_text("modulus_ratio,relaxation_time_ms\n5,20\n4,300\n")
+    flags = ["--material", f"prony:{path}", *"--tabor 2 --preload 5 --rate 3".split()]
+    call([*SPHERE, *flags])
+    assert fake["problem"].material == Prony(
+        rubbery_modulus=1, branches=((5, 20), (4, 300)), poisson_ratio=0
+    )
+    assert fake["problem"].rate == 3
+    scales = ["--radius", "5 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 um"]
+    call([*SPHERE, *flags, *scales, "--poisson-ratio", "0.5"])
+    problem = fake["problem"]
+    assert problem.protocol.speed == pytest.approx(3 * 1e-6 / 1e-3, rel=1e-12)
+    assert problem.material.branches[1] == pytest.approx((4 * 1.5e6, 0.3), rel=1e-12)
+
+
+SCALES = {
+    "--radius": "5.19 mm",
+    "--contact-modulus": "1.944 MPa",
+    "--work-of-adhesion": "0.1523 J/m2",
+    "--tau0": "18.76 ms",
+    "--poisson-ratio": "0.5",
+}
+
+
+def scales(**changes):
+    chosen = SCALES | {f"--{k.replace('_', '-')}": v for k, v in changes.items()}
+    return [x for pair in chosen.items() if pair[1] is not None for x in pair]
+
+
+def test_scales_with_units_turn_groups_into_si(fake, capsys):
+    assert call([*SPHERE, *ISSUE, *scales(), "--json"]) == 0
+    problem = fake["problem"]
+    assert isinstance(problem, Problem)
+    assert problem.geometry.radius == 5.19e-3
+    assert problem.material.tau0 == pytest.approx(0.01876, rel=1e-12)
+    assert problem.material.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
+    assert problem.tabor == pytest.approx(3.24, rel=1e-12)
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["pull_off_force_N"] == pytest.approx(3.7248e-3, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ("", "--modulus-ratio and --exponent missing for --material power-law"),
+        ("--material elastic --preload 3", "--tabor missing"),
+        ("--material sls --tabor 2 --modulus-ratio 0.1 --preload 3", "--rate missing"),
+        ("--material elastic --tabor 2", "exactly one of --preload, .* got none"),
+        (
+            "--material elastic --tabor 2 --preload 3 --preload-force 1",
+            "got --preload and --preload-force",
+        ),
+        ("--material elastic --tabor 2 --preload 3 --exponent 1", "--exponent does not go with"),
+        ("--material rubber --tabor 2 --preload 3", "--material must be power-law, elastic, sls"),
+        ("--material prony --tabor 2 --preload 3", "or prony:FILE, got 'prony'"),
+        ("--material elastic:x --tabor 2 --preload 3", "--material must be"),
+        ("--material prony:no.csv --tabor 2 --preload 3 --rate 1", "there is no file no.csv"),
+        ("--material elastic --tabor -2 --preload 3", "--tabor must be positive, got -2.0$"),
+        ("--material elastic --tabor nan --preload 3", "--tabor must be finite, got nan"),
+        ("--material elastic --tabor 2 --preload nan", "depth must be finite"),
+        ("--material elastic --tabor 2 --preload-radius 0", "contact_radius must be positive"),
+        (
+            "--tabor 2 --modulus-ratio 10 --exponent 1 --preload 3 --rate 1",
+            "rubbery over the glassy modulus, in .0, 1., got 10; perhaps 0.1 is meant",
+        ),
+        (
+            "--tabor 2 --modulus-ratio 0 --exponent 1 --preload 3 --rate 1",
+            "--modulus-ratio must be positive",
+        ),
+        (
+            "--tabor 2 --modulus-ratio 0.1 --exponent 0 --preload 3 --rate 1",
+            "--exponent must be positive",
+        ),
+        (
+            "--tabor 2 --modulus-ratio 0.1 --exponent 1 --preload 3 --rate 0",
+            "--rate must be positive",
+        ),
+        ("nothing.toml", "there is no file nothing.toml"),
+        ("nothing.toml --tabor 2 --rate 3", "states the whole problem; leave out --tabor, --rate"),
+        ("--material elastic --tabor 2 --preload 3 --plot x.docx", "its ending must be one of"),
+        ("--material elastic --tabor 2 --preload 3 --csv /nowhere/x.csv", "no folder /nowhere"),
+        ("--material elastic --tabor 2 --preload 3 --save /nowhere/x.npz", "no folder /nowhere"),
+        ("--tabor two", "tabor"),
+        ("--until never", "until"),
+        ("--colour red", "--colour"),
+    ],
+)
+def test_wrong_flags_are_refused_in_words(flags, words, fake, capsys):
+    message = wrong([*SPHERE, *flags.split()], capsys)
+    assert re.search(words, message.strip()), message
+    assert "problem" not in fake
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"radius": None}, "--radius missing to go to SI"),
+        ({"tau0": None}, "--tau0 missing to go to SI"),
+        ({"work_of_adhesion": None}, "--equilibrium-gap or --work-of-adhesion"),
+        ({"equilibrium_gap": "1 um"}, "not both"),
+        ({"radius": "5.19"}, "--radius: '5.19' has no unit"),
+        ({"radius": "5.19 kg"}, '--radius: .* something in m; for example --radius "5.19 mm"'),
+        ({"radius": "5.19 um"}, "beyond small strain|too long"),
+        ({"poisson_ratio": "0.7"}, "poisson_ratio must lie between 0 and 0.5"),
+    ],
+)
+def test_wrong_scales_are_refused_in_words(changes, words, fake, capsys):
+    message = wrong([*SPHERE, *ISSUE, *scales(**changes)], capsys)
+    assert re.search(words, message), message
+
+
+def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
+    assert call([*SPHERE, *ELASTIC, *scales(tau0=None)]) == 0
+    assert isinstance(fake["problem"].material, Elastic)
+    assert fake["problem"].material.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
+    capsys.readouterr()
+    assert "--tau0 is not needed" in wrong([*SPHERE, *ELASTIC, *scales()], capsys)
+
+
+def test_a_start_that_does_not_exist_is_wrong_input(monkeypatch, capsys):
+    def solve(problem, **options):
+        raise ValueError("no relaxed contact exists at a depth of -300 h0")
+
+    monkeypatch.setattr(bem, "solve", solve)
+    assert "no relaxed contact exists" in wrong([*SPHERE, *ELASTIC], capsys)
+
+
+def test_json_is_one_object_and_nothing_else(fake, capsys, tmp_path):
+    files = [
+        "--plot",
+        tmp_path / "f.png",
+        "--csv",
+        tmp_path / "f.csv",
+        "--save",
+        tmp_path / "f.npz",
+    ]
+    assert call([*SPHERE, *ISSUE, "--json", *files]) == 0
+    out, err = capsys.readouterr()
+    answer = json.loads(out)
+    promised = (
+        "pull_off_force work_to_pull_off pull_off_depth contact_radius_at_pull_off "
+        "crack_speed_at_pull_off status error_estimate energy_residual wall_time_s"
+    )
+    assert set(promised.split()) <= answer.keys()
+    assert answer["pull_off_force"] == pytest.approx(1, rel=1e-5)
+    for name in ("f.png", "f.csv", "f.npz"):
+        assert name in err
+        assert (tmp_path / name).stat().st_size > 1000
+
+
+def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
+    fake["result"] = jkr_result(status="stopped because the step became too small")
+    assert call([*SPHERE, *ELASTIC, "--json"]) == 1
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["status"] == "stopped because the step became too small"
+    assert answer["pull_off_force"] is None
+    assert call([*SPHERE, *ELASTIC]) == 1
+    assert "stopped because" in capsys.readouterr().out
+
+
+def test_options_of_the_run_are_passed_on(fake):
+    assert call([*SPHERE, *ELASTIC, "--until", "pull-off", "--accuracy", "1e-2"]) == 0
+    assert fake["until"] == "pull-off"
+    assert fake["accuracy"] == 1e-2
+    assert fake["progress"] is None  # nobody looks at the standard error of a test
+
+
+def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
+    path = tmp_path / "run.npz"
+    call([*SPHERE, *ISSUE, "--json", "--save", path])
+    first = json.loads(capsys.readouterr().out)
+    assert call(["show", path, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == first
+    assert call(["show", path, "--csv", tmp_path / "again.csv"]) == 0
+    table = np.genfromtxt(tmp_path / "again.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(table["force"], load(path).force)
+    assert "pull-off force" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("kind", ["force", "radius", "overview"])
+def test_every_kind_of_plot_is_drawn(kind, fake, tmp_path, monkeypatch):
+    from viscotack import plot
+
+    drawn = []
+    monkeypatch.setattr(plot, "save_figure", lambda figure, path: drawn.append((figure, path)))
+    assert call([*SPHERE, *ELASTIC, "--plot", tmp_path / "f.svg", "--plot-kind", kind]) == 0
+    ((figure, path),) = drawn
+    assert path == tmp_path / "f.svg"
+    first = figure.axes[0].get_xlabel().split(" / ")[0]
+    assert (len(figure.axes), first) == {
+        "force": (1, "depth"),
+        "radius": (1, "contact radius"),
+        "overview": (4, "depth"),
+    }[kind]
+
+
+def test_showing_what_is_no_result_is_wrong_input(tmp_path, capsys):
+    (tmp_path / "x.npz").write_text("hello")
+    assert "not a readable result" in wrong(["show", tmp_path / "x.npz"], capsys)
+    assert "there is no file" in wrong(["show", tmp_path / "y.npz"], capsys)
+
+
+def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
+    from test_case_file import LENS, POWER_LAW
+
+    path = tmp_path / "lens.toml"
+    path.write_text(POWER_LAW)
+    assert call([*SPHERE, path]) == 0
+    assert fake["problem"] == LENS
+    out = capsys.readouterr().out
+    assert "= 0.003725 N" in out
+    path.write_text(POWER_LAW.replace("5.19 mm", "5.19"))
+    assert "[sphere] radius: '5.19' has no unit" in wrong([*SPHERE, path], capsys)
+
+
+def test_help_is_for_strangers(capsys):
+    assert call([*SPHERE, "--help"]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    for words in (
+        "Pull a rigid sphere off",
+        "--tabor 3.24 --modulus-ratio 0.1",
+        "1.5 pi R dg0, positive in compression",
+        "(pi R^2 dg0/E0*)^(1/3)",
+        "'modulus_ratio,relaxation_time_s'",
+        "The unit of time",
+        "docs/input.md",
+    ):
+        assert words in out, words
+    assert call(["--help"]) == 0
+    assert "simulate" in capsys.readouterr().out
+
+
+def test_version_is_printed_by_the_installed_command():
+    done = subprocess.run(
+        [sys.executable, "-m", "viscotack", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"viscotack {viscotack.__version__}\n"
+    assert done.stderr == ""
+
+
+def test_flags_that_nobody_gave_are_none():
+    given = {"tabor": 2.0, "material": "elastic", "preload": 3.0, "rate": None, "exponent": None}
+    assert problem_from_flags(given).groups().rate == 1
+
+
+def test_a_true_simulation_from_a_terminal(tmp_path):
+    """Elastic pull-off at mu = 1: 1.1137, an independent solver's value to 1e-4."""
+    pty = pytest.importorskip("pty", reason="no terminals on this system")
+    flags = "--material elastic --tabor 1 --preload 5 --until pull-off --json".split()
+    terminal, screen = pty.openpty()
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "viscotack", *SPHERE, *flags],
+            stdout=subprocess.PIPE,
+            stderr=screen,
+            env=os.environ | {"TERM": "xterm"},
+            check=True,
+        )
+        seen = os.read(terminal, 100_000).decode()
+    finally:
+        os.close(screen)
+        os.close(terminal)
+    assert "pulling" in seen
+    answer = json.loads(done.stdout)
+    assert answer["pull_off_force"] == pytest.approx(1.1137, rel=2e-3)
+    assert answer["status"].startswith("still in contact")
+    assert answer["wall_time_s"] > 0

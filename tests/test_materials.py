@@ -1,0 +1,190 @@
+"""Behaviour of the materials: what they refuse, and shapes of what they return."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from viscotack.materials import (
+    Elastic,
+    Modes,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+
+ELASTIC = dict(rubbery_modulus=1e6, poisson_ratio=0.5)
+STANDARD = dict(ELASTIC, glassy_modulus=1e7, tau0=1e-3)
+POWER_LAW = dict(STANDARD, exponent=0.6)
+PRONY = dict(ELASTIC, branches=[(4e6, 1.0), (5e6, 1e-3)])
+CASES = [
+    (Elastic, ELASTIC),
+    (StandardSolid, STANDARD),
+    (Prony, PRONY),
+    (RetardationPowerLaw, POWER_LAW),
+    (RelaxationPowerLaw, POWER_LAW),
+]
+every_class = pytest.mark.parametrize(
+    ("kind", "numbers"), CASES, ids=[c.__name__ for c, _ in CASES]
+)
+METHODS = ["relaxation", "creep", "complex_modulus", "complex_compliance"]
+
+
+@every_class
+@pytest.mark.parametrize("wrong", [0, -1e6, math.nan, math.inf, None, "1 MPa", [1e6, 2e6]])
+def test_moduli_must_be_positive_numbers(kind, numbers, wrong):
+    with pytest.raises(ValueError, match="rubbery_modulus must be a positive, finite number"):
+        kind(**(numbers | dict(rubbery_modulus=wrong)))
+
+
+@every_class
+@pytest.mark.parametrize("wrong", [-0.1, 0.51, math.nan, "0.5"])
+def test_poisson_ratio_lies_between_0_and_a_half(kind, numbers, wrong):
+    with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
+        kind(**(numbers | dict(poisson_ratio=wrong)))
+
+
+@pytest.mark.parametrize("kind", [StandardSolid, RetardationPowerLaw, RelaxationPowerLaw])
+def test_glassy_modulus_and_time_are_checked(kind):
+    numbers = STANDARD if kind is StandardSolid else POWER_LAW
+    with pytest.raises(ValueError, match="999999 Pa < 1e.06 Pa; perhaps the two are exchanged"):
+        kind(**(numbers | dict(glassy_modulus=999999)))
+    with pytest.raises(ValueError, match="tau0 must be a positive, finite number .s., got -0.1"):
+        kind(**(numbers | dict(tau0=-0.1)))
+    with pytest.raises(ValueError, match="glassy_modulus must be a positive"):
+        kind(**(numbers | dict(glassy_modulus=math.nan)))
+
+
+@pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
+def test_exponent_is_positive_and_at_most_3(kind):
+    for wrong in (0, -0.2, math.nan):
+        with pytest.raises(ValueError, match="exponent must be a positive"):
+            kind(**(POWER_LAW | dict(exponent=wrong)))
+    with pytest.raises(ValueError, match="exponent must lie in .0, 3., got 3.1; .*StandardSolid"):
+        kind(**(POWER_LAW | dict(exponent=3.1)))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        ([], "branches must not be empty; .*Elastic"),
+        (5e6, "branches must be pairs of numbers"),
+        ([5e6, 1e-3], "branches must be pairs of numbers"),
+        ([(5e6, 1e-3, 1.0)], "each branch must be a pair"),
+        ([(5e6, 0.0)], "the relaxation time of a branch must be a positive"),
+        ([(-5e6, 1.0)], "the modulus of a branch must be a positive"),
+        ([(5e6, math.nan)], "the relaxation time of a branch must be a positive"),
+        ([(5e6, 1.0), (4e6, 2.0), (3e6, 1.0)], "must differ .* add the moduli of the two"),
+    ],
+)
+def test_branches_are_pairs_of_positive_numbers_with_different_times(wrong, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        Prony(**(ELASTIC | dict(branches=wrong)))
+
+
+def test_branches_are_sorted_by_time_and_stored_as_floats():
+    one = Prony(**PRONY)
+    assert one.branches == ((5e6, 1e-3), (4e6, 1.0))
+    assert one == Prony(**(ELASTIC | dict(branches=np.array([[5e6, 1e-3], [4e6, 1]]))))
+    assert one.time_unit == 1.0 and one.glassy_modulus == 1e7
+    assert all(type(x) is float for branch in one.branches for x in branch)
+
+
+@every_class
+def test_materials_are_values(kind, numbers):
+    one = kind(**numbers)
+    assert one == kind(**(numbers | dict(rubbery_modulus=1000000, poisson_ratio=np.float64(0.5))))
+    assert len({one, kind(**numbers)}) == 1 and eval(repr(one)) == one
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        one.rubbery_modulus = 2e6
+    with pytest.raises(TypeError):
+        kind(1e6)
+    assert one.reduced() == one.reduced().reduced()
+    assert type(one.reduced()) is kind
+
+
+@every_class
+@pytest.mark.parametrize("method", METHODS)
+def test_numbers_give_numbers_and_arrays_give_arrays(kind, numbers, method):
+    function = getattr(kind(**numbers), method)
+    number = complex if method.startswith("complex") else float
+    for one in (1, 1e-3, np.float64(0.2), np.array(0.2), 0, math.inf):
+        assert type(function(one)) is number
+    many = [[1e-9, 0.0, 1.0], [math.inf, 3.0, 1e3]]
+    values = function(many)
+    assert isinstance(values, np.ndarray) and values.shape == (2, 3)
+    assert values.dtype == number
+    for i, j in np.ndindex(2, 3):
+        assert function(many[i][j]) == pytest.approx(values[i, j], rel=1e-13)
+    assert function([]).shape == (0,)
+    assert function(np.ones((2, 0, 3))).shape == (2, 0, 3)
+
+
+@every_class
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("wrong", [-1e-9, math.nan, -math.inf, [1.0, -2.0]])
+def test_negative_times_and_frequencies_are_refused(kind, numbers, method, wrong):
+    name = "omega" if method.startswith("complex") else "time"
+    with pytest.raises(ValueError, match=f"{name} must not be negative or nan, got"):
+        getattr(kind(**numbers), method)(wrong)
+
+
+@every_class
+def test_long_arrays_give_the_same_values(kind, numbers):
+    solid = kind(**numbers)
+    t = np.geomspace(1e-6, 1e2, 5001)
+    for method in METHODS:
+        function = getattr(solid, method)
+        assert function(t)[::1000] == pytest.approx(function(t[::1000]), rel=1e-13)
+
+
+@every_class
+def test_extreme_times_and_frequencies_do_not_overflow(kind, numbers):
+    solid = kind(**numbers)
+    for x in (1e-290, 1e-100, 1e100, 1e250):
+        for method in METHODS:
+            assert np.isfinite(getattr(solid, method)(x))
+    assert solid.relaxation(1e-290) == pytest.approx(solid.glassy_modulus, rel=1e-9)
+    assert solid.creep(1e250) == pytest.approx(1e-6, rel=1e-12)
+
+
+@every_class
+@pytest.mark.parametrize(
+    ("wrong", "sentence"),
+    [
+        (dict(shortest=0), "shortest must be a positive"),
+        (dict(longest=math.inf), "longest must be a positive, finite"),
+        (dict(longest=1e-7), "longest must not be below shortest, got 1e-07 s < 1e-06 s"),
+        (dict(tolerance=0), "tolerance must be a positive"),
+        (dict(tolerance=1.5), "tolerance is a part of the rubbery compliance"),
+    ],
+)
+def test_windows_of_modes_are_checked(kind, numbers, wrong, sentence):
+    window = dict(shortest=1e-6, longest=1.0, tolerance=1e-3)
+    with pytest.raises(ValueError, match=sentence):
+        kind(**numbers).retardation_modes(**(window | wrong))
+
+
+@every_class
+def test_modes_hold_floats_in_tuples(kind, numbers):
+    modes = kind(**numbers).retardation_modes(shortest=1e-6, longest=1.0, tolerance=1e-3)
+    assert all(type(x) is float for x in (*modes.weights, *modes.times, modes.error))
+    assert hash(modes) == hash(dataclasses.replace(modes))
+    assert type(modes.creep(0.5)) is float and modes.creep([[0.1, 1.0]]).shape == (1, 2)
+    assert modes.creep(0) == modes.instantaneous and modes.creep(math.inf) == pytest.approx(1)
+
+
+@every_class
+def test_one_instant_is_a_window_too(kind, numbers):
+    solid = kind(**numbers)
+    modes = solid.retardation_modes(shortest=1e-4, longest=1e-4, tolerance=1e-3)
+    assert abs(modes.creep(1e-4) - 1e6 * solid.creep(1e-4)) <= modes.error <= 1e-3
+
+
+def test_modes_need_a_time_for_each_weight():
+    with pytest.raises(ValueError, match="got 2 weights and 1 times"):
+        Modes(instantaneous=0.1, weights=(0.4, 0.5), times=(1.0,), error=0.0)
+    with pytest.raises(ValueError, match="time must not be negative"):
+        Modes(instantaneous=1.0, weights=(), times=(), error=0.0).creep(-1.0)

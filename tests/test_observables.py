@@ -1,0 +1,268 @@
+import json
+
+import numpy as np
+import pytest
+
+import synthetic
+from synthetic import (
+    DISPLACEMENT,
+    GROUPS,
+    PULL_OFF_DEPTH,
+    PULL_OFF_RADIUS,
+    RATE,
+    SI,
+    WORK_TO_PULL_OFF,
+    jkr_crack_speed,
+    jkr_detachment,
+    jkr_force,
+    jkr_result,
+)
+from viscotack.observables import (
+    contact_radius_at_pull_off,
+    crack_speed_at_pull_off,
+    pull_off,
+    pull_off_depth,
+    pull_off_force,
+    summary,
+    work_of_separation,
+    work_to_pull_off,
+)
+from viscotack.result import Event, Result
+
+# Observable, its exact value for a JKR retraction, and its order in the steps.
+EXACT = [
+    (pull_off_force, 1.0, 4),
+    (pull_off_depth, PULL_OFF_DEPTH, 3),
+    (contact_radius_at_pull_off, PULL_OFF_RADIUS, 2),
+    (crack_speed_at_pull_off, jkr_crack_speed(PULL_OFF_RADIUS), 2),
+    (work_to_pull_off, WORK_TO_PULL_OFF, 3),
+]
+
+
+@pytest.mark.parametrize(("observable", "exact", "order"), EXACT)
+def test_observables_of_a_jkr_retraction_converge_to_its_closed_forms(observable, exact, order):
+    levels, shifts = (100, 200, 400), np.arange(16) / 16
+    # The worst over where the steps lie beside the minimum: else chance decides the slope.
+    errors = [
+        max(abs(observable(jkr_result(steps=n, shift=s)) - exact) for s in shifts) for n in levels
+    ]
+    slopes = -np.diff(np.log2(errors))
+    assert slopes == pytest.approx([order, order], abs=0.45), errors
+    assert slopes[-1] == pytest.approx(order, abs=0.1), errors
+    assert errors[-1] < 5e-5
+
+
+def test_time_of_the_pull_off_is_where_the_drive_meets_its_depth():
+    result = jkr_result()
+    found = pull_off(result)
+    assert found.time == pytest.approx((result.depth[0] - found.depth) / RATE, rel=1e-12)
+
+
+def test_pull_off_between_steps_lies_below_every_step():
+    result = jkr_result(steps=30)
+    assert pull_off_force(result) > -result.force.min()
+
+
+def test_work_starts_with_the_retraction_where_that_is_in_tension():
+    # Two routes: from zero force, less the piece from zero force to the start.
+    start = 1.4
+    late = work_to_pull_off(jkr_result(start=start, steps=400))
+    s = np.linspace(start, (9 / 2) ** (1 / 3), 4001)
+    force, depth = jkr_force(s), synthetic.jkr_depth(s)
+    missed = -float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(depth)))
+    assert missed > 0.1
+    assert late == pytest.approx(WORK_TO_PULL_OFF - missed, rel=1e-5)
+
+
+def test_work_counts_from_the_last_of_several_zero_crossings():
+    # In tension from 0.1 to 0.3, and deeper from 0.5 to 1.
+    quartic = np.polynomial.Polynomial.fromroots([0.1, 0.3, 0.5, 1.0])
+    x = np.linspace(0, 1, 401)
+    result = plain(-x, quartic(x))
+    lowest = quartic.deriv().roots().real.max()
+    area = quartic.integ()
+    exact = -(area(lowest) - area(0.5))
+    assert work_to_pull_off(result) == pytest.approx(exact, rel=1e-6)
+
+
+def plain(depth, force, **changes):
+    """Return a result in which nothing but depth and force matters."""
+    nothing = np.full(len(depth), np.nan)
+    parts = dict(
+        problem=GROUPS,
+        time=np.linspace(0, 1, len(depth)),
+        depth=depth,
+        force=force,
+        contact_radius=nothing,
+        edge_speed=nothing,
+        status="detached",
+    )
+    return Result(**(parts | changes))
+
+
+@pytest.mark.parametrize("width", [0.0, 0.2])
+def test_a_jump_adds_no_work(width):
+    """From compression into tension, at once or over a short motion of the drive."""
+    y = np.linspace(0, 2, 13)
+    x = np.concatenate([np.linspace(-1, 0, 5), width + y])
+    force = np.concatenate([np.ones(5), (y - 1) ** 2 - 2])
+    jump = Event("jump into tension", time=x[5] + 1, depth=-x[5], force=1, energy=0)
+    result = plain(-x, force, time=x + 1, events=(jump,) if width else ())
+    # The pieces are parabolas, which the rule integrates exactly.
+    assert work_to_pull_off(result) == pytest.approx(5 / 3, rel=1e-12)
+    assert work_of_separation(result) == pytest.approx(10 / 3, rel=1e-12)
+
+
+def test_a_jump_within_tension_does_not_end_the_count():
+    x, y = np.linspace(0, 2, 7), np.linspace(0, 3, 9)
+    force = np.concatenate([-1 - x, 0.8 * (y - 1.5) ** 2 - 4])
+    result = plain(-np.concatenate([x, 2 + y]), force)
+    # 4 before the jump, 6 - 0.9 from there to the minimum
+    assert work_to_pull_off(result) == pytest.approx(9.1, rel=1e-12)
+
+
+def test_a_minimum_at_a_jump_is_not_drawn_past_it():
+    x = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 4.0])
+    force = np.array([1.0, -1.0, -3.0, -5.0, -0.5, -0.3])
+    result = plain(-x, force, status="jumped at depth -3")
+    assert pull_off_force(result) == pytest.approx(5, rel=1e-12)
+    assert pull_off_depth(result) == -3
+    assert work_to_pull_off(result) == pytest.approx(0.5 * 2.5 * 5, rel=1e-12)
+
+
+def test_a_run_that_ends_in_its_minimum_by_a_jump_has_a_pull_off():
+    x = np.linspace(0, 3, 7)
+    falling = 1 - x
+    assert pull_off_force(plain(-x, falling, status="jumped at depth -3")) == pytest.approx(2)
+    with pytest.raises(ValueError, match="still falls at the end"):
+        pull_off_force(plain(-x, falling, status="detached"))
+
+
+def test_a_far_step_does_not_bend_the_minimum():
+    x = np.array([-0.3, -0.2, -0.1, 0.02, 0.1, 4.0, 5.0])
+    force = np.where(x < 1, 0.5 * x**2 - 1, -0.01)
+    for sign in (1, -1):
+        order = np.argsort(sign * x)
+        result = plain(-sign * x[order], force[order])
+        assert pull_off_force(result) == pytest.approx(1, rel=1e-9)
+        assert pull_off_depth(result) == pytest.approx(0, abs=1e-9)
+
+
+def test_work_of_separation_goes_past_the_jump_to_infinity():
+    for far in (5.0, 40.0):
+        result = jkr_detachment(far=far, steps=400)
+        exact = synthetic.work_of_separation(result.events[0].depth)
+        assert work_of_separation(result) == pytest.approx(exact, rel=1e-5)
+    # and is more than the work to the instability alone, by the far attraction
+    assert work_of_separation(result) - synthetic.WORK_TO_INSTABILITY > 0.2
+
+
+def test_work_of_separation_without_energies_ends_with_the_run():
+    whole = work_of_separation(jkr_detachment())
+    for energy in (None, {"interface": np.array([0.0, 5.0])}):
+        rest = whole - work_of_separation(jkr_detachment(energy=energy))
+        last_gap = 1 - jkr_detachment().depth[-1]
+        assert rest == pytest.approx((16 / 9) / last_gap, rel=1e-9)
+
+
+def test_a_run_in_contact_has_no_work_of_separation():
+    with pytest.raises(ValueError, match="not separated.*still in contact.*until='detached'"):
+        work_of_separation(jkr_result())
+
+
+def test_a_failed_run_has_no_observables():
+    failed = jkr_result(status="stopped because the step became too small")
+    with pytest.raises(ValueError, match="the run failed.*step became too small"):
+        pull_off_force(failed)
+    answer = summary(failed)
+    assert answer["status"] == "stopped because the step became too small"
+    assert answer["outcome"] == "stopped"
+    assert all(answer[name] is None for name in answer if "pull_off" in name or "work_" in name)
+
+
+def test_a_force_that_still_falls_has_no_pull_off():
+    with pytest.raises(ValueError, match="still falls at the end of the run"):
+        pull_off_force(jkr_result(end=1.2))
+    assert summary(jkr_result(end=1.2))["pull_off_force"] is None
+
+
+def test_a_force_that_is_never_tensile_has_no_pull_off():
+    with pytest.raises(ValueError, match="nowhere tensile"):
+        pull_off_force(jkr_result(end=1.8, status="detached"))
+
+
+def test_a_retraction_that_starts_past_the_minimum_pulls_off_at_once():
+    result = jkr_result(start=0.9)
+    assert pull_off_force(result) == pytest.approx(-result.force[0], rel=1e-12)
+    assert work_to_pull_off(result) == 0
+
+
+def test_only_the_retraction_counts_when_there_is_an_approach():
+    result = jkr_result()
+    depth = np.concatenate([np.linspace(-8, result.depth[0], 50)[:-1], result.depth])
+    # A deep jump-in on approach is no pull-off.
+    force = np.concatenate([np.full(49, -5.0), result.force])
+    both = plain(depth, force, status="still in contact")
+    assert pull_off_force(both) == pytest.approx(1, rel=1e-6)
+    assert work_to_pull_off(both) == pytest.approx(WORK_TO_PULL_OFF, rel=1e-5)
+
+
+def test_pull_off_without_an_edge_has_no_radius():
+    nothing = np.full(200, np.nan)
+    result = jkr_result(contact_radius=nothing[:], edge_speed=nothing[:], steps=199)
+    assert np.isnan(contact_radius_at_pull_off(result))
+    assert np.isnan(crack_speed_at_pull_off(result))
+    assert summary(result)["contact_radius_at_pull_off"] is None
+    assert summary(result)["pull_off_force"] == pytest.approx(1, rel=1e-5)
+
+
+def test_summary_of_groups_has_the_promised_keys_and_is_json():
+    answer = json.loads(json.dumps(summary(jkr_detachment()), allow_nan=False))
+    assert answer["status"].startswith("jumped at depth")
+    assert answer["outcome"] == "jumped"
+    assert answer["pull_off_force"] == pytest.approx(1, rel=1e-5)
+    assert answer["work_to_pull_off"] == pytest.approx(WORK_TO_PULL_OFF, rel=1e-4)
+    assert answer["work_of_separation"] == pytest.approx(8.33, abs=0.01)
+    assert answer["tabor"] == 3.24
+    assert answer["modulus_ratio"] == 0.1
+    assert answer["rate"] == RATE
+    assert answer["error_estimate"] is None
+    assert answer["energy_residual"] is None
+    assert answer["wall_time_s"] == 0.25
+    assert answer["events"][0]["kind"] == "jump out of contact"
+    assert answer["problem"]["type"] == "Groups"
+    assert not any(key.endswith(("_N", "_J", "_m", "_m_per_s")) for key in answer)
+
+
+def test_summary_in_si_adds_the_same_names_with_units():
+    answer = summary(jkr_result(problem=SI))
+    unit = SI.scales()
+    pairs = {
+        "pull_off_force_N": ("pull_off_force", unit.force),
+        "work_to_pull_off_J": ("work_to_pull_off", unit.work),
+        "pull_off_depth_m": ("pull_off_depth", unit.length),
+        "contact_radius_at_pull_off_m": ("contact_radius_at_pull_off", unit.radius),
+        "crack_speed_at_pull_off_m_per_s": ("crack_speed_at_pull_off", unit.edge_speed),
+    }
+    for name, (plain_name, scale) in pairs.items():
+        assert answer[name] == pytest.approx(answer[plain_name] * scale, rel=1e-15)
+    # 1.5 pi R dg0
+    assert answer["pull_off_force_N"] == pytest.approx(3.7248e-3, rel=1e-4)
+    assert answer["work_of_separation_J"] is None
+
+
+def test_summary_passes_the_estimates_on():
+    result = jkr_result(
+        error_estimate={"force": np.float64(1e-3), "work": 5e-3},
+        energy_residual=2e-4,
+        statistics={"steps": np.int64(200)},
+    )
+    answer = json.loads(json.dumps(summary(result)))
+    assert answer["error_estimate"] == {"force": 1e-3, "work": 5e-3}
+    assert answer["energy_residual"] == 2e-4
+    assert answer["statistics"] == {"steps": 200}
+    assert answer["wall_time_s"] is None
+
+
+def test_displacements_are_in_equilibrium_gaps():
+    assert pull_off_depth(jkr_result()) == pytest.approx(-0.360562 * DISPLACEMENT, rel=1e-5)

@@ -1,0 +1,140 @@
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
+from viscotack.plot import (
+    check_format,
+    draw_force,
+    draw_overview,
+    draw_radius,
+    draw_rates,
+    save_figure,
+)
+
+
+def curve(axes):
+    """Return the simulated curve of a picture."""
+    (line,) = [line for line in axes.lines if line.get_label() == "simulation"]
+    return line
+
+
+def mark(axes):
+    (line,) = [line for line in axes.lines if line.get_label().startswith("pull-off")]
+    return line
+
+
+def test_force_is_drawn_against_depth_with_its_pull_off():
+    result = jkr_result()
+    (axes,) = draw_force(result).axes
+    np.testing.assert_array_equal(curve(axes).get_xdata(), result.depth)
+    np.testing.assert_array_equal(curve(axes).get_ydata(), result.force)
+    assert mark(axes).get_xdata() == pytest.approx(PULL_OFF_DEPTH, rel=1e-4)
+    assert mark(axes).get_ydata() == pytest.approx(-1, rel=1e-6)
+    assert mark(axes).get_label() == "pull-off, 1"
+    assert axes.get_xlabel() == "depth / $h_0$"
+    assert axes.get_ylabel().startswith("force / ")
+
+
+def test_force_is_drawn_against_radius_where_there_is_an_edge():
+    result = jkr_detachment()
+    (axes,) = draw_radius(result).axes
+    edge = np.isfinite(result.contact_radius)
+    assert not edge.all()
+    np.testing.assert_array_equal(curve(axes).get_xdata(), result.contact_radius[edge])
+    assert mark(axes).get_xdata() == pytest.approx(PULL_OFF_RADIUS, rel=1e-4)
+
+
+def test_a_problem_in_si_is_drawn_with_readable_units():
+    result = jkr_result(problem=SI)
+    (axes,) = draw_force(result).axes
+    unit = SI.scales()
+    assert axes.get_xlabel() == "depth [µm]"
+    assert axes.get_ylabel() == "force [mN]"
+    np.testing.assert_allclose(curve(axes).get_xdata(), result.depth * unit.length * 1e6)
+    np.testing.assert_allclose(curve(axes).get_ydata(), result.force * unit.force * 1e3)
+    assert mark(axes).get_label() == "pull-off, 3.72 mN"
+    assert mark(axes).get_ydata() == pytest.approx(-3.7248, rel=1e-4)
+
+
+def test_a_simulation_is_open_markers():
+    (axes,) = draw_force(jkr_result()).axes
+    assert curve(axes).get_marker() == "o"
+    assert curve(axes).get_markerfacecolor() == "white"
+
+
+def test_a_failed_run_is_drawn_without_a_pull_off():
+    (axes,) = draw_force(jkr_result(status="stopped because it had to")).axes
+    assert [line.get_label() for line in axes.lines if "pull" in line.get_label()] == []
+
+
+def test_the_overview_has_four_pictures():
+    result = jkr_detachment()
+    figure = draw_overview(result)
+    labels = [(axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes]
+    words = [tuple(label.split(" / ")[0] for label in pair) for pair in labels]
+    assert words == [
+        ("depth", "force"),
+        ("contact radius", "force"),
+        ("time", "contact radius"),
+        ("time", "crack speed"),
+    ]
+    assert figure.axes[3].get_yscale() == "log"
+
+
+def test_rates_are_drawn_in_millinewton_beside_the_elastic_value():
+    figure = draw_rates(
+        [1e-6, 1e-4], [5e-3, 20e-3], elastic_force=3.9e-3, title="lens", note="h0 = 1.55 µm"
+    )
+    (axes,) = figure.axes
+    np.testing.assert_allclose(curve(axes).get_xdata(), [1, 100])
+    np.testing.assert_allclose(curve(axes).get_ydata(), [5, 20])
+    assert curve(axes).get_markerfacecolor() == "none"
+    (elastic,) = [line for line in axes.lines if "elastic" in line.get_label()]
+    np.testing.assert_allclose(elastic.get_ydata(), 3.9)
+    assert elastic.get_label() == "elastic, infinitely slow: 3.9 mN"
+    assert axes.get_xscale() == "log"
+    assert axes.get_xlabel() == "retraction speed [µm/s]"
+    assert axes.get_ylabel() == "pull-off force [mN]"
+    assert axes.get_ylim()[0] == 0 and axes.get_ylim()[1] > 20
+    assert [text.get_text() for text in axes.texts] == ["h0 = 1.55 µm"]
+
+
+@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+def test_figures_are_written_in_every_format(ending, tmp_path):
+    path = tmp_path / f"run.{ending}"
+    save_figure(draw_force(jkr_result()), path)
+    start = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}[ending]
+    assert path.read_bytes().startswith(start)
+
+
+def test_drawing_leaves_no_trace():
+    # In a fresh interpreter: here other tests may have left theirs.
+    code = (
+        "import sys, matplotlib, synthetic, viscotack.plot as p\n"
+        "before = str(matplotlib.rcParams)\n"
+        "p.draw_force(synthetic.jkr_result())\n"
+        "assert str(matplotlib.rcParams) == before\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parent)
+
+
+def test_the_style_is_readable_from_the_back_of_a_room():
+    figure = draw_force(jkr_result())
+    (axes,) = figure.axes
+    assert axes.xaxis.label.get_size() >= 16
+    assert min(label.get_size() for label in axes.get_xticklabels()) >= 14
+
+
+def test_an_unknown_format_is_refused_before_the_work():
+    check_format("figure.PNG")
+    with pytest.raises(
+        ValueError, match=r"cannot draw to 'figure.docx': its ending must be one of"
+    ):
+        check_format("figure.docx")
+    with pytest.raises(ValueError, match="cannot draw to 'figure'"):
+        check_format("figure")

@@ -1,0 +1,282 @@
+import json
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from viscotack import problem as module
+from viscotack.geometry import Sphere
+from viscotack.materials import (
+    Elastic,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.problem import Groups, Problem
+from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.record import from_dict, run_id, to_dict
+from viscotack.traction import LennardJones
+
+E, NU = 1.458e6, 0.5
+MATERIALS = [
+    Elastic(rubbery_modulus=E, poisson_ratio=NU),
+    StandardSolid(rubbery_modulus=E, glassy_modulus=10 * E, tau0=0.02, poisson_ratio=NU),
+    Prony(rubbery_modulus=E, branches=((5 * E, 1e-3), (4 * E, 0.25)), poisson_ratio=0.4),
+    RetardationPowerLaw(
+        rubbery_modulus=E, glassy_modulus=3.089e9, exponent=0.2207, tau0=0.01876, poisson_ratio=NU
+    ),
+    RelaxationPowerLaw(
+        rubbery_modulus=E, glassy_modulus=3.089e9, exponent=0.6, tau0=0.01876, poisson_ratio=0.3
+    ),
+]
+STARTS = [AtDepth(2e-6), AtForce(1.5e-3), AtRadius(0.3e-3)]
+
+
+def lens(**changes):
+    """Return the lens of the thesis (Eq. 4.27, section 4.6), with changes."""
+    parts = dict(
+        material=MATERIALS[3],
+        traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
+        geometry=Sphere(radius=5.19e-3),
+        protocol=Retraction(start=AtForce(force=1.5e-3), speed=100e-6),
+    )
+    return Problem(**(parts | changes))
+
+
+def start_value(start):
+    return next(iter(vars(start).values()))
+
+
+def test_tabor_number_of_the_lens_is_the_published_one():
+    # 2.05 for 1.55 um, 102.9 for 30.8 nm: section 4.6, to the digits printed there
+    assert lens().tabor == pytest.approx(2.05, abs=0.005)
+    fine = lens(traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=30.8e-9))
+    assert fine.tabor == pytest.approx(102.9, abs=0.5)
+
+
+def test_groups_of_the_lens_follow_their_definitions():
+    groups, R, w, h0 = lens().groups(), 5.19e-3, 0.1523, 1.55e-6
+    contact = E / (1 - NU**2)
+    assert groups.tabor**3 == pytest.approx(R * w**2 / (contact**2 * h0**3), rel=1e-12)
+    assert groups.modulus_ratio == pytest.approx(1.458 / 3089, rel=1e-12)
+    assert groups.rate == pytest.approx(100e-6 * 0.01876 / h0, rel=1e-12)
+    assert groups.start == AtForce(1.5e-3 / (1.5 * math.pi * R * w))
+    depth = lens(protocol=Retraction(start=AtDepth(3.1e-6), speed=1e-4)).groups().start
+    assert start_value(depth) == pytest.approx(2.0, rel=1e-12)
+    radius = lens(protocol=Retraction(start=AtRadius(2e-4), speed=1e-4)).groups().start
+    scale = (math.pi * R**2 * w / contact) ** (1 / 3)
+    assert start_value(radius) == pytest.approx(2e-4 / scale, rel=1e-12)
+
+
+def test_scales_follow_their_definitions():
+    s, R, w, h0 = lens().scales(), 5.19e-3, 0.1523, 1.55e-6
+    beta = (R**2 * w / (E / (1 - NU**2))) ** (1 / 3)
+    assert s.force == pytest.approx(1.5 * math.pi * R * w, rel=1e-13)
+    assert s.length == h0
+    assert s.radius == pytest.approx(math.pi ** (1 / 3) * beta, rel=1e-13)
+    assert s.work == pytest.approx(1.5 * math.pi * R * w * h0, rel=1e-13)
+    assert s.time == 0.01876
+    assert s.edge_speed == pytest.approx(beta / 0.01876, rel=1e-13)
+    assert s.stress == pytest.approx(w / h0, rel=1e-13)
+
+
+@pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
+@pytest.mark.parametrize("start", STARTS, ids=lambda s: type(s).__name__)
+@pytest.mark.parametrize("known", ["equilibrium_gap", "work_of_adhesion"])
+def test_groups_with_their_scales_are_the_problem_again(material, start, known):
+    old = lens(material=material, protocol=Retraction(start=start, speed=37e-6))
+    new = old.groups().in_si(
+        radius=old.geometry.radius,
+        contact_modulus=old.material.contact_modulus,
+        time_unit=old.material.time_unit,
+        poisson_ratio=old.material.poisson_ratio,
+        **{known: getattr(old.traction, known)},
+    )
+    assert flat(new) == pytest.approx(flat(old), rel=1e-12)
+    assert type(new.material) is type(old.material)
+    assert type(new.protocol.start) is type(start)
+
+
+def flat(thing):
+    """Return all the numbers of a problem, in order."""
+    if isinstance(thing, dict | list | tuple):
+        values = thing.values() if isinstance(thing, dict) else thing
+        return [number for value in values for number in flat(value)]
+    if isinstance(thing, str):
+        return []
+    return flat(to_dict(thing)) if hasattr(thing, "__dataclass_fields__") else [thing]
+
+
+power = st.floats(-6, 6)
+
+
+@given(power, power, power, st.sampled_from(MATERIALS), st.sampled_from(STARTS))
+def test_groups_do_not_depend_on_the_units(length, load, time, material, start):
+    L, M, T = 10**length, 10**load, 10**time  # units of length, force and time
+    stress = M / L**2
+    old = lens(material=material, protocol=Retraction(start=start, speed=37e-6))
+    changed = {
+        name: value * stress for name, value in vars(material).items() if name.endswith("_modulus")
+    }
+    if hasattr(material, "tau0"):
+        changed["tau0"] = material.tau0 * T
+    if hasattr(material, "branches"):
+        changed["branches"] = tuple((m * stress, t * T) for m, t in material.branches)
+    unit = {AtDepth: L, AtForce: M, AtRadius: L}[type(start)]
+    new = Problem(
+        material=replace(material, **changed),
+        traction=LennardJones(work_of_adhesion=0.1523 * M / L, equilibrium_gap=1.55e-6 * L),
+        geometry=Sphere(radius=5.19e-3 * L),
+        protocol=Retraction(
+            start=type(start)(start_value(start) * unit),
+            # An elastic solid has no time: its unit stays 1 s.
+            speed=37e-6 * L / (1 if isinstance(material, Elastic) else T),
+        ),
+    )
+    assert flat(new.groups()) == pytest.approx(flat(old.groups()), rel=1e-9)
+
+
+def test_one_of_gap_and_work_of_adhesion_is_asked_for():
+    groups = lens().groups()
+    scales = dict(radius=5e-3, contact_modulus=2e6, time_unit=0.1, poisson_ratio=0.5)
+    with pytest.raises(ValueError, match="exactly one of equilibrium_gap"):
+        groups.in_si(**scales)
+    with pytest.raises(ValueError, match="exactly one of equilibrium_gap"):
+        groups.in_si(**scales, equilibrium_gap=1e-6, work_of_adhesion=0.1)
+    with pytest.raises(ValueError, match="radius must be positive"):
+        groups.in_si(**(scales | {"radius": -1}), equilibrium_gap=1e-6)
+    with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
+        groups.in_si(**(scales | {"poisson_ratio": 1.5}), equilibrium_gap=1e-6)
+
+
+@pytest.mark.parametrize("start", [AtDepth(1.4e-3), AtForce(10.0), AtRadius(2.7e-3)])
+def test_a_contact_beyond_small_strain_is_refused(start):
+    with pytest.raises(ValueError, match="beyond small strain.*sphere radii.*reduce the preload"):
+        lens(protocol=Retraction(start=start, speed=1e-4))
+
+
+@pytest.mark.parametrize(
+    ("start", "force"), [(AtForce, 0.02), (AtDepth, 0.02), (AtForce, -0.003), (AtDepth, -0.003)]
+)
+def test_small_strain_is_judged_by_the_jkr_radius(start, force):
+    """The estimate of the contact radius puts depth and force back on the JKR curve."""
+    R, w, contact = 5.19e-3, 0.1523, E / (1 - NU**2)
+    a = module._relaxed_radius(lens(protocol=Retraction(start=AtForce(force), speed=1e-4)))
+    # Eq. 2.3 and 2.4
+    load = 4 * contact * a**3 / (3 * R) - math.sqrt(8 * math.pi * w * contact * a**3)
+    assert load == pytest.approx(force, rel=1e-9)
+    depth = a**2 / R - math.sqrt(2 * math.pi * a * w / contact)
+    if start is AtDepth:
+        at_depth = lens(protocol=Retraction(start=AtDepth(depth), speed=1e-4))
+        assert module._relaxed_radius(at_depth) == pytest.approx(a, rel=1e-9)
+
+
+def test_a_start_without_a_jkr_contact_is_left_to_the_solver():
+    for start in (AtDepth(-1e-3), AtForce(-0.004)):
+        assert lens(protocol=Retraction(start=start, speed=1e-4)).protocol.start == start
+
+
+def test_a_range_of_forces_as_long_as_the_sphere_is_refused():
+    with pytest.raises(ValueError, match="equilibrium_gap of 0.00155 m is too long"):
+        lens(traction=LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-3))
+
+
+@pytest.mark.parametrize(
+    ("part", "wrong", "words"),
+    [
+        ("material", LennardJones(0.1, 1e-6), "material must be one of"),
+        ("traction", Sphere(1.0), "traction must be a traction law"),
+        ("geometry", 5e-3, "geometry must be a Sphere, got float"),
+        ("protocol", AtForce(1e-3), "protocol must be a Retraction, got AtForce"),
+    ],
+)
+def test_a_part_in_the_wrong_place_is_refused(part, wrong, words):
+    with pytest.raises(ValueError, match=words):
+        lens(**{part: wrong})
+
+
+@pytest.mark.parametrize("speed", [0, -1e-6, math.nan, math.inf])
+def test_an_impossible_speed_is_refused(speed):
+    with pytest.raises(ValueError, match="speed must be"):
+        Retraction(start=AtDepth(1e-6), speed=speed)
+    with pytest.raises(ValueError, match="rate must be"):
+        Groups(tabor=2, material=MATERIALS[0].reduced(), start=AtDepth(1), rate=speed)
+
+
+@pytest.mark.parametrize("tabor", [0, -3.24, math.nan])
+def test_an_impossible_tabor_number_is_refused(tabor):
+    with pytest.raises(ValueError, match="tabor must be"):
+        Groups(tabor=tabor, material=MATERIALS[0].reduced(), start=AtDepth(1), rate=1)
+
+
+@pytest.mark.parametrize("kind", [AtDepth, AtForce, AtRadius])
+def test_an_impossible_start_is_refused(kind):
+    with pytest.raises(ValueError, match="must be finite"):
+        kind(math.nan)
+
+
+def test_a_contact_radius_is_positive():
+    with pytest.raises(ValueError, match="contact_radius must be positive"):
+        AtRadius(0.0)
+
+
+def test_a_start_must_say_what_it_holds():
+    with pytest.raises(ValueError, match="start must be AtDepth, AtForce or AtRadius, got 1e-06"):
+        Retraction(start=1e-6, speed=1e-4)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="start must be AtDepth, AtForce or AtRadius, got 73"):
+        Groups(tabor=2, material=MATERIALS[0].reduced(), start=73, rate=1)  # type: ignore[arg-type]
+
+
+def test_groups_refuse_what_is_not_reduced():
+    with pytest.raises(ValueError, match=r"pass material.reduced\(\)"):
+        Groups(tabor=2, material=MATERIALS[1], start=AtDepth(1), rate=1)
+    with pytest.raises(ValueError, match=r"pass traction.reduced\(\)"):
+        Groups(
+            tabor=2,
+            material=MATERIALS[1].reduced(),
+            start=AtDepth(1),
+            rate=1,
+            traction=LennardJones(0.1, 1e-6),
+        )
+
+
+@pytest.mark.parametrize("material", MATERIALS, ids=lambda m: type(m).__name__)
+@pytest.mark.parametrize("start", STARTS, ids=lambda s: type(s).__name__)
+def test_a_problem_survives_json(material, start):
+    case = lens(material=material, protocol=Retraction(start=start, speed=37e-6))
+    for thing in (case, case.groups()):
+        assert from_dict(json.loads(json.dumps(to_dict(thing)))) == thing
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda r: r | {"type": "Marble"}, "unknown type 'Marble'"),
+        (lambda r: r | {"type": "positive"}, "unknown type 'positive'"),
+        (lambda r: r | {"speed": 1}, "must have the fields"),
+        (lambda r: {k: v for k, v in r.items() if k != "geometry"}, "must have the fields"),
+        (lambda r: [r], "must be a dictionary"),
+        (lambda r: r | {"geometry": {"type": "Sphere", "radius": -1}}, "radius must be positive"),
+    ],
+)
+def test_a_wrong_record_is_refused(change, words):
+    with pytest.raises(ValueError, match=words):
+        from_dict(change(to_dict(lens())))
+
+
+def test_only_problems_and_their_parts_have_records():
+    with pytest.raises(ValueError, match="expected a problem"):
+        to_dict({"radius": 1})
+
+
+def test_a_case_is_named_by_its_content():
+    assert run_id(lens()) == run_id(lens(geometry=Sphere(radius=5.19e-3)))
+    assert run_id(lens(protocol=Retraction(AtDepth(0), 1))) == run_id(
+        lens(protocol=Retraction(AtDepth(-0.0), 1.0))
+    )
+    names = {run_id(lens()), run_id(lens().groups()), run_id(lens(geometry=Sphere(5.2e-3)))}
+    assert len(names) == 3
+    assert all(len(name) == 16 for name in names)

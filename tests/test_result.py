@@ -1,0 +1,297 @@
+import csv
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+from synthetic import GROUPS, SI, jkr_crack_speed, jkr_detachment, jkr_result
+from viscotack import __version__
+from viscotack import result as module
+from viscotack.result import Event, Outcome, columns, load, receding_speed, save, write_csv
+
+
+def full(**changes):
+    """Return a result with every part that a result may have."""
+    m, n = 200 + 1, 7
+    parts = dict(
+        energy={"drive": np.linspace(0, 3, m), "mode_heat": np.array([1.0, 2.0])},
+        energy_residual=3e-4,
+        error_estimate={"force": 1e-3, "work": 5e-3},
+        versions={"viscotack": "0.0.9", "numpy": "1.26.0", "scipy": "1.12.0"},
+        events=(Event("jump out of contact", 1.0, -2.0, -0.8, 0.1),),
+        fields={
+            "time": np.linspace(0, 1, 3),
+            "radius": np.ones((3, n)),
+            "pressure": np.full((3, n), -0.5),
+            "gap": np.full((3, n), np.nan),
+        },
+    )
+    return jkr_result(**(parts | changes))
+
+
+@pytest.mark.parametrize(
+    "result",
+    [full(), full(problem=SI), jkr_result(), jkr_detachment()],
+    ids=["full", "SI", "bare", "jump"],
+)
+def test_a_saved_result_comes_back_whole(result, tmp_path):
+    save(result, tmp_path / "run.npz")
+    back = load(tmp_path / "run.npz")
+    for name in ("time", "depth", "force", "contact_radius", "edge_speed"):
+        np.testing.assert_array_equal(getattr(back, name), getattr(result, name))
+    for name in ("energy", "fields"):
+        old, new = getattr(result, name), getattr(back, name)
+        assert (old is None) == (new is None)
+        for key in old or {}:
+            np.testing.assert_array_equal(new[key], old[key])
+    for name in (
+        "problem",
+        "status",
+        "events",
+        "statistics",
+        "error_estimate",
+        "energy_residual",
+        "versions",
+    ):
+        assert getattr(back, name) == getattr(result, name)
+
+
+def test_a_file_holds_no_code_and_knows_who_wrote_it(tmp_path):
+    save(jkr_result(), tmp_path / "run.npz")
+    with np.load(tmp_path / "run.npz", allow_pickle=False) as file:
+        header = json.loads(str(file["header"]))
+        assert all(file[name].dtype != object for name in file.files)
+    assert header["versions"] == {
+        "viscotack": __version__,
+        "numpy": np.__version__,
+        "scipy": header["versions"]["scipy"],
+    }
+
+
+def cut(path):
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def flip(path):
+    data = bytearray(path.read_bytes())
+    data[len(data) // 3] ^= 0xFF
+    path.write_bytes(bytes(data))
+
+
+def empty(path):
+    path.write_bytes(b"")
+
+
+def table(path):
+    path.write_text("time,depth\n0,1\n")
+
+
+def other_npz(path):
+    np.savez(path, force=np.ones(3))
+
+
+def other_header(path):
+    np.savez(path, header=np.array('{"format": "another"}'))
+
+
+def header_of_no_object(path):
+    np.savez(path, header=np.array("[1, 2]"))
+
+
+def one_array(path):
+    with open(path, "wb") as file:
+        np.save(file, np.ones(3))
+
+
+def pickled(path):
+    np.savez(path, header=np.array([{"format": "viscotack result"}], dtype=object))
+
+
+def without_force(path):
+    with zipfile.ZipFile(path) as old:
+        parts = {name: old.read(name) for name in old.namelist() if name != "force.npy"}
+    with zipfile.ZipFile(path, "w") as new:
+        for name, data in parts.items():
+            new.writestr(name, data)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        cut,
+        flip,
+        empty,
+        table,
+        other_npz,
+        other_header,
+        header_of_no_object,
+        one_array,
+        pickled,
+        without_force,
+    ],
+)
+def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
+    path = tmp_path / "run.npz"
+    save(full(), path)
+    damage(path)
+    with pytest.raises(ValueError, match=r"run\.npz is not a readable result of viscotack"):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    ("damage", "reason"),
+    [(table, "it is not an archive"), (other_header, "its header is not one of viscotack")],
+)
+def test_another_kind_of_file_is_told_why(damage, reason, tmp_path):
+    path = tmp_path / "run.npz"
+    damage(path)
+    with pytest.raises(ValueError, match=f"{reason}; give a file that viscotack.save"):
+        load(path)
+
+
+def test_every_flipped_byte_is_noticed_or_harmless(tmp_path):
+    path = tmp_path / "run.npz"
+    save(jkr_result(steps=20), path)
+    good = load(path)
+    whole = path.read_bytes()
+    rng = np.random.default_rng(5)
+    for place in rng.choice(len(whole), 300, replace=False):
+        data = bytearray(whole)
+        data[place] ^= 1 << int(rng.integers(8))
+        path.write_bytes(bytes(data))
+        try:
+            back = load(path)
+        except ValueError:
+            continue
+        np.testing.assert_array_equal(back.force, good.force)
+        assert back.problem == good.problem
+
+
+def test_a_file_of_a_newer_format_asks_for_an_update(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "_FORMAT_VERSION", 2)
+    save(jkr_result(), tmp_path / "run.npz")
+    monkeypatch.undo()
+    with pytest.raises(ValueError, match="in a newer format; update viscotack"):
+        load(tmp_path / "run.npz")
+
+
+def test_a_missing_file_is_a_missing_file(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        load(tmp_path / "nothing.npz")
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_scraps(tmp_path, monkeypatch):
+    path = tmp_path / "run.npz"
+    save(jkr_result(), path)
+    before = path.read_bytes()
+
+    def full_disk(file, **arrays):
+        file.write(b"half")
+        raise OSError("no space left")
+
+    monkeypatch.setattr(np, "savez_compressed", full_disk)
+    with pytest.raises(OSError, match="no space left"):
+        save(full(), path)
+    assert path.read_bytes() == before
+    assert [p.name for p in tmp_path.iterdir()] == ["run.npz"]
+
+
+def test_a_csv_has_si_columns_with_units_for_a_problem_in_si(tmp_path):
+    result = jkr_result(problem=SI)
+    write_csv(result, tmp_path / "run.csv")
+    with open(tmp_path / "run.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0]) == [
+        *("time", "depth", "force", "contact_radius", "edge_speed"),
+        *("time_s", "depth_m", "force_N", "contact_radius_m", "edge_speed_m_per_s"),
+    ]
+    unit = SI.scales()
+    factors = {
+        "time_s": ("time", unit.time),
+        "depth_m": ("depth", unit.length),
+        "force_N": ("force", unit.force),
+        "contact_radius_m": ("contact_radius", unit.radius),
+        "edge_speed_m_per_s": ("edge_speed", unit.edge_speed),
+    }
+    for name, (plain, factor) in factors.items():
+        got = np.array([float(row[name]) for row in rows])
+        np.testing.assert_allclose(got, getattr(result, plain) * factor, rtol=1e-15)
+
+
+def test_a_csv_of_groups_is_dimensionless_and_exact(tmp_path):
+    result = jkr_detachment()
+    write_csv(result, tmp_path / "run.csv")
+    data = np.genfromtxt(tmp_path / "run.csv", delimiter=",", names=True)
+    assert data.dtype.names == ("time", "depth", "force", "contact_radius", "edge_speed")
+    np.testing.assert_array_equal(data["force"], result.force)
+    np.testing.assert_array_equal(data["contact_radius"], result.contact_radius)
+    assert list(columns(result)) == list(data.dtype.names)
+
+
+def test_receding_speed_is_second_order_and_has_no_pi():
+    errors = []
+    for steps in (100, 200, 400):
+        # Away from the instability, where the speed is infinite.
+        r = jkr_result(end=1.0, steps=steps)
+        v = receding_speed(r.time, r.contact_radius)
+        errors.append(np.max(np.abs(v / jkr_crack_speed(r.contact_radius) - 1)))
+    slopes = -np.diff(np.log2(errors))
+    assert slopes[-1] == pytest.approx(2, abs=0.15), errors
+    assert errors[-1] < 1e-3
+
+
+def test_receding_speed_is_not_taken_across_a_jump():
+    time = np.array([0.0, 1.0, 2.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    radius = np.array([5.0, 4.0, 3.0, 1.0, 0.5, np.nan, np.nan, 0.2])
+    speed = receding_speed(time, radius) / np.pi ** (1 / 3)
+    np.testing.assert_allclose(speed[:5], [1, 1, 1, 0.5, 0.5], rtol=1e-12)
+    assert np.all(np.isnan(speed[5:]))
+
+
+@pytest.mark.parametrize(
+    ("status", "outcome"),
+    [
+        ("detached", Outcome.DETACHED),
+        ("still in contact at the end", Outcome.IN_CONTACT),
+        ("jumped at depth -4.61 h0", Outcome.JUMPED),
+        ("stopped because no equilibrium was found", Outcome.STOPPED),
+    ],
+)
+def test_a_status_sentence_tells_its_outcome(status, outcome):
+    assert jkr_result(status=status).outcome is outcome
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"status": "fine"}, "status must begin with one of 'detached'"),
+        ({"force": np.ones(3)}, "equally long"),
+        ({"depth": np.full(201, np.nan)}, "depth of a result must be finite"),
+        ({"time": -np.arange(201.0)}, "time of a result must not go back"),
+        ({"problem": {"tabor": 1}}, "problem must be a Problem or Groups"),
+    ],
+)
+def test_an_impossible_result_is_refused(change, words):
+    with pytest.raises(ValueError, match=words):
+        jkr_result(**change)
+
+
+def test_a_result_cannot_be_changed():
+    result = full()
+    with pytest.raises(ValueError, match="read-only"):
+        result.force[0] = 1
+    with pytest.raises(ValueError, match="read-only"):
+        result.fields["gap"][0] = 1
+    with pytest.raises(AttributeError):
+        result.status = "detached"
+
+
+def test_an_event_needs_numbers():
+    with pytest.raises(ValueError, match="energy of an event must be finite"):
+        Event("jump out of contact", 0.0, 0.0, 0.0, float("nan"))
+
+
+def test_groups_and_problem_are_kept_as_given():
+    assert jkr_result().problem is GROUPS
+    assert jkr_result(problem=SI).problem is SI

@@ -1,0 +1,201 @@
+"""The elastic theories as a user meets them: verified values, shapes, errors."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from viscotack.theory import bradley, dmt, hertz, jkr, maugis
+
+REFERENCE = Path(__file__).resolve().parents[1].parent / "shared/theory/reference.json"
+
+CASE = dict(radius=1e-3, contact_modulus=1.3e6, work_of_adhesion=0.05)
+R, E, W = CASE.values()
+# the units of Eq. 4.16 and of Eq. 2.6
+LENGTH, HEIGHT = (np.pi * R**2 * W / E) ** (1 / 3), (np.pi**2 * W**2 * R / E**2) ** (1 / 3)
+LENGTH_26, HEIGHT_26 = (R**2 * W / E) ** (1 / 3), (W**2 * R / E**2) ** (1 / 3)
+LOAD, WORK = np.pi * R * W, 1.5 * np.pi * R * W * HEIGHT
+# the units of Maugis, K = 4 E* / 3
+BAR, HEIGHT_BAR = 0.75 ** (1 / 3) * LENGTH, 0.75 ** (2 / 3) * HEIGHT
+
+
+def reference(*equations):
+    if not REFERENCE.exists():
+        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
+    rows = json.loads(REFERENCE.read_text())["values"]
+    return [
+        pytest.param(row, id=f"{row['equation']}-{row['id']}")
+        for row in rows
+        if row["equation"] in equations
+    ]
+
+
+def strength_of(lam):
+    return lam / maugis.maugis_parameter(**CASE, strength=1.0)
+
+
+def jkr_value(row):
+    equation, inputs, note = row["equation"], row["inputs"], row["note"]
+    match equation:
+        case "4.16 norm: P":
+            return jkr.force(inputs["a_hat"] * LENGTH, **CASE) / LOAD
+        case "45/4.16 norm: delta":
+            return jkr.depth(inputs["a_hat"] * LENGTH, **CASE) / HEIGHT
+        case "2.7":
+            return jkr.force(inputs["a_hat(2.6)"] * LENGTH_26, **CASE) / LOAD
+        case "2.8":
+            return jkr.depth(inputs["a_hat(2.6)"] * LENGTH_26, **CASE) / HEIGHT_26
+        case "46":
+            work = jkr.work_to_pull_off(**CASE)
+            if "mu" in inputs:
+                return work / WORK * inputs["mu"] * np.pi ** (2 / 3)
+            return work / WORK if "1.5 pi" in note else work / (LOAD * HEIGHT)
+        case "46+":
+            return jkr.work_to_instability(**CASE) / WORK
+    free = jkr.contact_radius_at_force(0.0, **CASE)
+    return {
+        "a_hat(4.16) at P=-3/2": jkr.pull_off(**CASE).contact_radius / LENGTH,
+        "delta_hat(4.16) at P=-3/2": jkr.pull_off(**CASE).depth / HEIGHT,
+        "a_hat(4.16) at P=0": free / LENGTH,
+        "delta_hat(4.16) at P=0 (=a^2/3)": jkr.depth(free, **CASE) / HEIGHT,
+        "delta_hat at displacement-control instability (a_hat=1/2, P=-5/6)": (
+            jkr.instability(**CASE).depth / HEIGHT
+        ),
+    }[note]
+
+
+@pytest.mark.parametrize(
+    "row",
+    reference("4.16 norm: P", "45/4.16 norm: delta", "2.7", "2.8", "46", "46+", "JKR point"),
+)
+def test_jkr_gives_the_verified_value(row):
+    # differences of order-one terms: a few units of round-off
+    assert jkr_value(row) == pytest.approx(row["value"], rel=1e-13, abs=0)
+
+
+@pytest.mark.parametrize("row", reference("2.12", "DMT work", "Bradley-LJ work (mu->0)"))
+def test_dmt_and_bradley_give_the_verified_value(row):
+    if row["equation"] == "2.12":
+        found = dmt.force(row["inputs"]["a_hat(2.6)"] * LENGTH_26, **CASE) / LOAD
+    elif row["equation"] == "DMT work":
+        found = dmt.work_to_pull_off(**CASE) / WORK
+    else:
+        case = dict(radius=R, work_of_adhesion=W, equilibrium_gap=3e-10)
+        found = bradley.work_to_pull_off(**case) / (1.5 * LOAD * 3e-10)
+    assert found == pytest.approx(row["value"], rel=1e-13, abs=0)
+
+
+@pytest.mark.parametrize("row", reference("Maugis", "Maugis via mu", "Maugis curve", "MD"))
+def test_maugis_gives_the_verified_value(row):
+    inputs, note = row["inputs"], row["note"]
+    if row["equation"] == "MD":
+        found = maugis.parameter_from_tabor(1.0)
+    elif row["equation"] == "Maugis via mu":
+        strength = strength_of(maugis.parameter_from_tabor(inputs["mu"]))
+        found = maugis.pull_off_force(**CASE, strength=strength) / (1.5 * LOAD)
+    else:
+        strength = strength_of(inputs["lambda"])
+        if row["equation"] == "Maugis":
+            state = maugis.pull_off(**CASE, strength=strength)
+        else:
+            state = maugis.curve(inputs["m=c/a"], **CASE, strength=strength)
+        if "abar" in note:
+            found = state.contact_radius / BAR
+        elif "P" in note:
+            found = state.force / LOAD
+        else:
+            found = state.depth / HEIGHT_BAR
+    assert found == pytest.approx(row["value"], rel=1e-13, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("lam", "work"),
+    [(0.01, 1.06659), (0.1, 1.143), (0.5, 1.01377), (1, 0.8992), (2, 0.83471), (20, 0.80221)],
+)
+def test_maugis_work_gives_the_tabulated_value(lam, work):
+    # the table has five digits after the point
+    found = maugis.work_to_pull_off(**CASE, strength=strength_of(lam)) / WORK
+    assert found == pytest.approx(work, abs=6e-6)
+
+
+def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape():
+    a = np.full((2, 3), 1e-4)
+    for function in (jkr.force, jkr.depth, dmt.force):
+        assert type(function(1e-4, **CASE)) is float
+        assert function(a, **CASE).shape == (2, 3)
+    assert type(hertz.gap(2e-4, contact_radius=1e-4, radius=1e-3)) is float
+    state = maugis.pull_off(**CASE, strength=1e5)
+    assert [type(x) for x in state] == [float] * 4
+    assert type(jkr.contact_radius_at_depth(0, **CASE)) is float
+
+
+def test_arrays_of_parameters_broadcast():
+    w = np.array([0.01, 0.05])
+    many = dict(radius=1e-3, contact_modulus=1.3e6, work_of_adhesion=w)
+    forces = jkr.force(np.array([[1e-4], [2e-4]]), **many)
+    assert forces.shape == (2, 2)
+    assert forces[1, 1] == jkr.force(2e-4, **CASE)
+    pulls = maugis.pull_off_force(**CASE, strength=np.array([1e4, 1e5, 1e6]))
+    assert pulls[1] == pytest.approx(maugis.pull_off_force(**CASE, strength=1e5), rel=1e-14, abs=0)
+    works = maugis.work_to_pull_off(**CASE, strength=np.array([1e4, 1e5, 1e6]))
+    assert works[1] == pytest.approx(
+        maugis.work_to_pull_off(**CASE, strength=1e5), rel=1e-13, abs=0
+    )
+
+
+LJ = dict(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
+DUGDALE = CASE | dict(strength=1e5)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: jkr.force([1e-4, -1e-4], **CASE), "contact_radius.*-0.0001 m"),
+        (lambda: jkr.force(np.nan, **CASE), "contact_radius must be finite"),
+        (lambda: jkr.force(1e-4, **CASE | dict(radius=-1)), "radius must be positive.*-1.0 m"),
+        (lambda: jkr.depth(1e-4, **CASE | dict(work_of_adhesion=0)), "work_of_adhesion.*J/m"),
+        (lambda: jkr.contact_radius_at_depth(-1e-3, **CASE), "depth.*instability"),
+        (lambda: jkr.unstable_contact_radius_at_depth(1e-9, **CASE), "contact_radius_at_depth"),
+        (lambda: jkr.contact_radius_at_force(-1.0, **CASE), "force.*-0.000235619 N.*pull_off"),
+        (lambda: jkr.unstable_contact_radius_at_force(1e-9, **CASE), "contact_radius_at_force"),
+        (lambda: jkr.pressure(1e-4, contact_radius=1e-4, **CASE), "contact edge"),
+        (lambda: hertz.contact_radius_at_depth(-1e-9, radius=1e-3), "without adhesion"),
+        (
+            lambda: hertz.contact_radius_at_force(-1e-9, radius=1e-3, contact_modulus=1e6),
+            "carries no tension",
+        ),
+        (lambda: dmt.contact_radius_at_force(-1.0, **CASE), "the contact opens"),
+        (lambda: bradley.force([0.0, 3e-10], **LJ), "rigid bodies do not overlap"),
+        (lambda: maugis.curve([2.0, 1.0], **DUGDALE), "ratio must be above 1.*1.0"),
+        (lambda: maugis.curve_without_contact(1.0, **DUGDALE), "touching radius"),
+        (lambda: maugis.pull_off(**CASE, strength=1e-9), "theory.dmt"),
+        (lambda: maugis.pull_off(**CASE, strength=1e15), "theory.jkr"),
+        (lambda: maugis.parameter_from_tabor(-1.0), "tabor must be positive"),
+        (
+            lambda: maugis.pressure(
+                0.0,
+                contact_radius=2.0,
+                cohesive_radius=1.0,
+                radius=9.0,
+                contact_modulus=1.0,
+                strength=1.0,
+            ),
+            "cohesive_radius must be",
+        ),
+    ],
+)
+def test_outside_its_domain_a_formula_says_what_to_do(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_the_ends_of_a_branch_belong_to_it():
+    end, fold = jkr.pull_off(**CASE), jkr.instability(**CASE)
+    at_end = jkr.contact_radius_at_force(end.force, **CASE)
+    assert at_end == pytest.approx(end.contact_radius, rel=1e-7, abs=0)
+    at_fold = jkr.contact_radius_at_depth(fold.depth, **CASE)
+    # the fold has a square root: half of the digits
+    assert at_fold == pytest.approx(fold.contact_radius, rel=1e-7, abs=0)
+    pull_off = dmt.pull_off_force(radius=R, work_of_adhesion=W)
+    assert dmt.contact_radius_at_force(-pull_off, **CASE) == 0

@@ -1,0 +1,80 @@
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viscotack.units import finite, parse, positive
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("5.19 mm", "m", 5.19e-3),
+        ("5.19mm", "m", 5.19e-3),
+        ("1.55 um", "m", 1.55e-6),
+        ("1.55 µm", "m", 1.55e-6),
+        ("152.3 mJ/m2", "J/m^2", 0.1523),
+        ("152.3 mJ/m^2", "J/m^2", 0.1523),
+        ("0.1523 N/m", "J/m^2", 0.1523),
+        ("1.458e3 kPa", "Pa", 1.458e6),
+        ("-.5 mN", "N", -5e-4),
+        ("100 um s-1", "m/s", 1e-4),
+        ("20 degC", "K", 293.15),
+        ("0.2207", "1", 0.2207),
+        ("22.07 percent", "1", 0.2207),
+        (5.19e-3, "m", 5.19e-3),
+    ],
+)
+def test_text_with_a_unit_becomes_si(text, unit, value):
+    assert parse(text, unit) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "words"),
+    [
+        ("5.19", "m", "no unit; write for example '5.19 m'"),
+        ("5.19 kg", "m", "does not measure the right thing; expected something in m"),
+        ("5.19 mmm", "m", "unit 'mmm' is not known"),
+        ("5,19 mm", "m", "decimal point"),
+        ("five mm", "m", "not a number and a unit"),
+        ("", "m", "not a number and a unit"),
+        ("nan m", "m", "not a number and a unit"),
+        ("1e999 m", "m", "must be finite"),
+        ("3 m", "1", "expected something in 1"),
+        (math.nan, "m", "must be finite"),
+        (True, "m", "expected a quantity"),
+        (None, "m", "expected a quantity"),
+    ],
+)
+def test_a_wrong_quantity_is_refused_with_words_that_help(text, unit, words):
+    with pytest.raises(ValueError, match=words):
+        parse(text, unit)
+
+
+@given(st.floats(-1e12, 1e12))
+@settings(deadline=None)  # the first call imports the unit library
+def test_a_number_with_a_prefix_is_the_number_times_its_power_of_ten(number):
+    assert parse(f"{number!r} mN", "N") == pytest.approx(number * 1e-3, rel=1e-14)
+
+
+@given(st.integers(1, 10**15 - 1), st.integers(-12, 12))
+@settings(deadline=None)
+def test_a_quantity_is_the_same_number_in_every_unit(digits, power):
+    # as it must be to have one name by content
+    assert parse(f"{digits}e{power} ms", "s") == parse(f"{digits}e{power - 3} s", "s")
+
+
+def test_minus_zero_becomes_zero():
+    assert math.copysign(1, finite("depth", -0.0, "m")) == 1
+
+
+@pytest.mark.parametrize("value", [0, -1.0, math.nan, math.inf, "wide", None])
+def test_a_positive_number_is_asked_for_by_name(value):
+    with pytest.raises(ValueError, match="radius must be"):
+        positive("radius", value, "m")
+
+
+def test_text_in_place_of_a_number_is_told_how_to_be_read():
+    with pytest.raises(ValueError, match=r"viscotack.parse\('5.19 mm', 'm'\)"):
+        positive("radius", "5.19 mm", "m")
