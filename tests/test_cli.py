@@ -354,7 +354,9 @@ def test_a_true_simulation_from_a_terminal(tmp_path):
             stderr=screen,
             env=os.environ | {"TERM": "xterm"},
             check=True,
+            timeout=100,
         )
+        os.set_blocking(terminal, False)
         seen = os.read(terminal, 100_000).decode()
     finally:
         os.close(screen)

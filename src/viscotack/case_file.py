@@ -12,8 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from .geometry import Sphere
-from .materials import Elastic, Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
-from .problem import Material, Problem
+from .materials import (
+    Elastic,
+    Material,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from .problem import Problem
 from .protocol import AtDepth, AtForce, AtRadius, Retraction, Start
 from .traction import LennardJones
 from .units import parse, positive

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from .case_file import read_prony
-from .materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
-from .problem import Groups, Material, Problem
+from .materials import Elastic, Material, Prony, RetardationPowerLaw, StandardSolid
+from .problem import Groups, Problem
 from .protocol import AtDepth, AtForce, AtRadius, Start
 from .units import parse, positive
 

@@ -105,7 +105,7 @@ def draw_rates(
         axes.set_title(title)
         axes.legend(loc="upper left")
         if note:
-            axes.text(0.98, 0.03, note, transform=axes.transAxes, ha="right", va="bottom", size=11)
+            axes.text(0.03, 0.76, note, transform=axes.transAxes, va="top", size=12)
     return figure
 
 

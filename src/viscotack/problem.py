@@ -13,12 +13,13 @@ Tabor number as corrected in Eq. 31.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .geometry import Sphere
+from .materials import Material
 from .protocol import AtDepth, AtForce, AtRadius, Retraction, Start
 from .traction import LennardJones, Traction
 from .units import finite, positive
@@ -26,25 +27,6 @@ from .units import finite, positive
 # Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
 # sphere's and strains are of order a/R: linear elasticity of the half-space ends about here.
 LARGEST_CONTACT = 0.5
-
-
-class Material(Protocol):
-    """What a problem asks of a material; for the type checker."""
-
-    @property
-    def rubbery_modulus(self) -> float: ...  # noqa: D102
-    @property
-    def glassy_modulus(self) -> float: ...  # noqa: D102
-    @property
-    def poisson_ratio(self) -> float: ...  # noqa: D102
-    @property
-    def modulus_ratio(self) -> float: ...  # noqa: D102
-    @property
-    def contact_modulus(self) -> float: ...  # noqa: D102
-    @property
-    def time_unit(self) -> float: ...  # noqa: D102
-    def reduced(self) -> "Material": ...  # noqa: D102
-    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Any: ...  # noqa: D102
 
 
 @dataclass(frozen=True)

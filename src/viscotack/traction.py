@@ -115,6 +115,6 @@ class LennardJones:
 
     def _inverse_gap(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         h = np.asarray(gap, dtype=float)
-        if np.any(h <= 0):
+        if not (h > 0).all():
             raise ValueError(f"gap must be positive, got a minimum of {h.min()} m")
         return self.equilibrium_gap / h

@@ -1,14 +1,15 @@
 r"""Balance of the surface at one instant: gaps at which tractions and displacements agree.
 
-With the stiffness S of the relaxed solid, the compliance c of this instant or step and the gap b that
-the drive and the past alone would leave, the gap g makes the energy
+With the stiffness S of the relaxed solid, the compliance c of this instant or step and the gap b
+that the drive and the past alone would leave, the gap g makes the energy
 
 .. math:: \Pi(g) = \frac{1}{2c} (g-b)^T S\, (g-b) + \sum_i A_i\, \varphi(g_i)
 
-stationary; :math:`\varphi` is the interface energy of the traction law. The tangent S/c + diag(A phi'')
-is symmetric, and its Cholesky factor exists exactly where the state is stable. :func:`descend` is Newton's
-method on this energy, always downhill: from a good guess it stays on the branch in two or three iterations;
-from a bad one, or where a branch ends, it finds the stable state that a contact without inertia would.
+stationary; :math:`\varphi` is the interface energy of the traction law. The tangent
+S/c + diag(A phi'') is symmetric, and its Cholesky factor exists exactly where the state is stable.
+:func:`descend` is Newton's method on this energy, always downhill: from a good guess it stays on
+the branch in two or three iterations; from a bad one, or where a branch ends, it finds the stable
+state that a contact without inertia would.
 """
 
 from __future__ import annotations
@@ -17,10 +18,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg import lapack
+from scipy.linalg import get_lapack_funcs
 
 from viscotack.bem.halfspace import Surface
 from viscotack.traction import Traction
+
+_potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 
 # Newton converges quadratically: a last change of 1e-6 of the gap leaves an error near 1e-12.
 _LAST_CHANGE = 1e-6
@@ -41,7 +44,7 @@ def _factor(stiffness: npt.NDArray, diagonal: npt.NDArray):
     """Return the Cholesky factor of stiffness + diagonal, or None where it is not stable."""
     tangent = stiffness.copy(order="F")
     tangent.flat[:: len(tangent) + 1] += diagonal
-    factor, info = lapack.dpotrf(tangent, lower=1, overwrite_a=1, clean=0)
+    factor, info = _potrf(tangent, lower=1, overwrite_a=1, clean=0)
     return None if info else factor
 
 
@@ -62,8 +65,8 @@ def descend(
 ) -> Balance:
     """Return the stable equilibrium downhill from a guess.
 
-    Where the tangent is not positive definite, softening tractions are left out of it, which keeps the
-    direction downhill; the line search is in energy. Not stable if the iterations ran out.
+    Where the tangent is not positive definite, softening tractions are left out of it, which keeps
+    the direction downhill; the line search is in energy. Not stable if the iterations ran out.
     """
     S, A = surface.stiffness / compliance, surface.area
     gap, u = guess, guess - free_gap
@@ -76,7 +79,7 @@ def descend(
         if factor is None:
             factor = _factor(S, np.maximum(curvature, 0.0))
         residual = Su + A * law.traction(gap)
-        change, _ = lapack.dpotrs(factor, -residual, lower=1)
+        change, _ = _potrs(factor, -residual, lower=1)
         part, slope = _limited(change, gap), float(residual @ change)
         while True:
             trial = gap + part * change

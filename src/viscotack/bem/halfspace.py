@@ -1,8 +1,8 @@
 r"""The elastic half-space under axisymmetric pressure, and the surface it offers to a contact.
 
 Pressure is given at the nodes :math:`r_0 = 0 < r_1 < \dots < r_N` and varies linearly between them
-*in* :math:`r^2`, that is in enclosed area: the "overlapping triangles" of Appendix V with flanks that
-make the displacement known in closed form. Every such hat is a combination of three caps
+*in* :math:`r^2`, that is in enclosed area: the "overlapping triangles" of Appendix V with flanks
+that make the displacement known in closed form. Every such hat is a combination of three caps
 :math:`p = c^2 - s^2` (for :math:`s<c`), whose displacement for :math:`E^*=1` is
 
 .. math::
@@ -28,38 +28,44 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg import lapack
+from scipy.linalg import get_lapack_funcs
 from scipy.special import ellipe, ellipkm1
 
 from viscotack.traction import Traction
+
+_potrf, _potri = get_lapack_funcs(("potrf", "potri"), dtype=np.float64)
 
 # Below this ratio (c/r)^2 the closed form outside the cap loses digits to cancellation.
 _SERIES_BELOW = 0.05
 _SERIES_TERMS = 14
 
 
-def cap_displacement(radius: npt.ArrayLike, cap_radius: npt.ArrayLike) -> npt.NDArray:
-    """Return U(r, c), the displacement at r under the cap of pressure c^2 - s^2 with E* = 1.
+def cap_displacement(radius: npt.NDArray) -> npt.NDArray:
+    """Return U[i, j], the displacement at node i under the cap that ends at node j, with E* = 1.
+
+    Inside and outside share their elliptic integrals: one of each pair of nodes serves both.
 
     Parameters
     ----------
-    radius, cap_radius : array_like, broadcast together
-        r and c, not negative, in one unit of length; the result has this unit cubed.
+    radius : ndarray, shape (N,)
+        Nodes in any unit of length, ascending; the result has this unit cubed.
     """
-    r, c = np.broadcast_arrays(np.asarray(radius, float), np.asarray(cap_radius, float))
-    small, large = np.minimum(r, c), np.maximum(r, c)
-    q = small / np.where(large > 0, large, 1.0)
+    small, large = np.triu_indices(len(radius))
+    r, c = radius[small], radius[large]
+    q = r / np.where(c > 0, c, 1.0)
     m, m1 = q * q, (1 - q) * (1 + q)
     E = ellipe(m)
     m1K = m1 * ellipkm1(np.maximum(m1, np.finfo(float).tiny))
-    inside = c**3 * (2 * (2 - m) * E - m1K) / 3
+    U = np.empty((len(radius), len(radius)))
+    # at the larger radius, outside the smaller cap
     mm = np.maximum(m, _SERIES_BELOW)  # the closed form is not used below it
     bracket = ((4 * mm - 2) * E + (2 - 3 * mm) * m1K) / (3 * mm * mm)
     far = m < _SERIES_BELOW
-    if far.any():
-        bracket[far] = _outside_series(m[far])
-    outside = c**4 / np.where(large > 0, large, 1.0) * bracket
-    return 8 / (3 * np.pi) * np.where(r <= c, inside, outside)
+    bracket[far] = _outside_series(m[far])
+    U[large, small] = r * r * r * q * bracket
+    # at the smaller radius, inside the larger cap
+    U[small, large] = c * c * c * (2 * (2 - m) * E - m1K) / 3
+    return 8 / (3 * np.pi) * U
 
 
 def _outside_series(m: npt.NDArray) -> npt.NDArray:
@@ -77,7 +83,7 @@ def influence(radius: npt.NDArray) -> npt.NDArray:
     The last hat is half a hat: pressure ends at the last node.
     """
     area = radius * radius
-    ramps = np.diff(cap_displacement(radius[:, None], radius[None, :]), axis=1) / np.diff(area)
+    ramps = np.diff(cap_displacement(radius), axis=1) / np.diff(area)
     disc = 4 / np.pi * radius[-1] * ellipe((radius / radius[-1]) ** 2)
     return np.column_stack([ramps[:, 0], np.diff(ramps, axis=1), disc - ramps[:, -1]])
 
@@ -135,17 +141,21 @@ class Surface:
         linear = r[i] - g[i] * (r[i + 1] - r[i]) / (g[i + 1] - g[i])
         if i == 0 or i + 2 >= len(r):
             return float(linear)
-        # The cubic through four nodes, solved by Newton from the chord: a linear edge would move
-        # in jerks from node to node, and its speed would be noise.
-        x = (r[i - 1 : i + 3] - r[i]) / (r[i + 1] - r[i])
-        c = np.linalg.solve(np.vander(x, 4), g[i - 1 : i + 3])
-        s = (linear - r[i]) / (r[i + 1] - r[i])
+        # The cubic through four nodes, by Newton from the chord: a linear edge would move in jerks
+        # from node to node, and its speed would be noise.
+        x, y = r[i - 1 : i + 3].tolist(), g[i - 1 : i + 3].tolist()
+        for order in (1, 2, 3):  # divided differences
+            y[order:] = [(y[k] - y[k - 1]) / (x[k] - x[k - order]) for k in range(order, 4)]
+        at = float(linear)
         for _ in range(4):
-            slope = (3 * c[0] * s + 2 * c[1]) * s + c[2]
+            p, d = at - x[0], at - x[1]
+            e = at - x[2]
+            value = y[0] + p * (y[1] + d * (y[2] + e * y[3]))
+            slope = y[1] + (p + d) * y[2] + (d * e + p * e + p * d) * y[3]
             if slope <= 0:
                 return float(linear)
-            s -= (((c[0] * s + c[1]) * s + c[2]) * s + c[3]) / slope
-        return float(r[i] + s * (r[i + 1] - r[i])) if 0 <= s <= 1 else float(linear)
+            at -= value / slope
+        return at if x[1] <= at <= x[2] else float(linear)
 
 
 def half_space(radius: npt.NDArray, tabor: float) -> Surface:
@@ -164,9 +174,9 @@ def half_space(radius: npt.NDArray, tabor: float) -> Surface:
 
 def _inverse(matrix: npt.NDArray) -> npt.NDArray:
     """Return the inverse of a symmetric positive definite matrix, symmetric to the last bit."""
-    factor, info = lapack.dpotrf(matrix, lower=1)
+    factor, info = _potrf(matrix, lower=1)
     if info == 0:
-        lower, info = lapack.dpotri(factor, lower=1, overwrite_c=1)
+        lower, info = _potri(factor, lower=1, overwrite_c=1)
     if info:
         raise ArithmeticError("the influence matrix is not positive definite: the mesh is too fine")
     lower = np.tril(lower)

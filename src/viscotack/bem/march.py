@@ -1,11 +1,11 @@
 r"""The march: constant-rate retraction of a relaxed contact, step by step, until it lets go.
 
-Each step is implicit and exact for a load that is linear in time (:mod:`.memory`), so it is second
-order in its length. The length is bounded by the error of that linearity, by the change of the force,
-by the travel of the drive, and by the energy: drive work must reappear as elastic and interface energy
-and heat. Where it does not, however short the step and although the solid already answers as stiffly as
-it can, the equilibrium branch has ended: the contact jumps, at fixed drive, to the next stable state
-downhill in energy, and what it loses is booked.
+Each step is implicit and exact for a load that is linear in time (:mod:`.memory`), so it is
+second order in its length. The length is bounded by the error of that linearity, by the change of
+the force, by the travel of the drive and of the edge, and by the energy: drive work must reappear
+as elastic and interface energy and heat. Where it does not, however short the step and although
+the solid already answers as stiffly as it can, the equilibrium branch has ended: the contact jumps
+to the next stable state downhill in energy, and what it loses is booked.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from viscotack.bem.halfspace import Surface, half_space
 from viscotack.bem.memory import Memory, Step, step
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
-from viscotack.bem.start import RADIUS_UNIT, Relaxed
+from viscotack.bem.start import Relaxed
 from viscotack.materials import Modes
 from viscotack.result import Event
 from viscotack.traction import Traction
@@ -219,7 +219,7 @@ class _Solid:
         return self.state(time, depth, surface, gap, (gap - free) / c, memory, _at_rest(gap))
 
     def remeshed(self, state: State, nodes: npt.NDArray) -> State:
-        """Return the same state on other nodes: displacements carried over, gaps in balance again."""
+        """Return the state on other nodes: displacements carried over, gaps in balance again."""
         surface = half_space(nodes, state.surface.tabor)
         old = state.surface.radius
 
@@ -248,6 +248,13 @@ def _shifted(state: State, distance: float) -> npt.NDArray:
 def _jump(before: Snapshot, after: Snapshot, lost: float) -> Event:
     kind = "jump" if after.edge > 0 else "jump out of contact"
     return Event(kind, after.time, after.depth, before.force, lost)
+
+
+def _edge_strain(before: float, after: float, grading: Grading) -> float:
+    """Return 1 where the edge goes so far in a step that it might leave the fine nodes."""
+    if not (before > 2 * grading.spacing and after > 0):
+        return 0.0
+    return ((after - before) / (0.4 * grading.half_width)) ** 2
 
 
 def march(
@@ -296,9 +303,7 @@ def march(
             error / (settings.step_error * looser**2) if now.time > 0 else 0.0,
             (abs(after.seen.force - now.force) / (2 * room)) ** 2,
             abs(entry.imbalance(first, after.seen) - balance) / tolerated,
-            ((after.seen.edge - now.edge) / (0.4 * grading.half_width)) ** 2
-            if now.edge > 2 * grading.spacing and after.seen.edge > 0
-            else 0.0,  # the edge must stay among the fine nodes, which pin it no more than a lattice
+            _edge_strain(now.edge, after.seen.edge, grading),
         )
         if strain > 1.5 and not stiffest:
             history.rejected += 1
@@ -314,9 +319,7 @@ def march(
             dt *= min(_GROWTH, 0.8 / np.sqrt(strain + 1e-12))
         state, books, now = after, entry, after.seen
         history.add(state, books, profiles)
-        lowest, since_lowest = (
-            (now.force, 0) if now.force < lowest else (lowest, since_lowest + 1)
-        )
+        lowest, since_lowest = (now.force, 0) if now.force < lowest else (lowest, since_lowest + 1)
         smallest = float(np.min(state.gap))
         past = since_lowest > 2 and now.force > (1 - _RISEN) * lowest
         looser = _LOOSER if past else 1.0

@@ -1,15 +1,15 @@
 r"""What the solid remembers: one displacement field for each of its retardation modes.
 
-The creep compliance is a short sum of exponentials (:class:`viscotack.materials.Modes`), so that the
-hereditary integral of Eq. 4.15 needs no history. With e(t) the displacement that the present pressure
-would cause in the relaxed solid, mode j follows :math:`\tau_j \dot d_j = e - d_j`, and the surface is
-displaced by :math:`u = c\, e + \sum_j w_j d_j` (c: instantaneous compliance). For an e that is linear
-over a step dt, with :math:`x = dt/\tau` and :math:`\varphi = (1-e^{-x})/x`, exactly
+The creep compliance is a short sum of exponentials (:class:`viscotack.materials.Modes`), so that
+the hereditary integral of Eq. 4.15 needs no history. With e(t) the displacement that the present
+pressure would cause in the relaxed solid, mode j follows :math:`\tau_j \dot d_j = e - d_j`, and the
+surface is displaced by :math:`u = c\, e + \sum_j w_j d_j` (c: instantaneous compliance). For an e
+that is linear over a step dt, with :math:`x = dt/\tau` and :math:`\varphi = (1-e^{-x})/x`, exactly
 
 .. math:: d^+ = e^{-x} d + (\varphi - e^{-x})\, e + (1-\varphi)\, e^+ .
 
-The state is carried as displacements, not as stresses: in contact they are smooth where the crack has
-not been yet, so that a mesh that follows the edge loses next to nothing when it moves, even for
+The state is carried as displacements, not as stresses: in contact they are smooth where the crack
+has not been yet, so that a mesh that follows the edge loses next to nothing when it moves, even for
 k = 1e-4. The forces z that belong to d obey the same recursion and are kept for the energy audit:
 the heat of mode j in a step is :math:`w_j \int (e-d_j)\cdot(F-z_j)\,dt/\tau_j`, integrated exactly.
 """

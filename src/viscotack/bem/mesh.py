@@ -1,17 +1,18 @@
 r"""Where the nodes are: fine around the contact edge, growing away from it.
 
 The crack at the contact edge has a process zone of about :math:`0.75\,\beta/\mu^2` while it is
-slow (it grows when the crack is fast), which for a large Tabor number is a tiny part of the contact.
+slow (it grows when the crack is fast), for a large Tabor number a tiny part of the contact.
 Equal nodes in a zone around the edge and geometric growth outside it cost log(mu) nodes instead of
 mu^2. When the edge leaves its zone the march asks for new nodes around the new edge.
 
-Two things keep what a move costs small. The fine nodes of all meshes of a run lie on one lattice, so
-that nothing is interpolated where both meshes are fine. And the place of the first edge stays fine: the
-relaxed contact leaves a scar there that slow modes remember, and a fast crack pulls across it.
+Two things keep what a move costs small. The fine nodes of all meshes of a run lie on one lattice,
+so that nothing is interpolated where both meshes are fine. And the place of the first edge stays
+fine: the relaxed contact leaves a scar there that slow modes remember, and a fast crack pulls
+across it.
 
-Growth inside the contact is slower than outside: the pressure there is that of a crack, 1/sqrt(x) at a
-distance x from the edge, and every decade of x adds the same error, of second order in the growth, to the
-energy that the edge releases. Outside there is next to no pressure.
+Growth inside the contact is slower than outside: the pressure there is that of a crack, 1/sqrt(x)
+at a distance x from the edge, and every decade of x adds the same error, of second order in the
+growth, to the energy that the edge releases. Outside there is next to no pressure.
 
 At small Tabor numbers the process zone is larger than the contact; the gap then varies over
 :math:`\beta/\sqrt{\mu}`, the distance over which a paraboloid rises by about h0.
@@ -26,7 +27,7 @@ import numpy.typing as npt
 
 
 def edge_zone(tabor: float) -> float:
-    """Return the length [beta] over which the gap opens at the contact edge of the relaxed solid."""
+    """Return the length [beta] over which the gap opens at a relaxed contact edge."""
     return min(0.75 / tabor**2, 0.3 / np.sqrt(tabor))
 
 

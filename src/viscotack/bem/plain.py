@@ -1,11 +1,12 @@
-r"""The plain twin: the published algorithm, slow and obvious, that the fast solver is tested against.
+r"""The plain twin: the published algorithm, slow and obvious, to test the fast solver against.
 
-Appendix V of Maghami, PhD thesis (2025), with the misprints of Eq. 4.13 and 34 corrected: equally spaced
-nodes, overlapping triangles by quadrature, a fixed time step, the full hereditary sum and a dense
-Newton. Nothing is shared with the fast solver but the statement of the problem. It costs
-O(steps^2 nodes + steps nodes^3) and needs several hundred nodes where the Tabor number is not small.
+Appendix V of Maghami, PhD thesis (2025), with the misprints of Eq. 4.13 and 34 corrected: equally
+spaced nodes, overlapping triangles by quadrature, a fixed time step, the full hereditary sum and a
+dense Newton. Nothing is shared with the fast solver but the statement of the problem. It costs
+O(steps^2 nodes + steps nodes^3) and needs several hundred nodes unless the Tabor number is small.
 
-In the thesis's units: r in beta, gap and depth in h0, pressure sigma in dg/(mu h0), time in the time unit:
+In the thesis's units: r in beta, gap and depth in h0, pressure sigma in dg/(mu h0), time in the
+material's unit:
 
 .. math::
 
@@ -13,8 +14,9 @@ In the thesis's units: r in beta, gap and depth in h0, pressure sigma in dg/(mu 
     u_i^{(q)} = \mu \sum_j G_{ij} \Big\{\sigma_j^{(0)} +
       \sum_{m=0}^{q-1} \bar C_{q-1-m} \big(\sigma_j^{(m+1)} - \sigma_j^{(m)}\big)\Big\}
 
-with the mean creep compliance of each step, :math:`\bar C_p = \frac{1}{dt}\int_{t_p}^{t_{p+1}} C\,dt`,
-which is exact for a pressure that is linear over the steps.
+with the mean creep compliance of each step,
+:math:`\bar C_p = \frac{1}{dt}\int_{t_p}^{t_{p+1}} C\,dt`, which is exact for a pressure that
+is linear over the steps.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1
 
-from viscotack.problem import Groups, Material, Problem
+from viscotack.materials import Material
+from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth
 from viscotack.result import Outcome, Result, receding_speed
 

@@ -20,6 +20,9 @@ class Settings:
 
     Attributes
     ----------
+    accuracy : float
+        Relative error of the pull-off force that the rest is made for; no error estimate falls far
+        below.
     nodes_per_zone : float
         Nodes over the length in which the gap opens at the edge.
     fine_zones : float
@@ -42,6 +45,7 @@ class Settings:
         Bound on the steps of a run.
     """
 
+    accuracy: float
     nodes_per_zone: float
     fine_zones: float
     growth_inside: float
@@ -65,6 +69,7 @@ class Settings:
             )
         s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
         return cls(
+            accuracy=accuracy,
             nodes_per_zone=6 / s,
             fine_zones=5,
             growth_inside=0.065 * s,
@@ -83,6 +88,7 @@ class Settings:
         s = float(np.sqrt(factor))
         return replace(
             self,
+            accuracy=self.accuracy * factor,
             nodes_per_zone=self.nodes_per_zone / s,
             growth_inside=self.growth_inside * s,
             growth_outside=self.growth_outside * s,

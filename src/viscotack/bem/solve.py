@@ -7,12 +7,13 @@ from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from viscotack.bem.march import SMALLEST_ENERGY, History, march
 from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
 from viscotack.bem.start import RADIUS_UNIT, Relaxed, relaxed
 from viscotack.materials import Modes
-from viscotack.observables import pull_off, work_to_pull_off
+from viscotack.observables import pull_off_force, work_to_pull_off
 from viscotack.problem import Groups, Problem
 from viscotack.result import Outcome, Result, receding_speed
 
@@ -22,9 +23,11 @@ _FASTEST = 0.2
 # The coarse companion of a run is less accurate by this factor; every error is of second order.
 _COARSER = 4.0
 # The estimate is the difference to the companion over _COARSER - 1, times this margin ...
-_MARGIN = 1.5
-# ... but never below this part of the accuracy: two errors may cancel in the difference.
-_FLOOR = 0.05
+_MARGIN = 1.8
+# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
+# over the whole range the estimate then covers the true error in 62 (force) and 61 (work), and is
+# in the median 1.9 and 3.3 times as large.
+_FLOOR = {"force": 0.2, "work": 1.0}
 
 
 class SimulationError(RuntimeError):
@@ -57,8 +60,8 @@ def solve(
     problem : Problem or Groups
         What is retracted, in SI or in dimensionless groups.
     accuracy : float
-        Wanted relative error of the pull-off force, from 1e-6 to 0.1; the work to pull-off, whose end is
-        a flat minimum, has about five times this error.
+        Wanted relative error of the pull-off force, from 1e-6 to 0.1; the work to pull-off, whose
+        end is a flat minimum, has up to five times this error.
     until : {"detached", "pull-off"}
         Run until the surfaces are apart, or only until the force minimum is passed (faster; the
         work of separation is then not known).
@@ -105,11 +108,13 @@ def solve(
         raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
-    result = _run(problem, chosen, until, fields, progress)
-    estimate = None
-    if estimate_error and result.outcome is not Outcome.STOPPED:
-        companion = _run(problem, chosen.coarser(_COARSER), "pull-off", False, None)
-        estimate = _estimate(result, companion, accuracy)
+    # The matrices are small: a second BLAS thread costs many times what it brings.
+    with threadpool_limits(limits=1, user_api="blas"):
+        result = _run(problem, chosen, until, fields, progress)
+        estimate = None
+        if estimate_error and result.outcome is not Outcome.STOPPED:
+            companion = _run(problem, chosen.coarser(_COARSER), "pull-off", False, None)
+            estimate = _estimate(result, companion, chosen.accuracy)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     result = replace(result, error_estimate=estimate, statistics=statistics)
     if throw and result.outcome is Outcome.STOPPED:
@@ -183,8 +188,8 @@ def _result(problem: Problem | Groups, history: History, modes: Modes, fields: b
         },
         energy={
             "drive": np.array([b.drive for b in books]),
-            "elastic": np.array([s.elastic - first.elastic for s in states]),
-            "interface": np.array([s.interface - first.interface for s in states]),
+            "elastic": np.array([s.elastic for s in states]),
+            "interface": np.array([s.interface for s in states]),
             "heat": heat.sum(axis=1),
             "jumps": np.array([b.jumps for b in books]),
             "transfer": np.array([b.transfer for b in books]),
@@ -200,15 +205,15 @@ def _status(history: History) -> str:
     last = history.snapshots[-1]
     if history.outcome == "steps":
         return (
-            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met at a "
-            f"depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
+            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met "
+            f"at a depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
         )
     if history.outcome == "pull-off":
         return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
     for event in history.events:
         if event.kind == "jump out of contact":
             return f"{Outcome.JUMPED} at depth {event.depth:.4g} h0 out of contact"
-    return f"{Outcome.DETACHED} without a jump"
+    return str(Outcome.DETACHED)
 
 
 def _fields(history: History, time: np.ndarray) -> dict[str, np.ndarray]:
@@ -230,13 +235,10 @@ def _estimate(fine: Result, coarse: Result, accuracy: float) -> dict[str, float]
     """Return the relative errors of the fine run's force and work, from the coarse one's."""
     if coarse.outcome is Outcome.STOPPED:
         return None
-
-    def relative(quantity: Callable[[Result], float], floor: float) -> float:
+    quantities = {"force": pull_off_force, "work": work_to_pull_off}
+    estimate = {}
+    for name, quantity in quantities.items():
         value, other = quantity(fine), quantity(coarse)
-        share = abs(value - other) / max(abs(value), 1e-12) / (_COARSER - 1)
-        return max(_MARGIN * share, floor * accuracy)
-
-    return {
-        "force": relative(lambda r: pull_off(r).force, _FLOOR),
-        "work": relative(work_to_pull_off, 4 * _FLOOR),
-    }
+        share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
+        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * accuracy)
+    return estimate

@@ -1,8 +1,8 @@
 r"""The relaxed contact from which the retraction starts, by depth, force or contact radius.
 
-The search begins at the exact JKR surface (in units in which R = E* = dg = 1 lengths are in beta and
-displacements in mu h0), goes downhill in energy, and puts the fine nodes where the edge was found, until
-edge and nodes agree: an edge outside the fine zone would be pinned by the coarse nodes there.
+The search begins at the exact JKR surface, goes downhill in energy, and puts the fine nodes where
+the edge was found, until edge and nodes agree: an edge outside the fine zone would be pinned by the
+coarse nodes there.
 """
 
 from __future__ import annotations
@@ -19,16 +19,21 @@ from viscotack.bem.equilibrium import descend
 from viscotack.bem.halfspace import Surface, half_space
 from viscotack.bem.mesh import Grading, edge_zone
 from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.theory import jkr
 from viscotack.traction import Traction
 
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 RADIUS_UNIT = np.pi ** (1 / 3)
+# In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
+_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 _MOST_MESHES = 40
+# A start by force or radius is found to this part of (mu + 1) h0 in depth.
+_DEPTH_TOLERANCE = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
 class Relaxed:
-    """A relaxed contact: its surface, gap [h0], depth [h0], force and contact radius (outputs' units).
+    """A relaxed contact: surface, gap and depth [h0], force and contact radius (outputs' units).
 
     The lattice is the radius [beta] around which its fine nodes lie, a contact edge within a zone.
     """
@@ -41,26 +46,9 @@ class Relaxed:
     lattice: float
 
 
-def _jkr_depth(a: float) -> float:
-    """Return the JKR depth [mu h0] at a contact radius [beta]."""
-    return a * a - np.sqrt(2 * np.pi * a)
-
-
 def _jkr_radius(depth: float) -> float:
-    """Return the JKR contact radius [beta] on the stable branch at a depth [mu h0]."""
-    turn = (np.pi / 8) ** (1 / 3)  # the smallest depth, where the branch ends
-    if depth <= _jkr_depth(turn):
-        return turn
-    return float(brentq(lambda a: _jkr_depth(a) - depth, turn, np.sqrt(abs(depth)) + 4.0))
-
-
-def _jkr_gap(r: npt.NDArray, a: float, tabor: float) -> npt.NDArray:
-    """Return the gap [h0] around a JKR contact: h0 in contact, then Hertz plus a flat punch."""
-    x = np.maximum(r / a, 1.0)
-    opening = np.arccos(1 / x)
-    hertz = a * a / np.pi * (np.sqrt(x * x - 1) + (x * x - 2) * opening)
-    punch = np.sqrt(2 * np.pi * a) * 2 / np.pi * opening
-    return 1 + tabor * (hertz + punch)
+    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
+    return float(jkr.contact_radius_at_depth(max(depth, jkr.instability(**_UNITS).depth), **_UNITS))
 
 
 def relaxed_at_depth(
@@ -79,7 +67,7 @@ def relaxed_at_depth(
     for _ in range(_MOST_MESHES):
         nodes = mesh_of.nodes(edge, edge)
         if surface is None or gap is None:
-            guess = _jkr_gap(nodes, edge, tabor)
+            guess = 1 + tabor * np.asarray(jkr.gap(nodes, contact_radius=edge, **_UNITS))
         else:
             guess = np.maximum(CubicSpline(surface.radius, gap)(nodes), 0.8)
         surface = half_space(nodes, tabor)
@@ -93,8 +81,8 @@ def relaxed_at_depth(
             return Relaxed(surface, gap, depth, force, found / RADIUS_UNIT, edge)
         edge = found
     raise ValueError(
-        f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {tabor:g}): the surfaces "
-        "do not hold each other there; start deeper"
+        f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {tabor:g}): "
+        "the surfaces do not hold each other there; start deeper"
     )
 
 
@@ -126,11 +114,12 @@ def _root(
     except ValueError:
         least = min((quantity(contact) for contact in found.values()), default=np.nan)
         raise ValueError(
-            f"no relaxed contact has a {name} of {wanted:g}; the least that was found is {least:.4g}"
+            f"no relaxed contact has a {name} of {wanted:g}; "
+            f"the least that was found is {least:.4g}"
         ) from None
     if low == high:
         return found[low]
-    depth = float(brentq(error, low, high, xtol=1e-9 * scale, rtol=1e-9, maxiter=100))
+    depth: float = brentq(error, low, high, xtol=_DEPTH_TOLERANCE * scale, maxiter=100)  # type: ignore[assignment]
     return found[depth] if depth in found else relaxed_at_depth(depth, law, tabor, grading)
 
 
@@ -162,11 +151,11 @@ def relaxed(
         return relaxed_at_depth(start.depth, law, tabor, grading)
     if isinstance(start, AtRadius):
         wanted = start.contact_radius
-        first = tabor * _jkr_depth(wanted * RADIUS_UNIT)
+        first = tabor * float(jkr.depth(wanted * RADIUS_UNIT, **_UNITS))
         return _root(
             lambda x: x.contact_radius, wanted, "contact radius", first, law, tabor, grading
         )
-    # P/(pi R dg) = 4/3 a^3 - sqrt(8 a^3): a^(3/2) is the larger root of a quadratic.
-    root = (np.sqrt(8) + np.sqrt(max(8 + 8 * start.force, 0.0))) * 3 / 8
-    first = tabor * _jkr_depth(root ** (2 / 3) * RADIUS_UNIT)
+    weakest = -jkr.pull_off_force(radius=1.0, work_of_adhesion=1.0)
+    edge = jkr.contact_radius_at_force(max(1.5 * np.pi * start.force, weakest), **_UNITS)
+    first = tabor * float(jkr.depth(edge, **_UNITS))
     return _root(lambda x: x.force, start.force, "force", first, law, tabor, grading)
