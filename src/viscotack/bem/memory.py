@@ -90,13 +90,15 @@ class Memory:
         """Return the heat of each mode in that step, shape (M,) [dg beta^2]."""
         y, f = e - self.displacement, F - self.force
         x = s.length / s.times
-        one, two = -np.expm1(-x), -np.expm1(-2 * x) / 2  # integrals of exp(-s), exp(-2 s)
+        # y(s) = y exp(-s) + v (1 - exp(-s)) with v = (e1 - e)/x; integrals of the three products
+        one, two = -np.expm1(-x), -np.expm1(-2 * x) / 2
         start = np.einsum("ij,ij->i", y, f)
         mixed = (y @ (F1 - F)) / x
         ramp = float((e1 - e) @ (F1 - F)) / x**2
-        # (1 - exp(-s))^2 integrated loses its digits for short steps, where it is x^3/3 - x^4/4.
-        square = np.where(x < 1e-3, x**3 / 3 - x**4 / 4, x - 2 * one + two)
-        return s.weights * (start * two + mixed * 2 * (one - two) + ramp * square)
+        # the last one loses its digits for short steps, where its series has them
+        series = x**3 / 3 - x**4 / 4 + 7 * x**5 / 60
+        square = np.where(x < 1e-3, series, x - one - one**2 / 2)
+        return s.weights * (start * two + mixed * one**2 + ramp * square)
 
     def stored(self, weights: npt.NDArray) -> float:
         """Return the elastic energy in the springs of the modes [dg beta^2]."""

@@ -1,0 +1,110 @@
+"""What the solver says when it is asked for something it cannot do, and what it keeps."""
+
+import numpy as np
+import pytest
+
+from viscotack.bem import Settings, SimulationError, solve
+from viscotack.bem.plain import plain_solve
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import AtDepth, AtForce, AtRadius
+
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def case(start=AtDepth(1.0), tabor=1.0, rate=10.0, material=SOLID):
+    return Groups(tabor=tabor, material=material, start=start, rate=rate)
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (AtDepth(-9.0), "no relaxed contact exists at a depth of -9 h0"),
+        (AtForce(-1.5), "no relaxed contact has a force of -1.5"),
+        (AtRadius(1e-3), "no relaxed contact has a contact radius of 0.001"),
+    ],
+    ids=["depth", "force", "radius"],
+)
+def test_a_start_that_does_not_exist_is_refused(start, words):
+    with pytest.raises(ValueError, match=words):
+        solve(case(start))
+
+
+@pytest.mark.parametrize("accuracy", [0.0, -1.0, 0.5, float("nan"), 1e-9])
+def test_an_impossible_accuracy_is_refused(accuracy):
+    with pytest.raises(ValueError, match="accuracy must be between 1e-6 and 0.1"):
+        solve(case(), accuracy=accuracy)
+
+
+def test_until_has_two_meanings_only():
+    with pytest.raises(ValueError, match="until must be one of 'pull-off', 'detached'"):
+        solve(case(), until="tomorrow")
+
+
+def test_a_run_that_meets_its_bound_says_so_and_can_be_kept():
+    from dataclasses import replace
+
+    settings = replace(Settings.for_accuracy(2e-3), most_steps=5)
+    with pytest.raises(SimulationError, match="bound of 5 steps was met at a depth of") as failure:
+        solve(case(), settings=settings)
+    kept = solve(case(), settings=settings, throw=False)
+    assert kept.status == str(failure.value)
+    assert kept.outcome == "stopped"
+    assert kept.error_estimate is None
+    assert len(kept.time) == 6
+
+
+def test_the_same_problem_gives_the_same_bytes():
+    first, second = (solve(case(), until="pull-off") for _ in range(2))
+    for name in ("time", "depth", "force", "contact_radius", "edge_speed"):
+        assert np.array_equal(getattr(first, name), getattr(second, name), equal_nan=True)
+    assert first.error_estimate == second.error_estimate
+
+
+def test_better_accuracy_costs_more_and_estimates_less():
+    coarse, fine = (solve(case(), accuracy=a, until="pull-off") for a in (8e-3, 5e-4))
+    assert fine.statistics["nodes"] > 1.5 * coarse.statistics["nodes"]
+    assert fine.statistics["steps"] > 1.5 * coarse.statistics["steps"]
+    assert fine.error_estimate["force"] < coarse.error_estimate["force"]
+
+
+def test_fields_are_kept_on_request_and_agree_with_the_force():
+    result = solve(case(), until="pull-off", fields=True, estimate_error=False)
+    fields = result.fields
+    assert fields is not None
+    assert fields["radius"].shape == fields["pressure"].shape == fields["gap"].shape
+    assert len(fields["time"]) == len(result.time) == len(fields["radius"])
+    for i in (0, len(result.time) // 2, -1):
+        r, p = fields["radius"][i], fields["pressure"][i]
+        known = np.isfinite(r)
+        beta = r[known] * np.pi ** (1 / 3)
+        force = np.trapezoid(p[known] * 2 * np.pi * beta, beta) * 2 * 1.0 / (3 * np.pi)
+        # trapezoid on this mesh against hats and tail: a few per cent of the unit force
+        assert force == pytest.approx(result.force[i], abs=0.05)
+    assert solve(case(), until="pull-off", estimate_error=False).fields is None
+
+
+def test_progress_goes_from_zero_to_one():
+    seen = []
+    solve(case(), progress=seen.append, estimate_error=False)
+    assert seen[0] < 0.2
+    assert seen[-1] == 1.0
+    assert all(0 <= s <= 1 for s in seen)
+
+
+def test_an_elastic_jump_is_found_and_booked():
+    elastic = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    result = solve(case(AtDepth(-5.0), 3.24, 1.0, elastic), estimate_error=False)
+    assert result.status.startswith("jumped at depth -5.3")
+    out = [event for event in result.events if event.kind == "jump out of contact"]
+    assert len(out) == 1
+    # 0.3666 from runs refined in mesh and steps
+    assert result.energy["jumps"][-1] == pytest.approx(0.3666, rel=0.02, abs=0)
+    assert result.energy["heat"][-1] == 0.0
+
+
+def test_plain_twin_starts_by_depth_only_and_says_when_newton_fails():
+    with pytest.raises(ValueError, match="starts by depth only"):
+        plain_solve(case(AtForce(1.0)), nodes=50, outer_radius=10.0, steps=10, last_depth=0.0)
+    stopped = plain_solve(case(), nodes=60, outer_radius=12.0, steps=3, last_depth=-40.0)
+    assert stopped.status.startswith("stopped because") or stopped.outcome == "still in contact"
