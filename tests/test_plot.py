@@ -141,3 +141,20 @@ def test_an_unknown_format_is_refused_before_the_work():
         check_format("figure.docx")
     with pytest.raises(ValueError, match="cannot draw to 'figure'"):
         check_format("figure")
+
+
+def test_energy_picture_shows_where_the_work_went():
+    from viscotack import AtDepth, Groups, StandardSolid, draw_energy, solve
+
+    solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    groups = Groups(tabor=1.0, material=solid, start=AtDepth(1.0), rate=10.0)
+    result = solve(groups, accuracy=8e-3, estimate_error=False)
+    left, right = draw_energy(result).axes
+    labels = [text.get_text() for text in left.get_legend().get_texts()]
+    assert labels[:4] == ["work of the drive", "interface", "elastic energy", "heat in the solid"]
+    curves = {line.get_label(): line.get_ydata()[-1] for line in left.get_lines()}
+    work = curves.pop("work of the drive")
+    assert sum(curves.values()) == pytest.approx(work, abs=5e-3 * abs(curves["interface"]))
+    assert "retardation time" in right.get_xlabel()
+    with pytest.raises(ValueError, match="keeps no energies"):
+        draw_energy(jkr_result())

@@ -12,8 +12,8 @@ from viscotack.protocol import AtDepth, AtForce, AtRadius
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
 
-def case(start=AtDepth(1.0), tabor=1.0, rate=10.0, material=SOLID):
-    return Groups(tabor=tabor, material=material, start=start, rate=rate)
+def case(start=None, tabor=1.0, rate=10.0, material=SOLID):
+    return Groups(tabor=tabor, material=material, start=start or AtDepth(1.0), rate=rate)
 
 
 @pytest.mark.parametrize(

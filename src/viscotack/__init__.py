@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .observables import summary as summary
     from .observables import work_of_separation as work_of_separation
     from .observables import work_to_pull_off as work_to_pull_off
+    from .plot import draw_energy as draw_energy
     from .plot import draw_force as draw_force
     from .plot import draw_overview as draw_overview
     from .plot import draw_radius as draw_radius
@@ -114,6 +115,7 @@ _NAMES = {
         "summary",
     ),
     "plot": (
+        "draw_energy",
         "draw_force",
         "draw_radius",
         "draw_overview",

@@ -46,12 +46,14 @@ class PlotKind(StrEnum):
     FORCE = "force"
     RADIUS = "radius"
     OVERVIEW = "overview"
+    ENERGY = "energy"
 
 
 _DRAW = {
     PlotKind.FORCE: plot.draw_force,
     PlotKind.RADIUS: plot.draw_radius,
     PlotKind.OVERVIEW: plot.draw_overview,
+    PlotKind.ENERGY: plot.draw_energy,
 }
 
 PlotFile = Annotated[
@@ -61,7 +63,8 @@ PlotWhat = Annotated[
     PlotKind,
     Option(
         "--plot-kind",
-        help="force: against depth; radius: force against contact radius; overview: four pictures.",
+        help="force: against depth; radius: force against contact radius; overview: four pictures; "
+        "energy: where the work went.",
     ),
 ]
 CsvFile = Annotated[

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
+_PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 # Name of a series -> words, dimensionless unit, name of the scale to SI, SI unit.
 _AXES = {
     "depth": ("depth", "$h_0$", "length", "m"),
@@ -38,6 +38,14 @@ _AXES = {
         "edge_speed",
         "m/s",
     ),
+}
+# Series of Result.energy beside the work of the drive -> words.
+_ENERGIES = {
+    "interface": "interface",
+    "elastic": "elastic energy",
+    "heat": "heat in the solid",
+    "jumps": "lost in jumps",
+    "transfer": "lost in mesh moves",
 }
 
 
@@ -64,6 +72,47 @@ def draw_overview(result: Result) -> "Figure":
             axes[1, 1].set_yscale("log", nonpositive="mask")
         axes[0, 0].legend()
         figure.suptitle(result.status, x=0.01, ha="left")
+    return figure
+
+
+def draw_energy(result: Result) -> "Figure":
+    """Return where the work of the drive went, over the depth, and the heat by retardation time.
+
+    Elastic and interface energy are drawn as their change since the start; drive work is their
+    sum with the heat in the solid and what was lost in jumps.
+
+    Raises
+    ------
+    ValueError
+        If the result keeps no energies.
+    """
+    if result.energy is None:
+        raise ValueError("the result keeps no energies to draw; simulate it anew")
+    energy = result.energy
+    depth, _, depth_label = _series(result, "depth")
+    factor, unit = _work_unit(result)
+    with _style():
+        figure = _figure(figsize=(13.0, 5.2))
+        left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
+        left.plot(depth, energy["drive"] * factor, color="k", label="work of the drive")
+        for name, words in _ENERGIES.items():
+            series = (energy[name] - energy[name][0]) * factor
+            if np.any(series != 0):
+                left.plot(depth, series, label=words)
+        left.invert_xaxis()  # time goes to the right
+        left.set_xlabel(depth_label)
+        left.set_ylabel(f"energy {unit}")
+        left.legend()
+        factor_time = result.problem.scales().time if isinstance(result.problem, Problem) else 1.0
+        unit_time = "[s]" if isinstance(result.problem, Problem) else "/ time unit"
+        times, heat = energy["mode_time"] * factor_time, energy["mode_heat"] * factor
+        right.vlines(times, 0, heat, color="C2", lw=6)
+        right.set_xscale("log")
+        right.set_ylim(bottom=0)
+        right.set_xlabel(f"retardation time {unit_time}")
+        right.set_ylabel(f"heat of each mode {unit}")
+        if not len(times):
+            right.text(0.5, 0.5, "elastic: no heat", transform=right.transAxes, ha="center")
     return figure
 
 
@@ -185,6 +234,16 @@ def _mark_pull_off(
         else f"pull-off, {force:.4g}"
     )
     axes.plot(getattr(found, x) * xfactor, -force, "s", color="C1", ms=9, label=words, zorder=3)
+
+
+def _work_unit(result: Result) -> tuple[float, str]:
+    """Return the factor and the unit in which energies are drawn."""
+    if not isinstance(result.problem, Problem):
+        return 1.0, r"/ $1.5\,\pi R\,\Delta\gamma_0 h_0$"
+    joule = result.problem.scales().work
+    size = float(np.max(np.abs((result.energy or {})["drive"]))) * joule
+    prefix = next(((p, w) for p, w in reversed(_PREFIXES) if size >= p), _PREFIXES[0])
+    return joule / prefix[0], f"[{prefix[1]}J]"
 
 
 def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:

@@ -71,7 +71,10 @@ def descend(
     S, A = surface.stiffness / compliance, surface.area
     gap, u = guess, guess - free_gap
     Su = S @ u
-    energy = 0.5 * float(u @ Su) + float(A @ law.energy(gap))
+    elastic, interface = 0.5 * float(u @ Su), float(A @ law.energy(gap))
+    energy = elastic + interface
+    # Near the minimum the round-off of the two sums decides, not the slope.
+    noise = 1e-12 * (elastic + abs(interface))
     for iteration in range(1, most_iterations + 1):
         curvature = A * law.stiffness(gap)
         factor = _factor(S, curvature)
@@ -86,8 +89,7 @@ def descend(
             u = trial - free_gap
             Su = S @ u
             trial_energy = 0.5 * float(u @ Su) + float(A @ law.energy(trial))
-            # Near the minimum round-off of the energy decides, not the slope.
-            if trial_energy <= energy + 1e-4 * part * slope + 1e-13 * abs(energy) or part < 1e-6:
+            if trial_energy <= energy + 1e-4 * part * slope + noise or part < 1e-6:
                 break
             part *= 0.5
         gap, energy = trial, trial_energy

@@ -75,7 +75,7 @@ class Settings:
             growth_inside=0.065 * s,
             growth_outside=0.13 * s,
             reach=100 / s,
-            step_error=3e-3 * s * s,
+            step_error=1.5e-3 * s * s,
             force_change=0.05 * s,
             travel=0.05 * s,
             first_travel=2e-4 * s,

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.halfspace import Surface, half_space
-from viscotack.bem.mesh import Grading, edge_zone
+from viscotack.bem.mesh import Grading
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import jkr
 from viscotack.traction import Traction
@@ -26,9 +26,11 @@ from viscotack.traction import Traction
 RADIUS_UNIT = np.pi ** (1 / 3)
 # In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
 _UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
-_MOST_MESHES = 40
+_MOST_MESHES = 200
 # A start by force or radius is found to this part of (mu + 1) h0 in depth.
-_DEPTH_TOLERANCE = 1e-7
+_DEPTH_TOLERANCE = 1e-6
+# The edge has been found when it lies within this part of the fine zone around its nodes.
+_CENTRED = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,17 +54,23 @@ def _jkr_radius(depth: float) -> float:
 
 
 def relaxed_at_depth(
-    depth: float, law: Traction, tabor: float, grading: Callable[[float], Grading]
+    depth: float,
+    law: Traction,
+    tabor: float,
+    grading: Callable[[float], Grading],
+    offset: float = 0.0,
 ) -> Relaxed:
     """Return the relaxed contact at this depth [h0], on the branch in contact.
+
+    The edge is first looked for at an offset [beta] from that of JKR.
 
     Raises
     ------
     ValueError
         If no contact exists at this depth: the surfaces have let go of each other.
     """
-    zone, mesh_of = edge_zone(tabor), grading(depth)
-    edge = max(_jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor))
+    mesh_of = grading(depth)
+    edge = max(_jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor)) + offset
     surface, gap = None, None
     for _ in range(_MOST_MESHES):
         nodes = mesh_of.nodes(edge, edge)
@@ -76,7 +84,7 @@ def relaxed_at_depth(
         found = surface.edge(gap, law.edge_gap)
         if not balance.stable or np.isnan(found):
             break
-        if abs(found - edge) < 0.5 * zone:
+        if abs(found - edge) < _CENTRED * mesh_of.half_width:
             force = surface.force(law, gap)
             return Relaxed(surface, gap, depth, force, found / RADIUS_UNIT, edge)
         edge = found
@@ -99,7 +107,10 @@ def _root(
     found: dict[float, Relaxed] = {}
 
     def error(depth: float) -> float:
-        found[depth] = relaxed_at_depth(depth, law, tabor, grading)
+        # The mesh shifts edges by about the same at all depths: look where the last one was.
+        last = list(found.values())[-1:]
+        offset = sum(x.lattice - _jkr_radius(x.depth / tabor) for x in last)
+        found[depth] = relaxed_at_depth(depth, law, tabor, grading, offset if tabor > 1 else 0.0)
         return quantity(found[depth]) - wanted
 
     scale = tabor + 1.0

@@ -1,0 +1,26 @@
+"""All benchmarks, one after the other, as `make bench` runs them: a few minutes on two cores."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+PARTS = [
+    ("Speed beside the published algorithm", ["speed.py"]),
+    ("Accuracy of the default setting", ["accuracy.py"]),
+    ("The published table", ["published.py", "--count", "1000"]),
+    ("Random cases over the whole range", ["robust.py", "--count", "512", "--until", "detached"]),
+]
+
+
+def main() -> None:
+    """Run every part; stop at the first that fails."""
+    for title, (script, *options) in PARTS:
+        print(f"\n{title}\n{'-' * len(title)}", flush=True)
+        subprocess.run([sys.executable, str(HERE / script), *options], check=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""The cases that the benchmarks share, and where published data lie."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.stats import qmc
+
+from viscotack import AtDepth, AtForce, Groups, RetardationPowerLaw, StandardSolid
+
+# Data that are not part of the project: looked for beside the checkout, skipped where absent.
+PUBLISHED = Path(__file__).resolve().parents[2] / "shared/data/sphere_bem_published/rows.csv"
+
+
+def power_law(modulus_ratio: float, exponent: float) -> RetardationPowerLaw:
+    """Return the reduced power law by retardation spectrum."""
+    return RetardationPowerLaw(
+        rubbery_modulus=1.0,
+        glassy_modulus=1 / modulus_ratio,
+        exponent=exponent,
+        tau0=1.0,
+        poisson_ratio=0.0,
+    )
+
+
+def standard_solid(modulus_ratio: float) -> StandardSolid:
+    """Return the reduced standard linear solid."""
+    return StandardSolid(
+        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
+    )
+
+
+def case(tabor: float, modulus_ratio: float, exponent: float, depth: float, rate: float) -> Groups:
+    """Return a power-law case by its five groups."""
+    return Groups(
+        tabor=tabor, material=power_law(modulus_ratio, exponent), start=AtDepth(depth), rate=rate
+    )
+
+
+# Values of slow, refined runs of another program: force, and how well it is known.
+REFINED = {
+    "A: mu 3.24, n 0.8, k 0.1, depth 73, rate 10^2.5": (case(3.24, 0.1, 0.8, 73, 10**2.5), 7.3298),
+    "B: mu 3.24, n 0.8, k 0.1, depth 16.7, rate 10^0.5": (
+        case(3.24, 0.1, 0.8, 16.7, 10**0.5),
+        2.1074,
+    ),
+    "C: mu 1, n 0.4, k 0.01, depth 20, rate 10^3": (case(1.0, 0.01, 0.4, 20, 1e3), 8.3126),
+    "D: mu 0.3, n 0.6, k 0.1, depth 10, rate 10^4": (case(0.3, 0.1, 0.6, 10, 1e4), 6.6754),
+} | {
+    f"standard solid, mu 3.24, k 0.1, rate {rate:g}": (
+        Groups(tabor=3.24, material=standard_solid(0.1), start=AtForce(28.865), rate=rate),
+        force,
+    )
+    for rate, force in ((1.0, 2.0169), (10.0, 4.1019), (100.0, 8.9335), (1000.0, 10.1644))
+}
+
+
+def spread(count: int, seed: int) -> list[Groups]:
+    """Return cases that fill mu 0.01-10, n 0.2-2, k 1e-3-0.5, depth 0.01-100, rate 0.1-1e8."""
+    low = np.log10([0.01, 0.2, 1e-3, 0.01, 0.1])
+    high = np.log10([10.0, 2.0, 0.5, 100.0, 1e8])
+    points = qmc.Sobol(5, seed=seed).random_base2(int(np.ceil(np.log2(count))))[:count]
+    return [
+        case(mu, k, n, depth, rate)
+        for mu, n, k, depth, rate in (10 ** (low + points * (high - low))).tolist()
+    ]
+
+
+def published_rows(count: int, seed: int) -> list[dict[str, float]]:
+    """Return rows of the published table, drawn at random; [] where it is not at hand."""
+    if not PUBLISHED.exists():
+        return []
+    with PUBLISHED.open(newline="") as file:
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    chosen = np.random.default_rng(seed).choice(len(rows), min(count, len(rows)), replace=False)
+    return [rows[i] for i in chosen]
+
+
+def words(groups: Groups) -> str:
+    """Return a power-law case in a few words."""
+    m: Any = groups.material
+    depth = groups.start.depth if isinstance(groups.start, AtDepth) else np.nan
+    return (
+        f"mu {groups.tabor:.3g}, n {m.exponent:.3g}, k {m.modulus_ratio:.3g}, depth {depth:.3g}, "
+        f"rate {groups.rate:.3g}"
+    )
+
+
+def spread_out(work: Callable[[Any], Any], items: Sequence[Any], workers: int = 2) -> list[Any]:
+    """Return work(item) for all items, done by a few processes."""
+    with ProcessPoolExecutor(workers) as pool:
+        return list(pool.map(work, items, chunksize=max(1, len(items) // (20 * workers))))

@@ -1,0 +1,76 @@
+"""Every example runs, with fast settings where it takes any, and says what it should."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def load(name):
+    """Return an example as a module, without running its main."""
+    spec = importlib.util.spec_from_file_location(f"example_{name}", EXAMPLES / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_every_example_is_run_here():
+    known = {"pdms_lens.py", "detach_once.py", "fields.py", "from_toml"}
+    found = {path.name for path in EXAMPLES.iterdir() if path.name != "__pycache__"}
+    assert found == known
+
+
+def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):
+    picture = tmp_path / "lens.png"
+    elastic, results = load("pdms_lens").main([1e-6, 1e-3], accuracy=2e-3, picture=picture)
+    slow, *forces = [vt.summary(r)["pull_off_force_N"] * 1e3 for r in (elastic, *results)]
+    # in mN; the converged values are 3.927, 3.943 and 6.222
+    assert [slow, *forces] == pytest.approx([3.927, 3.943, 6.222], rel=3e-3)
+    assert elastic.problem.groups().tabor == pytest.approx(2.05, abs=0.01)
+    assert picture.stat().st_size > 10_000
+    printed = capsys.readouterr().out
+    assert str(picture) in printed and "1000.0" in printed
+
+
+def test_bead_comes_off(capsys):
+    load("detach_once")
+    printed = capsys.readouterr().out
+    assert "pull-off force" in printed and printed.split()[-1] == "mN"
+    # above the elastic limit, below the glassy one
+    assert 0.2356 < float(printed.split()[-2]) < 2.356
+
+
+def test_profiles_show_tension_at_the_edge(tmp_path, capsys):
+    picture = tmp_path / "fields.png"
+    result = load("fields").main(rate=1e4, accuracy=1e-2, picture=picture)
+    assert picture.stat().st_size > 10_000 and "Picture" in capsys.readouterr().out
+    pressure, radius = result.fields["pressure"][0], result.fields["radius"][0]
+    edge = radius[np.nanargmin(pressure)]
+    assert edge == pytest.approx(result.contact_radius[0], rel=1e-2)
+    assert np.nanmin(pressure) == pytest.approx(-vt.LennardJones(1, 1).strength, rel=0.05)
+
+
+def test_lens_from_a_file_is_the_lens_of_the_demo():
+    case = vt.read_case(EXAMPLES / "from_toml" / "lens.toml")
+    demo = load("pdms_lens")
+    assert vt.run_id(case) == vt.run_id(demo.lens(demo.PDMS, 100e-6))
+
+
+def test_command_in_the_file_runs(tmp_path):
+    command = [sys.executable, "-m", "viscotack", "simulate", "sphere"]
+    options = ["--accuracy", "1e-2", "--until", "pull-off", "--csv", str(tmp_path / "lens.csv")]
+    done = subprocess.run(
+        [*command, str(EXAMPLES / "from_toml" / "lens.toml"), *options],
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+    assert "pull-off force" in done.stdout and (tmp_path / "lens.csv").is_file()

@@ -1,0 +1,91 @@
+"""What the README and the pages say is run: their Python, their commands, their links."""
+
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+# Made by `make verification`.
+GENERATED = {ROOT / "docs" / "verification.md"}
+
+
+def blocks(page, language):
+    """Return the fenced blocks of a page in a language."""
+    return re.findall(rf"```{language}\n(.*?)```", page.read_text(), re.DOTALL)
+
+
+def commands(page):
+    """Return the lines of a page that are typed into a terminal."""
+    lines = "".join(blocks(page, "console")).splitlines()
+    return [line.removeprefix("$ ") for line in lines if line.strip()]
+
+
+def simulations():
+    """Return every `viscotack simulate` and the `show` that may follow it, page by page."""
+    found = {page.name: [c for c in commands(page) if c.startswith("viscotack")] for page in PAGES}
+    return {name: lines for name, lines in found.items() if lines}
+
+
+@pytest.fixture
+def anywhere(tmp_path, monkeypatch):
+    """Stand in a folder that looks like the checkout, and may be written to."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    shutil.copy(ROOT / "examples" / "from_toml" / "lens.toml", tmp_path)
+    monkeypatch.chdir(tmp_path)
+
+
+def test_readme_has_one_example_of_ten_lines_or_so(anywhere, capsys):
+    (example,) = blocks(ROOT / "README.md", "python")
+    assert len([line for line in example.splitlines() if line.strip()]) <= 13
+    exec(compile(example, "README.md", "exec"), {})
+    printed = capsys.readouterr().out
+    stated = re.search(r"# ([\d.]+) mN; slowly, it is ([\d.]+) mN", example)
+    assert stated and printed.endswith(f"pull-off force {stated[1]} mN\n")
+    # 1.5 pi R times the work of adhesion, the slow limit at a large Tabor number
+    assert float(stated[2]) == pytest.approx(0.2356, abs=0.006)
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if p.name != "README.md"], ids=lambda p: p.name)
+def test_python_of_the_pages_runs(page, anywhere):
+    for example in blocks(page, "python"):
+        exec(compile(example, page.name, "exec"), {})
+
+
+@pytest.mark.parametrize("page", simulations())
+def test_commands_of_the_pages_run(page, anywhere):
+    from viscotack.commands import application
+
+    for line in simulations()[page]:
+        arguments = shlex.split(line)[1:]
+        if arguments[0] == "simulate" and "-h" not in arguments and "--help" not in arguments:
+            arguments += ["--until", "pull-off", "--accuracy", "1e-2"]
+        done = CliRunner().invoke(application, arguments)
+        assert done.exit_code == 0, f"{line}\n{done.output}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def test_make_targets_of_the_pages_exist(page):
+    targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    words = [w for line in commands(page) if line.startswith("make ") for w in line.split()[1:]]
+    assert set(words) <= targets
+
+
+def test_first_two_commands_are_demo_and_test():
+    assert commands(ROOT / "README.md")[:2] == ["make demo", "make test"]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#]+)", page.read_text()):
+        if not target.startswith("http"):
+            path = (page.parent / target).resolve()
+            assert path.exists() or path in GENERATED, f"{page.name}: {target}"
+
+
+def test_picture_of_the_readme_is_small():
+    assert (ROOT / "docs" / "pdms_lens.png").stat().st_size < 150_000
