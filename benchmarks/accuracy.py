@@ -1,7 +1,7 @@
 """Is the default good to what it says? Cases over the whole range against converged runs.
 
-`python benchmarks/accuracy.py [--count 30]`: force and work of the default setting beside those at a
-20 times better accuracy, the error estimate beside the true error, the energy residual, the time.
+`python benchmarks/accuracy.py [--count 30]`: force and work of the default setting beside those at
+a 20 times better accuracy, the error estimate beside the true error, the energy residual, the time.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """How much faster than the published algorithm, at no less accuracy, in one run on one machine.
 
-`python benchmarks/speed.py`: each case by the plain twin and by the simulation, one after the other;
-the error of both is measured against a converged simulation. About two minutes.
-"""
+`python benchmarks/speed.py`: each case by the plain twin and by the simulation, in turn; the error
+of both is measured against a converged simulation. About two minutes.
 
 from __future__ import annotations
 

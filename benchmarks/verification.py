@@ -1,7 +1,7 @@
 """Measure what docs/verification.md states, and write it with --write; about a minute.
 
-Each row: what is claimed, on which rung of the ladder, what it is measured against, what came out, and the
-tolerance of the test that guards it.
+Each row: what is claimed, on which rung of the ladder, what it is measured against, what came out,
+and the tolerance of the test that guards it.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ Row = tuple[str, str, str, str, str]
 
 HEAD = """# Verification
 
-What is proven, on which rung of the ladder (identity, limit, order, peer or plain twin, experiment),
-and what was measured. `make verification` measures everything on this page and writes it; the tests in
-`tests/ladder` guard each line. Forces are in 1.5 pi R dg0. Closed forms and materials are checked
-against 20-digit values, row by row, in `tests/ladder/test_materials.py`, `test_elastic_theory.py`
-and `test_crack_theory.py`: the largest relative errors there are 2e-14 (creep), 1e-15 (complex moduli),
-5e-15 (JKR), 2e-15 (Maugis) and 4e-14 (Persson-Brener).
+What is proven, on which rung of the ladder (identity, limit, order, peer or plain twin,
+experiment), and what was measured. `make verification` measures everything on this page and writes
+it; the tests in `tests/ladder` guard each line. Forces are in 1.5 pi R dg0. Closed forms and
+materials are checked against 20-digit values, row by row, in `test_materials.py`,
+`test_elastic_theory.py` and `test_crack_theory.py` there: the largest relative errors are 2e-14
+(creep), 1e-15 (complex moduli), 5e-15 (JKR), 2e-15 (Maugis) and 4e-14 (Persson-Brener).
 
 | claim | rung | measured against | measured | tolerance |
 |---|---|---|---|---|
@@ -46,7 +46,8 @@ TAIL = """
 - The published table is a peer with its own errors, not truth: see the rows above 3 % that
   `python benchmarks/published.py --count 1000` lists, each with the converged value that decides.
 - Work to pull-off ends at a flat minimum: where it is tiny (shallow preloads at small Tabor
-  numbers, work below 0.05), its relative error exceeds 1 % at the default accuracy; the estimate says so.
+  numbers, work below 0.05), its relative error exceeds 1 % at the default accuracy; the estimate
+  says so.
 """
 
 

@@ -28,7 +28,7 @@ from viscotack.traction import LennardJones
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-# One published force table's worth of accuracy; the estimate says less than this in every case here.
+# What the default setting promises; the estimate says less than this in every case here.
 DEFAULT = 2e-3
 
 

@@ -27,6 +27,8 @@ _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 
 # Newton converges quadratically: a last change of 1e-6 of the gap leaves an error near 1e-12.
 _LAST_CHANGE = 1e-6
+# What is added to an unstable tangent, as parts of its most negative curvature.
+_STIFFER = (1e-3, 1e-2, 1e-1)
 # A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
 _LARGEST_CLOSING = 0.3
 
@@ -48,6 +50,20 @@ def _factor(stiffness: npt.NDArray, diagonal: npt.NDArray):
     return None if info else factor
 
 
+def _stiffened(stiffness: npt.NDArray, curvature: npt.NDArray):
+    """Return the factor of a tangent made just stiff enough to be positive definite.
+
+    The first stiffness that serves is taken, because a step goes as far along the unstable
+    direction as the stiffness lets it.
+    """
+    softest = -float(np.min(curvature))
+    for share in _STIFFER:
+        factor = _factor(stiffness, curvature + share * softest)
+        if factor is not None:
+            return factor
+    return _factor(stiffness, np.maximum(curvature, 0.0))
+
+
 def _limited(change: npt.NDArray, gap: npt.NDArray) -> float:
     """Return the largest part of the change that closes no gap too far."""
     closing = float(np.max(-change / gap))
@@ -65,8 +81,8 @@ def descend(
 ) -> Balance:
     """Return the stable equilibrium downhill from a guess.
 
-    Where the tangent is not positive definite, softening tractions are left out of it, which keeps
-    the direction downhill; the line search is in energy. Not stable if the iterations ran out.
+    Where the tangent is not positive definite it is stiffened, which keeps the direction downhill;
+    the line search is in energy. Not stable if the iterations ran out.
     """
     S, A = surface.stiffness / compliance, surface.area
     gap, u = guess, guess - free_gap
@@ -80,7 +96,7 @@ def descend(
         factor = _factor(S, curvature)
         stable = factor is not None
         if factor is None:
-            factor = _factor(S, np.maximum(curvature, 0.0))
+            factor = _stiffened(S, curvature)
         residual = Su + A * law.traction(gap)
         change, _ = _potrs(factor, -residual, lower=1)
         part, slope = _limited(change, gap), float(residual @ change)

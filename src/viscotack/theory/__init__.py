@@ -7,14 +7,42 @@ parameters are keywords, and arrays of them broadcast. A scalar gives a float. A
 the domain of a formula, in any element, raises ``ValueError``.
 """
 
-from . import bradley, dmt, greenwood, hertz, jkr, maugis, persson_brener
+from . import (
+    adhesion_map,
+    bounds,
+    bradley,
+    crack_regimes,
+    dmt,
+    empirical,
+    greenwood,
+    hertz,
+    jkr,
+    lennard_jones,
+    maugis,
+    persson_brener,
+    profiles,
+    rate,
+    tabulated,
+    transition,
+    unloading,
+)
 
 __all__ = [
+    "adhesion_map",
+    "bounds",
     "bradley",
+    "crack_regimes",
     "dmt",
+    "empirical",
     "greenwood",
     "hertz",
     "jkr",
+    "lennard_jones",
     "maugis",
     "persson_brener",
+    "profiles",
+    "rate",
+    "tabulated",
+    "transition",
+    "unloading",
 ]

@@ -11,7 +11,7 @@ q1 = -0.0125 + 3.136 n stands for the exact coefficient below at k = 0.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -37,8 +37,7 @@ def slow_amplification(
 
     .. math:: \Gamma \to 1 + \pi n (1 - k) \hat v
 
-    Range: exact for :math:`\hat v \to 0`; the next term is of the order
-    :math:`\hat v^2 \ln \hat v` for n above 1 and :math:`\hat v^{1+n}` below it.
+    Range: exact for :math:`\hat v \to 0`; the next term is of the order :math:`\hat v^3`.
 
     Examples
     --------

@@ -9,7 +9,6 @@ Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
 
 from __future__ import annotations
 
-import numpy as np
 import numpy.typing as npt
 
 from ._checks import Number, at_least, plain, positive

@@ -6,7 +6,7 @@ Carpick, Ogletree and Salmeron write the contact radius under a load P between t
 
 with the contact radius a0 without load, the pull-off force and a ``transition`` number alpha, 0
 for DMT and 1 for JKR. With the fits to the Maugis-Dugdale solution below, force and radius are
-within 1 % of :mod:`viscotack.theory.maugis` where the contact is stable under load.
+within 2 % of :mod:`viscotack.theory.maugis` where the contact is stable under load.
 
 Source: Carpick, Ogletree & Salmeron (1999), doi:10.1006/jcis.1998.6027.
 """
@@ -82,7 +82,7 @@ def transition(maugis_parameter: npt.ArrayLike) -> Number:
 def pull_off_force(
     maugis_parameter: npt.ArrayLike, *, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
 ) -> Number:
-    r"""Return the pull-off force [N] by the fit to Maugis-Dugdale, within 1 %.
+    r"""Return the pull-off force [N] by the fit to Maugis-Dugdale, within 2 %.
 
     .. math:: \frac{P_{po}}{\pi R \Delta\gamma_0} = \frac74
               - \frac14 \, \frac{4.04 \lambda^{1.4} - 1}{4.04 \lambda^{1.4} + 1}
@@ -105,7 +105,7 @@ def contact_radius_without_load(
     contact_modulus: npt.ArrayLike,
     work_of_adhesion: npt.ArrayLike,
 ) -> Number:
-    r"""Return the contact radius [m] without load by the fit to Maugis-Dugdale, within 1 %.
+    r"""Return the contact radius [m] without load by the fit to Maugis-Dugdale, within 2 %.
 
     .. math:: \frac{a_0}{(3 \pi R^2 \Delta\gamma_0/4 E^*)^{1/3}} = 1.54 + 0.279 \,
               \frac{2.28 \lambda^{1.3} - 1}{2.28 \lambda^{1.3} + 1}
