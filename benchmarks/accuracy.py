@@ -13,9 +13,12 @@ from typing import Any
 import numpy as np
 from cases import spread, spread_out, words
 
-from viscotack import Groups, pull_off_force, solve, work_to_pull_off
+from viscotack import AtDepth, Groups, pull_off_depth, pull_off_force, solve, work_to_pull_off
+from viscotack.bem.plain import plain_solve
 
 CONVERGED = 1e-4
+# The plain twin is at hand where its equal nodes and steps resolve the case.
+TWIN_SIZE, TWINS = 500, 6
 
 
 def measure(groups: Groups) -> dict[str, Any]:
@@ -34,6 +37,24 @@ def measure(groups: Groups) -> dict[str, Any]:
         "energy_residual": result.energy_residual,
         "time": elapsed,
     }
+
+
+def twin(groups: Groups) -> str:
+    """Return the converged force beside that of the plain twin, which shares no code with it."""
+    best = solve(groups, until="pull-off", accuracy=CONVERGED, estimate_error=False)
+    assert isinstance(groups.start, AtDepth)
+    plain = plain_solve(
+        groups,
+        nodes=TWIN_SIZE,
+        outer_radius=float(np.sqrt(2 * (60 + groups.start.depth) / groups.tabor)),
+        steps=TWIN_SIZE,
+        last_depth=2 * pull_off_depth(best) - groups.start.depth - 0.5,
+    )
+    force, converged = pull_off_force(plain), pull_off_force(best)
+    return (
+        f"{words(groups):62s} converged {converged:.4f}, plain twin {force:.4f}: "
+        f"{100 * (converged / force - 1):+.3f} %"
+    )
 
 
 def summary(rows: list[dict[str, Any]]) -> dict[str, Any]:
@@ -64,7 +85,8 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=30)
     parser.add_argument("--seed", type=int, default=2026)
     chosen = parser.parse_args()
-    rows = spread_out(measure, spread(chosen.count, chosen.seed))
+    cases = spread(chosen.count, chosen.seed)
+    rows = spread_out(measure, cases)
     for row in rows:
         print(
             f"{row['case']:62s} force {100 * row['force_error']:+.3f} % "
@@ -74,6 +96,9 @@ def main() -> None:
         )
     for name, value in summary(rows).items():
         print(f"{name:28s} {value:.4g}")
+    easy = [g for g in cases if g.tabor < 1 and g.start.depth < 5][:TWINS]
+    for line in spread_out(twin, easy):
+        print(line)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 `python benchmarks/speed.py`: each case by the plain twin and by the simulation, in turn; the error
 of both is measured against a converged simulation. About two minutes.
+"""
 
 from __future__ import annotations
 

@@ -128,7 +128,8 @@ def order_rows() -> list[Row]:
     of_energy = np.polyfit(np.log(travels), np.log(residuals), 1)[0]
 
     groups = Groups(tabor=1.0, material=standard_solid(0.1), start=AtDepth(5.0), rate=1e3)
-    base, sizes, forces = Settings.for_accuracy(1e-4), np.array([2.0, 1.0, 0.5]), []
+    base = replace(Settings.for_accuracy(1e-4), fine_zones=20.0)
+    sizes, forces = np.array([2.0, 1.0, 0.5]), []
     for size in (*sizes, 0.125):
         settings = replace(
             base,

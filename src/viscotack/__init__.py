@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from . import bem as bem
     from . import materials as materials
     from . import theory as theory
+    from .advice import Advice as Advice
+    from .advice import Estimate as Estimate
+    from .advice import advise as advise
+    from .advice import threshold_contact_radius as threshold_contact_radius
     from .bem import SimulationError as SimulationError
     from .bem import solve as solve
     from .case_file import read_case as read_case
@@ -101,6 +105,13 @@ _NAMES = {
         "load",
         "columns",
         "write_csv",
+    ),
+    # which answer to trust
+    "advice": (
+        "advise",
+        "Advice",
+        "Estimate",
+        "threshold_contact_radius",
     ),
     # its numbers and its pictures
     "observables": (

@@ -6,6 +6,6 @@ from collections.abc import Sequence
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line with these arguments, or with those of the process."""
     # The library of the command line takes a while to import; `import viscotack` never pays it.
-    from .commands import application
+    from .theory_commands import application
 
     application(None if arguments is None else list(arguments), prog_name="viscotack")

@@ -51,7 +51,7 @@ def test_slow_cracks_dissipate_in_proportion_to_their_speed(exponent):
     v = np.array([1e-3, 1e-4])
     exact = persson_brener.amplification(v, material=rubber(exponent, 0.1))
     slow = crack_regimes.slow_amplification(v, modulus_ratio=0.1, exponent=exponent)
-    assert slow == pytest.approx(exact, rel=1e-6, abs=0)
+    assert slow == pytest.approx(exact, rel=1e-5, abs=0)
     assert slope(v, exact - slow) == pytest.approx(3, abs=0.02)
 
 
@@ -106,7 +106,7 @@ def test_a_table_of_the_power_law_tends_to_the_power_law_at_second_order(theory)
     exact = theory.amplification(v, material=material)
     error = [
         theory.amplification(v / material.tau0, material=table_of(material, per_decade)) / exact - 1
-        for per_decade in (3, 6, 12)
+        for per_decade in (4, 8, 16)
     ]
     assert abs(error[2]) < 2e-3
     assert np.log2(error[1] / error[2]) == pytest.approx(2, abs=0.1)
@@ -280,12 +280,12 @@ def test_unloading_refuses_an_elastic_solid_and_a_lost_contact():
 def test_unloading_agrees_with_the_simulation_where_the_bulk_is_relaxed():
     import viscotack as vt
 
-    # what is left is the Tabor number (3 % at rest) and the relaxed bulk
+    # what is left is the Tabor number (3 % at rest)
     mu, alpha = 3.24, np.pi / 9
     material = RetardationPowerLaw(
         rubbery_modulus=1.0, glassy_modulus=10.0, exponent=1.6, tau0=1.0, poisson_ratio=0.0
     )
-    for speed, margin in ((0.1, 0.05), (1.0, 0.08)):
+    for speed, margin in ((0.1, 0.05), (10.0, 0.04)):
         groups = vt.Groups(tabor=mu, material=material, start=vt.AtDepth(73.0), rate=speed)
         simulated = vt.pull_off_force(vt.solve(groups, until="pull-off", accuracy=5e-3))
         # R = w = E* = 1

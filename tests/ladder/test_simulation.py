@@ -252,13 +252,22 @@ def test_three_ways_to_start_find_the_same_contact():
 # --- orders ---------------------------------------------------------------------------------
 
 
+# Only the travel bounds the steps, and one mesh serves the whole run.
+STEPS_BY_TRAVEL = {
+    "imbalance": 1e3,
+    "step_error": 1e3,
+    "force_change": 1e3,
+    "fine_zones": 40.0,
+}
+
+
 def _with(base, **changes):
     return dataclasses.replace(base, **changes)
 
 
 def test_simulation_is_second_order_in_time():
     groups = Groups(tabor=0.3, material=standard_solid(0.1), start=AtDepth(2.0), rate=3.0)
-    base = _with(Settings.for_accuracy(5e-3), imbalance=1e3, step_error=1e3, force_change=1e3)
+    base = _with(Settings.for_accuracy(5e-3), **STEPS_BY_TRAVEL)
     travels = np.array([0.08, 0.04, 0.02, 0.01])
     runs = [_run(groups, _with(base, travel=t, first_travel=t)) for t in (*travels, 0.00125)]
     forces = np.array([pull_off_force(run) for run in runs])
@@ -268,7 +277,7 @@ def test_simulation_is_second_order_in_time():
 
 def test_simulation_is_second_order_in_the_mesh():
     groups = Groups(tabor=1.0, material=standard_solid(0.1), start=AtDepth(5.0), rate=1e3)
-    base = Settings.for_accuracy(1e-4)
+    base = _with(Settings.for_accuracy(1e-4), fine_zones=20.0)
     sizes, forces = np.array([2.0, 1.0, 0.5]), []
     for size in (*sizes, 0.125):
         settings = _with(
@@ -284,7 +293,7 @@ def test_simulation_is_second_order_in_the_mesh():
 
 def test_energy_residual_is_second_order_in_the_step():
     groups = Groups(tabor=0.3, material=standard_solid(0.1), start=AtDepth(2.0), rate=10.0)
-    base = _with(Settings.for_accuracy(5e-3), imbalance=1e3, step_error=1e3, force_change=1e3)
+    base = _with(Settings.for_accuracy(5e-3), **STEPS_BY_TRAVEL)
     travels = np.array([0.08, 0.04, 0.02])
     residuals = [
         _run(groups, _with(base, travel=t, first_travel=t)).energy_residual for t in travels
@@ -302,7 +311,8 @@ def test_moving_the_mesh_changes_next_to_nothing():
     base = Settings.for_accuracy(DEFAULT)
     moving = _run(groups, base)
     still = _run(groups, _with(base, fine_zones=40.0))
-    assert moving.statistics["meshes"] > 3 * still.statistics["meshes"]
+    assert moving.statistics["meshes"] > 4
+    assert still.statistics["meshes"] <= 2
     assert pull_off_force(moving) == pytest.approx(pull_off_force(still), rel=1e-3, abs=0)
     energy = moving.energy
     assert energy is not None

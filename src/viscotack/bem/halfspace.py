@@ -16,7 +16,9 @@ Inside (r < c, m = r^2/c^2) the integral is :math:`c^3 [2(2-m)E(m) - (1-m)K(m)]/
 The nodal compliance B (displacement at node i for a unit *force* on hat j) of plain collocation is
 symmetric only up to the discretisation error. It is replaced by its symmetric part, so that the
 discrete contact has an energy: equilibrium is its minimum, a Cholesky factor exists exactly where
-the state is stable, and the energy audit closes.
+the state is stable, and the energy audit closes. The price is paid at the axis, where the hat is
+small and far from symmetric: the pressure of that one node is up to 25 % low on any mesh. Its area
+is so small that no force notices.
 
 Units here: lengths along the surface in beta = (R^2 dg / E0*)^(1/3), gaps and displacements in h0,
 pressure in dg/h0, force in dg beta^2 / h0. Then displacement = mu^2 B force.

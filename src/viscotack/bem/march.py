@@ -250,6 +250,20 @@ def _jump(before: Snapshot, after: Snapshot, lost: float) -> Event:
     return Event(kind, after.time, after.depth, before.force, lost)
 
 
+def _opening(state: State, law: Traction) -> float:
+    """Return the distance [beta] from the edge over which the gap opens by h0."""
+    gap = state.gap - law.edge_gap - 1
+    beyond = int(np.argmax((gap > 0) & (state.surface.radius > state.seen.edge)))
+    g, r = gap[beyond - 1 : beyond + 1], state.surface.radius[beyond - 1 : beyond + 1]
+    return float(r[1] - g[1] * (r[1] - r[0]) / (g[1] - g[0])) - state.seen.edge
+
+
+def _fitting(finest: Grading, grown: float, edge: float) -> Grading:
+    """Return the grading for a crack that has grown so much, within a third of the edge."""
+    factor = min(grown, edge / (3 * finest.half_width))
+    return finest.widened(2.0 ** np.floor(np.log2(factor))) if factor >= 2 else finest
+
+
 def _edge_strain(before: float, after: float, grading: Grading) -> float:
     """Return 1 where the edge goes so far in a step that it might leave the fine nodes."""
     if not (before > 2 * grading.spacing and after > 0):
@@ -281,7 +295,7 @@ def march(
     books = Books(0.0, np.zeros(len(modes.weights)))
     history = History()
     history.add(state, books, profiles)
-    meshed_at = first.edge
+    meshed_at, first_opening, finest = first.edge, _opening(state, law), grading
     travel = settings.travel * (tabor + 1)
     least = settings.first_travel * (tabor + 1)
     dt = least / rate
@@ -321,7 +335,7 @@ def march(
         history.add(state, books, profiles)
         lowest, since_lowest = (now.force, 0) if now.force < lowest else (lowest, since_lowest + 1)
         smallest = float(np.min(state.gap))
-        past = since_lowest > 2 and now.force > (1 - _RISEN) * lowest
+        past = since_lowest > 2 and (1 - _RISEN) * lowest < min(now.force, 0.0)
         looser = _LOOSER if past else 1.0
         if smallest > SEPARATED:
             history.outcome = "detached"
@@ -332,6 +346,8 @@ def march(
         elif abs(now.edge - meshed_at) > 0.5 * grading.half_width and (
             now.edge > 2 * grading.spacing
         ):
+            grown = _opening(state, law) / first_opening
+            grading = _fitting(finest, grown, now.edge)
             state = solid.remeshed(state, grading.nodes(now.edge, start.lattice))
             moved = state.seen
             lost = now.elastic + now.interface - moved.elastic - moved.interface

@@ -5,6 +5,9 @@ slow (it grows when the crack is fast), for a large Tabor number a tiny part of 
 Equal nodes in a zone around the edge and geometric growth outside it cost log(mu) nodes instead of
 mu^2. When the edge leaves its zone the march asks for new nodes around the new edge.
 
+A fast crack is longer than a slow one, by as much as 1/k: where it has grown by a power of two the
+nodes around it are that much coarser, and the steps with them.
+
 Two things keep what a move costs small. The fine nodes of all meshes of a run lie on one lattice,
 so that nothing is interpolated where both meshes are fine. And the place of the first edge stays
 fine: the relaxed contact leaves a scar there that slow modes remember, and a fast crack pulls
@@ -20,7 +23,7 @@ At small Tabor numbers the process zone is larger than the contact; the gap then
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,11 +31,7 @@ import numpy.typing as npt
 
 def edge_zone(tabor: float) -> float:
     """Return the length [beta] over which the gap opens at a relaxed contact edge."""
-    return min(0.75 / tabor**2, 0.3 / np.sqrt(tabor))
-
-
-# Part of the half width that stays fine around the first edge.
-_SCAR = 0.4
+    return min(0.75 / tabor**2, 0.25 / np.sqrt(tabor))
 
 
 @dataclass(frozen=True)
@@ -49,6 +48,8 @@ class Grading:
         Relative growth of the distance from node to node towards the centre and outwards.
     outer_radius : float
         Last node [beta].
+    scar_spacing, scar_half_width : float
+        Spacing and half width of the zone kept fine around the first edge [beta].
     """
 
     spacing: float
@@ -56,6 +57,12 @@ class Grading:
     growth_inside: float
     growth_outside: float
     outer_radius: float
+    scar_spacing: float
+    scar_half_width: float
+
+    def widened(self, factor: float) -> Grading:
+        """Return the grading for a crack whose zone has grown by this factor, a power of two."""
+        return replace(self, spacing=self.spacing * factor, half_width=self.half_width * factor)
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         """Return the nodes [beta], from 0 outwards, for an edge and the first edge of the run."""
@@ -70,33 +77,32 @@ class Grading:
             away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 6, h))
             inner = fine[0] - away[::-1] * (fine[0] / away[-1])  # the last one lands on r = 0
             inner[0] = 0.0
-        parts, end = [inner, fine], fine[-1]
-        scar = first_edge + h * np.arange(-self._scar, self._scar + 1)
+        parts, end, last_step = [inner, fine], fine[-1], h
+        kept = int(self.scar_half_width / self.scar_spacing)
+        scar = first_edge + self.scar_spacing * np.arange(-kept, kept + 1)
         if scar[-1] > end + h / 2:
             if scar[0] > end + h / 2:
                 parts.append(self._bridge(end, scar[0]))
-            parts.append(scar[scar > end + h / 2])
-            end = scar[-1]
-        parts.append(end + self._growing(self.outer_radius - end, self.growth_outside))
-        return np.concatenate(parts)
+            parts.append(scar[scar > end + self.scar_spacing / 2])
+            end, last_step = scar[-1], self.scar_spacing
+        outwards = self._growing(self.outer_radius - end, self.growth_outside, first=last_step)
+        return np.concatenate([*parts, end + outwards])
 
-    @property
-    def _scar(self) -> int:
-        """Fine nodes kept on each side of the first edge."""
-        return int(_SCAR * self.half_width / self.spacing)
-
-    def _growing(self, length: float, growth: float, largest: float = np.inf) -> npt.NDArray:
+    def _growing(
+        self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf
+    ) -> npt.NDArray:
         """Return growing distances from the fine zone, the first beyond `length` being the last."""
-        points, step = [0.0], self.spacing
+        points, step = [0.0], self.spacing if first is None else first
         while points[-1] < length:
             step = min(step * (1 + growth), largest)
             points.append(points[-1] + step)
         return np.array(points[1:])
 
     def _bridge(self, start: float, end: float) -> npt.NDArray:
-        """Return nodes between two fine zones, coarsest in the middle; neither end is included."""
+        """Return nodes from the fine zone to the scar, coarsest between; neither end is included."""
         length, points = end - start, [0.0]
         while points[-1] < length:
-            nearer = min(points[-1], max(length - points[-1], 0.0))
-            points.append(points[-1] + self.spacing + self.growth_outside * nearer)
+            left = max(length - points[-1], 0.0)
+            step = self.spacing + self.growth_outside * points[-1]
+            points.append(points[-1] + min(step, self.scar_spacing + self.growth_outside * left))
         return start + np.array(points[1:-1]) * (length / points[-1])

@@ -10,6 +10,8 @@ from viscotack.bem.mesh import Grading, edge_zone
 
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
 DEFAULT_ACCURACY = 2e-3
+# Lengths of the relaxed crack's zone that stay fine around the first edge.
+_SCAR_ZONES = 2.0
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,8 @@ class Settings:
         return Grading(
             spacing=zone / self.nodes_per_zone,
             half_width=zone * self.fine_zones,
+            scar_spacing=zone / self.nodes_per_zone,
+            scar_half_width=zone * _SCAR_ZONES,
             growth_inside=self.growth_inside,
             growth_outside=self.growth_outside,
             outer_radius=float(np.sqrt(2 * (self.reach + max(depth, 0.0)) / tabor)),

@@ -2,9 +2,9 @@ r"""Between which limits a viscoelastic sphere detaches: the slow and the fast e
 
 Retracted slowly from a relaxed contact the solid is rubbery, retracted fast it is glassy. With the
 modulus ratio :math:`k = E_0/E_\infty` the fast problem is an elastic one of the modulus
-:math:`E_0^*/k` and, because the contact was made relaxed, of the radius :math:`R/k`: its Tabor number
-is :math:`\mu k^{1/3}`, and the force in units of JKR's goes to :math:`f(\mu k^{1/3})/k`, with the
-elastic f of :mod:`viscotack.theory.lennard_jones`.
+:math:`E_0^*/k` and, because the contact was made relaxed, of the radius :math:`R/k`: its Tabor
+number is :math:`\mu k^{1/3}`, and the force in units of JKR's goes to
+:math:`f(\mu k^{1/3})/k`, with the elastic f of :mod:`viscotack.theory.lennard_jones`.
 
 Parameters: ``radius`` R [m], ``contact_modulus`` the rubbery :math:`E_0^*` [Pa],
 ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``equilibrium_gap`` h0 [m], ``modulus_ratio`` k
@@ -182,7 +182,7 @@ def glassy_work_estimate(
     contact_modulus: npt.ArrayLike,
     work_of_adhesion: npt.ArrayLike,
 ) -> Number:
-    r"""Return the thesis's glassy estimate of the work [J] from the radius at pull-off [m] (Eq. 43).
+    r"""Return the glassy estimate of the work [J] from the radius at pull-off [m] (Eq. 43).
 
     .. math:: \hat w = \tfrac43 \hat a_{po}^2 \mu \pi^{2/3}, \quad
               W = 2 \pi a_{po}^2 \Delta\gamma_0
@@ -247,7 +247,7 @@ def threshold_contact_radius(
     The thesis's fit to simulations at mu = 3.24, modulus ratio 0.1, exponents 0.4 to 1.6 and rates
     from 3 to 1e6 h0/tau0, with the threshold where dP/da0 is 0.1 in these units; it ends at
     1.5/k. Used for smaller modulus ratios it is an extrapolation.
-    :func:`viscotack.advise.threshold_contact_radius` computes the answer for a problem.
+    :func:`viscotack.threshold_contact_radius` computes the answer for a problem.
 
     Examples
     --------

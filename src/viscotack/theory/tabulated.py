@@ -12,7 +12,7 @@ from viscotack.materials import Modes
 # A table with a wider gap, in decades, leaves open what the solid does in between.
 WIDEST_GAP = 1.0
 _FEWEST = 4
-_STEP = 0.1
+_STEP = 0.02
 
 
 @dataclass(frozen=True)

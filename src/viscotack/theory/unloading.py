@@ -10,9 +10,13 @@ of adhesion G, and the edge recedes as a crack of Persson and Brener with that e
 
 after Muller (1999), with the law of :mod:`viscotack.theory.persson_brener` in place of a power
 law. Range: large Tabor number, and time enough for the bulk to relax while the edge moves:
-slow or moderate retraction. The force amplification ends at 1/k as in the theory of the crack, and the
-preload limits it only through the curve itself. In fast retraction the bulk is glassy as well and
-the curve is not this one, see :mod:`viscotack.theory.bounds`.
+slow or moderate retraction. In fast retraction the bulk stiffens as well, and the curve is only
+near. Against simulations of power-law solids (k = 0.1, n 0.4 to 1.6, deep preload) with
+alpha = pi/9 in the tip length, the pull-off force is
+
+- at mu = 3.24: 3 % low up to rates of 10 h0/tau0, all of it the range of the forces (the
+  elastic :func:`viscotack.theory.lennard_jones.pull_off_ratio`), and up to 18 % low at 100 to 1e4;
+- at mu = 8: within 3.5 % up to 100, 6 % low beyond.
 """
 
 from __future__ import annotations

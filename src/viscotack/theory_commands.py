@@ -1,0 +1,271 @@
+"""The commands that answer at once: ``viscotack theory jkr ...`` and ``viscotack advise ...``."""
+
+import inspect
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any, get_type_hints
+
+import numpy as np
+import typer
+from typer import Option
+
+from . import commands, plot
+from . import flags as flag_rules
+from .case_file import read_case
+from .commands import AsJson, PlotFile, application
+from .flags import problem_from_flags
+from .theory import greenwood, jkr, maugis, persson_brener
+from .units import parse
+
+theory = typer.Typer(help="Ask a closed form.", no_args_is_help=True, rich_markup_mode=None)
+application.add_typer(theory, name="theory")
+
+Radius = Annotated[str, Option("--radius", metavar="LENGTH", help='Sphere radius R, "5.19 mm".')]
+Modulus = Annotated[
+    str,
+    Option("--contact-modulus", metavar="PRESSURE", help='E* = E/(1 - nu^2), "1.94 MPa".'),
+]
+Work = Annotated[str, Option("--work-of-adhesion", metavar="ENERGY", help='dg0, "0.1523 J/m^2".')]
+Material = Annotated[
+    str | None,
+    Option(
+        "--material",
+        metavar="MATERIAL",
+        help="power-law (also when left out), sls or prony:FILE, as for simulate sphere.",
+    ),
+]
+Ratio = Annotated[
+    float | None,
+    Option("--modulus-ratio", metavar="K", help="Rubbery over glassy modulus, in (0, 1]."),
+]
+Exponent = Annotated[
+    float | None, Option("--exponent", metavar="N", help="Exponent of the power law, in (0, 3].")
+]
+Speed = Annotated[
+    list[float] | None,
+    Option(
+        "--speed",
+        metavar="V",
+        help="Crack speed, in the theory's length over the time of the material; repeat it for "
+        "more. Without it a table over the range that matters.",
+    ),
+]
+
+
+@theory.command("jkr")
+def theory_jkr(
+    radius: Radius,
+    contact_modulus: Modulus,
+    work_of_adhesion: Work,
+    plot_file: PlotFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Detachment of an elastic sphere, forces of short range (JKR).
+
+    Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
+    "50 mJ/m^2"
+    """
+    with commands._wrong_input():
+        commands._check_files(plot_file)
+        case = _sphere(radius, contact_modulus, work_of_adhesion)
+        end, fold = jkr.pull_off(**case), jkr.instability(**case)
+        free = jkr.contact_radius_at_force(0.0, **case)
+        a = np.linspace(0.0, 1.5 * float(free), 400)
+        curve = jkr.depth(a, **case), jkr.force(a, **case)
+    answer = {
+        "pull_off_force_N": -end.force,
+        "contact_radius_at_pull_off_m": end.contact_radius,
+        "pull_off_depth_m": end.depth,
+        "work_to_pull_off_J": jkr.work_to_pull_off(**case),
+        "contact_radius_without_load_m": free,
+        "instability_depth_m": fold.depth,
+    }
+    _answer(answer, curve, ("depth [m]", "force [N]"), as_json, plot_file)
+
+
+@theory.command("maugis")
+def theory_maugis(
+    radius: Radius,
+    contact_modulus: Modulus,
+    work_of_adhesion: Work,
+    strength: Annotated[
+        str, Option("--strength", metavar="PRESSURE", help='Tension in the ring, "5 MPa".')
+    ],
+    plot_file: PlotFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Detachment of an elastic sphere, forces of any range (Maugis-Dugdale).
+
+    Example: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa" --work-of-adhesion
+    "50 mJ/m^2" --strength "20 MPa"
+    """
+    with commands._wrong_input():
+        commands._check_files(plot_file)
+        case = _sphere(radius, contact_modulus, work_of_adhesion)
+        case["strength"] = parse(strength, "Pa")
+        end = maugis.pull_off(**case)
+        excess = float(end.cohesive_radius) / float(end.contact_radius) - 1
+        states = maugis.curve(1 + excess * np.geomspace(1e-3, 1e3, 400), **case)
+        answer = {
+            "maugis_parameter": maugis.maugis_parameter(**case),
+            "pull_off_force_N": -end.force,
+            "contact_radius_at_pull_off_m": end.contact_radius,
+            "cohesive_radius_at_pull_off_m": end.cohesive_radius,
+            "pull_off_depth_m": end.depth,
+            "work_to_pull_off_J": maugis.work_to_pull_off(**case),
+        }
+    curve = (states.depth, states.force)
+    _answer(answer, curve, ("depth [m]", "force [N]"), as_json, plot_file)
+
+
+@theory.command("persson-brener")
+def theory_persson_brener(
+    material: Material = None,
+    modulus_ratio: Ratio = None,
+    exponent: Exponent = None,
+    speed: Speed = None,
+    plot_file: PlotFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Effective over intrinsic surface energy of a moving crack (Persson and Brener).
+
+    Example: viscotack theory persson-brener --modulus-ratio 0.1 --exponent 0.6 --speed 1
+    """
+    _crack(persson_brener, material, modulus_ratio, exponent, speed, plot_file, as_json)
+
+
+@theory.command("greenwood")
+def theory_greenwood(
+    material: Material = None,
+    modulus_ratio: Ratio = None,
+    exponent: Exponent = None,
+    speed: Speed = None,
+    plot_file: PlotFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Effective over intrinsic surface energy of a moving crack with a cohesive zone (Greenwood).
+
+    Example: viscotack theory greenwood --material sls --modulus-ratio 0.1 --speed 1 --speed 10
+    """
+    _crack(greenwood, material, modulus_ratio, exponent, speed, plot_file, as_json)
+
+
+def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
+    """Say which regime a contact is in, and which answer to trust.
+
+    The problem is stated as for simulate sphere, by flags or by a file in SI.
+
+    Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
+    --rate 316.23
+    """
+    from .advice import advise
+
+    given = {name.replace("_", "-"): value for name, value in flags.items()}
+    with commands._wrong_input():
+        if case is not None and any(value is not None for value in given.values()):
+            names = ", ".join(f"--{name}" for name, value in given.items() if value is not None)
+            raise ValueError(f"{case} states the whole problem; leave out {names}")
+        advice = advise(problem_from_flags(given) if case is None else read_case(case))
+    if as_json:
+        found = asdict(advice) | {"sentences": advice.sentences}
+        typer.echo(json.dumps(found, indent=2, allow_nan=False))
+    else:
+        typer.echo("\n".join(advice.sentences))
+
+
+def _problem_flags() -> list[inspect.Parameter]:
+    """Return the parameters of simulate sphere that state the problem: all before --until."""
+    hints = get_type_hints(commands.simulate_sphere, include_extras=True)
+    found = []
+    for name, parameter in inspect.signature(commands.simulate_sphere).parameters.items():
+        if name == "until":
+            break
+        found.append(parameter.replace(annotation=hints[name]))
+    return found
+
+
+def _register_advise() -> None:
+    """Add the command with the flags of simulate sphere, so that they are written once."""
+    as_json = inspect.Parameter(
+        "as_json", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=AsJson
+    )
+    parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in _problem_flags()]
+    _advise.__signature__ = inspect.Signature([*parameters, as_json])  # type: ignore[attr-defined]
+    _advise.__annotations__ = {p.name: p.annotation for p in [*parameters, as_json]}
+    application.command("advise")(_advise)
+
+
+_register_advise()
+
+
+def _sphere(radius: str, contact_modulus: str, work_of_adhesion: str) -> dict[str, float]:
+    return {
+        "radius": parse(radius, "m"),
+        "contact_modulus": parse(contact_modulus, "Pa"),
+        "work_of_adhesion": parse(work_of_adhesion, "J/m^2"),
+    }
+
+
+def _crack(
+    law: Any,
+    material: str | None,
+    modulus_ratio: float | None,
+    exponent: float | None,
+    speed: list[float] | None,
+    plot_file: Path | None,
+    as_json: bool,
+) -> None:
+    flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
+    with commands._wrong_input():
+        commands._check_files(plot_file)
+        given = {name: value for name, value in flags.items() if value is not None}
+        solid, _ = flag_rules._material(given)
+        if speed:
+            v = np.array(speed)
+        elif solid.modulus_ratio < 1:
+            # from 1 % above the slowest crack to 1 % below the fastest
+            part = np.array([0.01, 0.99])
+            low, high = law.speed(1 + part * (1 / solid.modulus_ratio - 1), material=solid)
+            v = np.geomspace(low, high, 41)
+        else:
+            raise ValueError("an elastic solid has an amplification of 1 at every speed")
+        gamma = law.amplification(v, material=solid)
+    answer = {"speed": v.tolist(), "amplification": np.asarray(gamma).tolist()}
+    labels = ("speed [length of the theory / time of the material]", "amplification")
+    _answer(answer, (v, gamma), labels, as_json, plot_file, logarithmic=True)
+
+
+def _answer(
+    answer: dict[str, Any],
+    curve: tuple[Any, Any],
+    labels: tuple[str, str],
+    as_json: bool,
+    plot_file: Path | None,
+    *,
+    logarithmic: bool = False,
+) -> None:
+    """Print numbers as JSON or as lines, and draw the curve if wanted: a theory is a line."""
+    if plot_file is not None:
+        from matplotlib.figure import Figure
+
+        figure = Figure(layout="constrained")
+        axes = figure.subplots()
+        axes.plot(*curve)
+        axes.set_xlabel(labels[0])
+        axes.set_ylabel(labels[1])
+        if logarithmic:
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+        plot.save_figure(figure, plot_file)
+        typer.echo(f"drew {plot_file}", err=True)
+    if as_json:
+        typer.echo(json.dumps(answer, indent=2, allow_nan=False))
+        return
+    if isinstance(next(iter(answer.values())), list):
+        typer.echo("  ".join(f"{name:>14}" for name in answer))
+        for row in zip(*answer.values(), strict=True):
+            typer.echo("  ".join(f"{value:14.6g}" for value in row))
+        return
+    for name, value in answer.items():
+        typer.echo(f"  {name:<32}{value:>12.5g}")

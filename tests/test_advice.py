@@ -1,0 +1,270 @@
+"""The advisor, and the commands that answer at once."""
+
+import json
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.cli import main
+from viscotack.theory import jkr, maugis, persson_brener
+
+POWER_LAW = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
+JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
+
+
+def groups(rate, *, tabor=3.24, modulus_ratio=0.1, exponent=0.8, start=None):
+    material = vt.RetardationPowerLaw(
+        rubbery_modulus=1.0,
+        glassy_modulus=1 / modulus_ratio,
+        exponent=exponent,
+        tau0=1.0,
+        poisson_ratio=0.0,
+    )
+    return vt.Groups(tabor=tabor, material=material, start=start or vt.AtDepth(73.0), rate=rate)
+
+
+def silicone(speed):
+    """The silicone and the lens of the thesis (section 4.6)."""
+    return vt.Problem(
+        material=vt.RetardationPowerLaw(
+            rubbery_modulus=1.458e6,
+            glassy_modulus=3089e6,
+            exponent=0.2207,
+            tau0=0.01876,
+            poisson_ratio=0.5,
+        ),
+        traction=vt.LennardJones(work_of_adhesion=0.1523, equilibrium_gap=1.55e-6),
+        geometry=vt.Sphere(radius=5.19e-3),
+        protocol=vt.Retraction(start=vt.AtForce(force=1.5e-3), speed=speed),
+    )
+
+
+def estimate(advice, tier):
+    return next(e for e in advice.estimates if e.tier == tier)
+
+
+@pytest.mark.parametrize(
+    ("rate", "regime", "use"),
+    [
+        (1e-4, "quasi-static", "elastic"),
+        (1.0, "rate-dependent", "unloading"),
+        (316.23, "rate-dependent", "simulation"),
+        (1e6, "glassy", "simulation"),
+    ],
+)
+def test_the_regime_follows_the_rate(rate, regime, use):
+    advice = vt.advise(groups(rate))
+    assert (advice.rate_regime, advice.use, advice.adhesion) == (regime, use, "jkr")
+    assert estimate(advice, "simulation").applies
+
+
+@pytest.mark.parametrize(
+    ("rate", "tabor", "exponent"),
+    [(1e-3, 3.24, 0.8), (1.0, 3.24, 0.8), (10.0, 3.24, 1.6), (10.0, 8.0, 0.4), (1.0, 1.0, 0.8)],
+)
+def test_what_is_said_to_apply_is_as_good_as_it_is_said_to_be(rate, tabor, exponent):
+    case = groups(rate, tabor=tabor, exponent=exponent)
+    result = vt.solve(case, accuracy=5e-3, until="pull-off", estimate_error=False)
+    force = vt.pull_off_force(result)
+    for e in vt.advise(case).estimates:
+        if e.applies and e.pull_off_force is not None:
+            # the simulation itself is good to half a per cent here
+            assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
+
+
+def test_the_limits_bracket_the_simulation():
+    advice = vt.advise(groups(316.23))
+    assert estimate(advice, "elastic").pull_off_force < 7.33
+    assert estimate(advice, "glassy").pull_off_force > 7.33
+    assert not estimate(advice, "glassy").applies
+
+
+def test_adhesion_regime_follows_the_tabor_number():
+    found = [
+        vt.advise(groups(1.0, tabor=mu, start=vt.AtForce(1.0))).adhesion for mu in (0.05, 1, 9)
+    ]
+    assert found == ["dmt", "transition", "jkr"]
+
+
+def test_a_light_preload_is_below_the_threshold_and_a_heavy_one_above():
+    assert vt.advise(groups(100.0, start=vt.AtRadius(1.8))).preload == "below"
+    assert vt.advise(groups(100.0, start=vt.AtRadius(4.5))).preload == "above"
+    assert vt.advise(groups(1e-5)).preload == "any"
+    # the same state, said in three ways
+    depth, force = (
+        f(1.8 * np.pi ** (1 / 3), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0)
+        for f in (jkr.depth, jkr.force)
+    )
+    by_radius, by_depth, by_force = (
+        vt.advise(groups(100.0, start=start))
+        for start in (
+            vt.AtRadius(1.8),
+            vt.AtDepth(3.24 * depth),
+            vt.AtForce(force / (1.5 * np.pi)),
+        )
+    )
+    assert by_depth.start_radius == pytest.approx(1.8, rel=1e-9, abs=0)
+    assert by_force.start_radius == pytest.approx(by_radius.start_radius, rel=1e-9, abs=0)
+
+
+def test_an_elastic_solid_has_one_answer():
+    elastic = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    case = vt.Groups(tabor=3.24, material=elastic, start=vt.AtDepth(20.0), rate=1.0)
+    advice = vt.advise(case)
+    assert (advice.rate_regime, advice.use, advice.preload) == ("quasi-static", "elastic", "any")
+    assert [e.tier for e in advice.estimates if e.applies] == ["elastic", "simulation"]
+
+
+def test_a_start_that_jkr_does_not_know_still_gets_advice():
+    advice = vt.advise(groups(1.0, tabor=0.05, start=vt.AtForce(-1.1)))
+    assert advice.start_radius is None
+    assert "JKR has no contact" in estimate(advice, "unloading").why
+
+
+def test_in_si_speed_and_strain_are_judged():
+    slow, fast = vt.advise(silicone(1e-7)), vt.advise(silicone(1e-3))
+    assert not slow.beyond_linear and fast.beyond_linear
+    assert slow.crack_speed_m_per_s < 1e-4 < fast.crack_speed_m_per_s
+    assert slow.small_strain and slow.strain == pytest.approx(0.075, rel=0.2, abs=0)
+    assert any("silicone experiments" in s for s in fast.sentences)
+    assert any(" N" in s for s in fast.sentences)
+    dimensionless = vt.advise(silicone(1e-3).groups())
+    assert dimensionless.crack_speed_m_per_s is None and dimensionless.strain is None
+    assert dimensionless.amplification == pytest.approx(fast.amplification, rel=1e-9, abs=0)
+
+
+def test_advice_does_not_depend_on_the_unit_of_time():
+    # a Prony series in minutes instead of seconds: 60 times the rate per unit
+    def case(unit):
+        material = vt.Prony(
+            rubbery_modulus=1.0, branches=((3.0, 0.6 / unit), (6.0, 60 / unit)), poisson_ratio=0.0
+        )
+        return vt.Groups(tabor=3.24, material=material, start=vt.AtDepth(40.0), rate=0.1 * unit)
+
+    first, second = vt.advise(case(1.0)), vt.advise(case(60.0))
+    # steps of the unloading are chosen by tolerance
+    assert first.amplification == pytest.approx(second.amplification, rel=1e-4, abs=0)
+    assert estimate(first, "rate-fit").pull_off_force == pytest.approx(
+        estimate(second, "rate-fit").pull_off_force, rel=1e-9, abs=0
+    )
+
+
+@pytest.mark.slow
+def test_beyond_the_computed_threshold_force_hardly_grows():
+    case = groups(10**0.5, exponent=1.6)
+    radius = vt.threshold_contact_radius(case, slope=0.1)
+    forces = [
+        1.5
+        * vt.pull_off_force(
+            vt.solve(
+                groups(10**0.5, exponent=1.6, start=vt.AtRadius(x)),
+                until="pull-off",
+                accuracy=1e-3,
+                estimate_error=False,
+            )
+        )
+        for x in (radius - 0.1, radius + 0.1)
+    ]
+    assert (forces[1] - forces[0]) / 0.2 == pytest.approx(0.1, rel=0.3, abs=0)
+
+
+def test_a_threshold_needs_a_slope():
+    with pytest.raises(ValueError, match="slope must be positive"):
+        vt.threshold_contact_radius(groups(1.0), slope=0.0)
+
+
+# The command line -----------------------------------------------------------------------------
+
+
+def call(arguments):
+    with pytest.raises(SystemExit) as caught:
+        main([str(a) for a in arguments])
+    return caught.value.code or 0
+
+
+def test_advise_prints_sentences_or_one_object(capsys):
+    assert call(["advise", *POWER_LAW, "--rate", "1"]) == 0
+    assert "Use: unloading." in capsys.readouterr().out
+    assert call(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["use"] == "unloading" and len(found["estimates"]) == 5
+    assert found["sentences"][-1] == "Use: unloading."
+
+
+def test_advise_reads_a_case_and_refuses_flags_beside_it(tmp_path, capsys):
+    file = tmp_path / "lens.toml"
+    file.write_text(
+        """
+        [material]
+        model = "power-law"
+        rubbery_modulus = "1.458 MPa"
+        glassy_modulus = "3089 MPa"
+        exponent = 0.2207
+        tau0 = "18.76 ms"
+        poisson_ratio = 0.5
+        [interface]
+        law = "lennard-jones"
+        work_of_adhesion = "0.1523 J/m^2"
+        equilibrium_gap = "1.55 um"
+        [sphere]
+        radius = "5.19 mm"
+        [protocol]
+        preload_force = "1.5 mN"
+        speed = "100 um/s"
+        """,
+        encoding="utf-8",
+    )
+    assert call(["advise", file, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    expected = vt.advise(silicone(100e-6))
+    assert found["strain"] == pytest.approx(expected.strain, rel=1e-9, abs=0)
+    assert call(["advise", file, "--tabor", "1"]) == 2
+    assert "leave out --tabor" in capsys.readouterr().err
+    assert call(["advise"]) == 2
+    assert "missing" in capsys.readouterr().err
+
+
+def test_theory_jkr_and_maugis_say_what_the_functions_say(tmp_path, capsys):
+    case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    picture = tmp_path / "jkr.png"
+    assert call(["theory", "jkr", *JKR, "--json", "--plot", picture]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["pull_off_force_N"] == -jkr.pull_off(**case).force
+    assert picture.stat().st_size > 1000
+    assert call(["theory", "maugis", *JKR, "--strength", "0.1 MPa", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["pull_off_force_N"] == pytest.approx(
+        maugis.pull_off_force(**case, strength=1e5), rel=1e-12, abs=0
+    )
+    assert call(["theory", "jkr", *JKR]) == 0
+    assert "pull_off_force_N" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["persson-brener", "greenwood"])
+def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path, capsys):
+    law = ["theory", name, "--modulus-ratio", "0.1", "--exponent", "0.6"]
+    picture = tmp_path / "crack.svg"
+    assert call([*law, "--plot", picture]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 42
+    assert picture.exists()
+    assert call([*law, "--speed", "1", "--speed", "10", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["speed"] == [1, 10]
+    if name == "persson-brener":
+        expected = persson_brener.amplification(
+            [1.0, 10.0], material=groups(1.0, exponent=0.6).material
+        )
+        assert found["amplification"] == pytest.approx(expected, rel=1e-12, abs=0)
+
+
+def test_theory_refuses_what_is_impossible(tmp_path, capsys):
+    for arguments, words in (
+        (["theory", "jkr", "--radius", "-1 mm", *JKR[2:]], "radius must be positive"),
+        (["theory", "greenwood", "--material", "sls"], "--modulus-ratio missing"),
+        (["theory", "persson-brener", "--material", "elastic"], "amplification of 1"),
+        (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "no folder"),
+    ):
+        assert call(arguments) == 2
+        out, err = capsys.readouterr()
+        assert words in err and out == ""
