@@ -54,6 +54,17 @@ def test_a_run_that_meets_its_bound_says_so_and_can_be_kept():
     assert len(kept.time) == 6
 
 
+def test_a_run_that_loses_energy_has_no_numbers():
+    from dataclasses import replace
+
+    careless = replace(
+        Settings.for_accuracy(0.05), imbalance=1e3, step_error=1e3, force_change=1e3, travel=2.0,
+        first_travel=0.5,
+    )  # fmt: skip
+    with pytest.raises(SimulationError, match="of the energy is not accounted for"):
+        solve(case(AtDepth(5.0)), settings=careless)
+
+
 def test_the_same_problem_gives_the_same_bytes():
     first, second = (solve(case(), until="pull-off") for _ in range(2))
     for name in ("time", "depth", "force", "contact_radius", "edge_speed"):

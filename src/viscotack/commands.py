@@ -213,8 +213,8 @@ def simulate_sphere(
         "tau0": tau0,
         "poisson-ratio": poisson_ratio,
     }
-    with _wrong_input():
-        _check_files(plot_file, csv_file, save_file)
+    with wrong_input():
+        check_files(plot_file, csv_file, save_file)
         if case is not None and any(value is not None for value in flags.values()):
             names = ", ".join(f"--{name}" for name, value in flags.items() if value is not None)
             raise ValueError(f"{case} states the whole problem; leave out {names}")
@@ -245,13 +245,13 @@ def show(
 
     Prints its summary; writes its curve as a table or draws it if wanted.
     """
-    with _wrong_input():
-        _check_files(plot_file, csv_file)
+    with wrong_input():
+        check_files(plot_file, csv_file)
         result = load(file)
     _report(result, as_json, plot_file, plot_kind, csv_file)
 
 
-def _check_files(plot_file: Path | None, *files: Path | None) -> None:
+def check_files(plot_file: Path | None, *files: Path | None) -> None:
     """Refuse output files that cannot be written before the work is done, not after it."""
     if plot_file is not None:
         plot.check_format(plot_file)
@@ -318,7 +318,7 @@ def _progress() -> Iterator[Callable[[float], None] | None]:
 
 
 @contextmanager
-def _wrong_input() -> Iterator[None]:
+def wrong_input() -> Iterator[None]:
     """Turn an error about the input into a paragraph on standard error and exit status 2."""
     try:
         yield

@@ -34,7 +34,7 @@ def problem_from_flags(flags: Mapping[str, Any]) -> Groups | Problem:
         If a flag is missing, does not go with another, or is impossible.
     """
     given = {name: value for name, value in flags.items() if value is not None}
-    material, unit = _material(given)
+    material, unit = material_from_flags(given)
     elastic = isinstance(material, Elastic)
     _require(given, ["tabor"] if elastic else ["tabor", "rate"])
     groups = Groups(
@@ -49,7 +49,7 @@ def problem_from_flags(flags: Mapping[str, Any]) -> Groups | Problem:
     return _in_si(groups, given, "s" if elastic else unit)
 
 
-def _material(given: Mapping[str, Any]) -> tuple[Material, str]:
+def material_from_flags(given: Mapping[str, Any]) -> tuple[Material, str]:
     """Return the reduced material, and the unit of its times if a file states one, else "1"."""
     name = given.get("material", "power-law")
     kind, _, file = name.partition(":")

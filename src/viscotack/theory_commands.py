@@ -11,10 +11,9 @@ import typer
 from typer import Option
 
 from . import commands, plot
-from . import flags as flag_rules
 from .case_file import read_case
-from .commands import AsJson, PlotFile, application
-from .flags import problem_from_flags
+from .commands import AsJson, PlotFile, application, check_files, wrong_input
+from .flags import material_from_flags, problem_from_flags
 from .theory import greenwood, jkr, maugis, persson_brener
 from .units import parse
 
@@ -66,8 +65,8 @@ def theory_jkr(
     Example: viscotack theory jkr --radius "1 mm" --contact-modulus "1 MPa" --work-of-adhesion
     "50 mJ/m^2"
     """
-    with commands._wrong_input():
-        commands._check_files(plot_file)
+    with wrong_input():
+        check_files(plot_file)
         case = _sphere(radius, contact_modulus, work_of_adhesion)
         end, fold = jkr.pull_off(**case), jkr.instability(**case)
         free = jkr.contact_radius_at_force(0.0, **case)
@@ -100,8 +99,8 @@ def theory_maugis(
     Example: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa" --work-of-adhesion
     "50 mJ/m^2" --strength "20 MPa"
     """
-    with commands._wrong_input():
-        commands._check_files(plot_file)
+    with wrong_input():
+        check_files(plot_file)
         case = _sphere(radius, contact_modulus, work_of_adhesion)
         case["strength"] = parse(strength, "Pa")
         end = maugis.pull_off(**case)
@@ -162,7 +161,7 @@ def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
     from .advice import advise
 
     given = {name.replace("_", "-"): value for name, value in flags.items()}
-    with commands._wrong_input():
+    with wrong_input():
         if case is not None and any(value is not None for value in given.values()):
             names = ", ".join(f"--{name}" for name, value in given.items() if value is not None)
             raise ValueError(f"{case} states the whole problem; leave out {names}")
@@ -217,10 +216,10 @@ def _crack(
     as_json: bool,
 ) -> None:
     flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
-    with commands._wrong_input():
-        commands._check_files(plot_file)
+    with wrong_input():
+        check_files(plot_file)
         given = {name: value for name, value in flags.items() if value is not None}
-        solid, _ = flag_rules._material(given)
+        solid, _ = material_from_flags(given)
         if speed:
             v = np.array(speed)
         elif solid.modulus_ratio < 1:

@@ -112,6 +112,13 @@ def test_a_table_of_the_power_law_tends_to_the_power_law_at_second_order(theory)
     assert np.log2(error[1] / error[2]) == pytest.approx(2, abs=0.1)
 
 
+def test_the_weights_of_an_uneven_table_are_the_area_under_its_straight_pieces():
+    t, L = np.array([1e-3, 2e-3, 1e-2, 5e-2]), np.array([1e-7, 2e-7, 1e-7, 5e-8])
+    table = TabulatedSpectrum(rubbery_modulus=1e6, times=tuple(t), densities=tuple(L))
+    area = np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t)))
+    assert 1 - table.modulus_ratio == pytest.approx(1e6 * area, rel=1e-12, abs=0)
+
+
 def test_a_table_creeps_from_its_glassy_to_its_rubbery_compliance():
     table = table_of(rubber(1.6, 0.1), 10)
     creep = table.creep(np.array([0.0, 1e9]))

@@ -74,7 +74,7 @@ class Grading:
             fine = np.linspace(0.0, fine[-1], max(round(fine[-1] / h), 8) + 1)
             inner = np.empty(0)
         else:
-            away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 6, h))
+            away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 24, h))
             inner = fine[0] - away[::-1] * (fine[0] / away[-1])  # the last one lands on r = 0
             inner[0] = 0.0
         parts, end, last_step = [inner, fine], fine[-1], h
@@ -99,7 +99,7 @@ class Grading:
         return np.array(points[1:])
 
     def _bridge(self, start: float, end: float) -> npt.NDArray:
-        """Return nodes from the fine zone to the scar, coarsest between; neither end is included."""
+        """Return nodes from the fine zone to the scar, coarsest between, without the ends."""
         length, points = end - start, [0.0]
         while points[-1] < length:
             left = max(length - points[-1], 0.0)

@@ -125,8 +125,8 @@ def _root(
     except ValueError:
         least = min((quantity(contact) for contact in found.values()), default=np.nan)
         raise ValueError(
-            f"no relaxed contact has a {name} of {wanted:g}; "
-            f"the least that was found is {least:.4g}"
+            f"no relaxed contact has a {name} of {wanted:g} (dimensionless); going down in depth "
+            f"from the JKR contact, the least that was met is {least:.4g}: start with more"
         ) from None
     if low == high:
         return found[low]
