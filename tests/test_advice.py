@@ -241,6 +241,28 @@ def test_theory_jkr_and_maugis_say_what_the_functions_say(tmp_path, capsys):
     assert "pull_off_force_N" in capsys.readouterr().out
 
 
+def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, capsys):
+    R, E, w, h0 = 1e-3, 1e6, 0.05, 4e-7
+    tabor = (R * w**2 / (E**2 * h0**3)) ** (1 / 3)
+    case = dict(radius=R, contact_modulus=E, work_of_adhesion=w)
+    case["strength"] = vt.LennardJones(work_of_adhesion=w, equilibrium_gap=h0).strength
+    end, load = maugis.pull_off(**case), 1.5 * np.pi * R * w
+    length = (np.pi * R**2 * w / E) ** (1 / 3)
+    picture = tmp_path / "maugis.png"
+    assert call(["theory", "maugis", "--tabor", tabor, "--json", "--plot", picture]) == 0
+    found = json.loads(capsys.readouterr().out)
+    expected = {
+        "maugis_parameter": maugis.parameter_from_tabor(tabor),
+        "pull_off_force": -end.force / load,
+        "contact_radius_at_pull_off": end.contact_radius / length,
+        "cohesive_radius_at_pull_off": end.cohesive_radius / length,
+        "pull_off_depth": end.depth / h0,
+        "work_to_pull_off": maugis.work_to_pull_off(**case) / (load * h0),
+    }
+    assert found == pytest.approx(expected, rel=1e-9, abs=0)
+    assert picture.stat().st_size > 1000
+
+
 @pytest.mark.parametrize("name", ["persson-brener", "greenwood"])
 def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path, capsys):
     law = ["theory", name, "--modulus-ratio", "0.1", "--exponent", "0.6"]
@@ -261,6 +283,9 @@ def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path,
 def test_theory_refuses_what_is_impossible(tmp_path, capsys):
     for arguments, words in (
         (["theory", "jkr", "--radius", "-1 mm", *JKR[2:]], "radius must be positive"),
+        (["theory", "maugis", *JKR], "--strength missing; or give --tabor alone"),
+        (["theory", "maugis", *JKR, "--tabor", "1"], "leave out --radius, --contact-modulus"),
+        (["theory", "maugis", "--tabor", "-1"], "--tabor must be positive"),
         (["theory", "greenwood", "--material", "sls"], "--modulus-ratio missing"),
         (["theory", "persson-brener", "--material", "elastic"], "amplification of 1"),
         (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "no folder"),

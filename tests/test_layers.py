@@ -103,6 +103,35 @@ def cycles(links):
     return sorted(rest)
 
 
+def private_names(path):
+    """Return what a module takes from another although it begins with an underscore."""
+    tree = ast.parse(path.read_text())
+    doors = {
+        alias.asname or alias.name
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+        and (node.level or (node.module or "").startswith("viscotack"))
+        for alias in node.names
+    }
+    taken = {
+        f"{node.value.id}.{node.attr}"
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name)
+        if node.value.id in doors and node.attr.startswith("_") and not node.attr.endswith("__")
+    }
+    # `from . import _crack` takes a module of the same folder, `from ._crack import _x` a name
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and node.module:
+            names = [alias.name for alias in node.names]
+            taken |= {name for name in names if name.startswith("_") and not name.endswith("__")}
+    return taken
+
+
+def test_no_module_takes_a_private_name_of_another():
+    taken = {name: private_names(path) for name, path in modules(PACKAGE).items()}
+    assert {name: found for name, found in taken.items() if found} == {}
+
+
 def test_every_module_has_a_floor():
     homeless = {name.split(".")[0] for name in modules(PACKAGE)} - FLOOR.keys()
     assert not homeless, f"give {sorted(homeless)} a floor, here and in the layout"

@@ -32,7 +32,7 @@ def test_a_start_that_does_not_exist_is_refused(start, words):
 
 @pytest.mark.parametrize("accuracy", [0.0, -1.0, 0.5, float("nan"), 1e-9])
 def test_an_impossible_accuracy_is_refused(accuracy):
-    with pytest.raises(ValueError, match="accuracy must be between 1e-6 and 0.1"):
+    with pytest.raises(ValueError, match="accuracy must be between 1e-6 and 0.02"):
         solve(case(), accuracy=accuracy)
 
 
@@ -58,7 +58,7 @@ def test_a_run_that_loses_energy_has_no_numbers():
     from dataclasses import replace
 
     careless = replace(
-        Settings.for_accuracy(0.05), imbalance=1e3, step_error=1e3, force_change=1e3, travel=2.0,
+        Settings.for_accuracy(0.02), imbalance=1e3, step_error=1e3, force_change=1e3, travel=2.0,
         first_travel=0.5,
     )  # fmt: skip
     with pytest.raises(SimulationError, match="of the energy is not accounted for"):

@@ -5,6 +5,7 @@ With --json exactly one object goes to standard output, everything else to stand
 """
 
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -258,6 +259,10 @@ def check_files(plot_file: Path | None, *files: Path | None) -> None:
     for file in (plot_file, *files):
         if file is not None and not file.parent.is_dir():
             raise ValueError(f"cannot write {file}: there is no folder {file.parent}")
+        if file is not None and file.is_dir():
+            raise ValueError(f"cannot write {file}: it is a folder; give the name of a file")
+        if file is not None and not os.access(file.parent, os.W_OK):
+            raise ValueError(f"cannot write {file}: the folder {file.parent} is write-protected")
 
 
 def _report(
@@ -293,6 +298,8 @@ def _words(answer: dict[str, Any]) -> str:
         if f"{name}_{si}" in answer:
             line += f"= {answer[f'{name}_{si}']:.4g} {si.replace('_per_', '/')}"
         lines.append(line.rstrip())
+    if answer["error_estimate"] is None:
+        lines.append("  numerical error      not known: no coarser run to compare with")
     for name, share in (answer["error_estimate"] or {}).items():
         if share is not None:
             lines.append(f"  {'error of the ' + name:<21}{share:>12.1e}  estimated, relative")

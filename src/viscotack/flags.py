@@ -105,7 +105,9 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
                 scales[name.replace("-", "_")] = parse(given[name], si)
             except ValueError as error:
                 raise ValueError(f"--{name}: {error}; for example --{name} {example}") from None
-    time_unit = scales.pop("tau0", None) or parse(f"1 {unit}", "s")
+    time_unit = scales.pop("tau0", None)
+    if time_unit is None:
+        time_unit = parse(f"1 {unit}", "s")
     return groups.in_si(**scales, time_unit=time_unit)
 
 

@@ -15,17 +15,17 @@ from .case_file import read_case
 from .commands import AsJson, PlotFile, application, check_files, wrong_input
 from .flags import material_from_flags, problem_from_flags
 from .theory import greenwood, jkr, maugis, persson_brener
-from .units import parse
+from .units import parse, positive
 
 theory = typer.Typer(help="Ask a closed form.", no_args_is_help=True, rich_markup_mode=None)
 application.add_typer(theory, name="theory")
 
-Radius = Annotated[str, Option("--radius", metavar="LENGTH", help='Sphere radius R, "5.19 mm".')]
-Modulus = Annotated[
-    str,
-    Option("--contact-modulus", metavar="PRESSURE", help='E* = E/(1 - nu^2), "1.94 MPa".'),
-]
-Work = Annotated[str, Option("--work-of-adhesion", metavar="ENERGY", help='dg0, "0.1523 J/m^2".')]
+_RADIUS = Option("--radius", metavar="LENGTH", help='Sphere radius R, "5.19 mm".')
+_MODULUS = Option("--contact-modulus", metavar="PRESSURE", help='E* = E/(1 - nu^2), "1.94 MPa".')
+_WORK = Option("--work-of-adhesion", metavar="ENERGY", help='dg0, "0.1523 J/m^2".')
+Radius = Annotated[str, _RADIUS]
+Modulus = Annotated[str, _MODULUS]
+Work = Annotated[str, _WORK]
 Material = Annotated[
     str | None,
     Option(
@@ -85,37 +85,65 @@ def theory_jkr(
 
 @theory.command("maugis")
 def theory_maugis(
-    radius: Radius,
-    contact_modulus: Modulus,
-    work_of_adhesion: Work,
+    radius: Annotated[str | None, _RADIUS] = None,
+    contact_modulus: Annotated[str | None, _MODULUS] = None,
+    work_of_adhesion: Annotated[str | None, _WORK] = None,
     strength: Annotated[
-        str, Option("--strength", metavar="PRESSURE", help='Tension in the ring, "5 MPa".')
-    ],
+        str | None, Option("--strength", metavar="PRESSURE", help='Tension in the ring, "5 MPa".')
+    ] = None,
+    tabor: Annotated[
+        float | None,
+        Option(
+            "--tabor",
+            metavar="MU",
+            help="Instead of all of them, for dimensionless answers: the Tabor number of a "
+            "Lennard-Jones contact of the same work and peak tension.",
+        ),
+    ] = None,
     plot_file: PlotFile = None,
     as_json: AsJson = False,
 ) -> None:
     """Detachment of an elastic sphere, forces of any range (Maugis-Dugdale).
 
     Example: viscotack theory maugis --radius "1 um" --contact-modulus "1 GPa" --work-of-adhesion
-    "50 mJ/m^2" --strength "20 MPa"
+    "50 mJ/m^2" --strength "20 MPa", or: viscotack theory maugis --tabor 1
     """
+    quantities = {
+        "--radius": radius,
+        "--contact-modulus": contact_modulus,
+        "--work-of-adhesion": work_of_adhesion,
+        "--strength": strength,
+    }
     with wrong_input():
         check_files(plot_file)
-        case = _sphere(radius, contact_modulus, work_of_adhesion)
-        case["strength"] = parse(strength, "Pa")
+        _check_maugis(quantities, tabor)
+        if tabor is None:
+            case = _sphere(str(radius), str(contact_modulus), str(work_of_adhesion))
+            case["strength"] = parse(str(strength), "Pa")
+            units, tails = (1.0, 1.0, 1.0), ("_N", "_m", "_m", "_J")
+            labels = ("depth [m]", "force [N]")
+        else:
+            # R = E* = dg0 = 1: h0 is 1/mu, and the strength what makes the Maugis parameter
+            case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+            wanted = maugis.parameter_from_tabor(positive("--tabor", tabor, "1"))
+            of_one = maugis.maugis_parameter(**case, strength=1.0)
+            case["strength"] = float(np.asarray(wanted) / of_one)
+            units, tails = (1.5 * np.pi, np.cbrt(np.pi), 1 / tabor), ("", "", "", "")
+            labels = ("depth / h0", "force / (1.5 pi R dg0)")
+        load, length, height = units
         end = maugis.pull_off(**case)
         excess = float(end.cohesive_radius) / float(end.contact_radius) - 1
         states = maugis.curve(1 + excess * np.geomspace(1e-3, 1e3, 400), **case)
         answer = {
             "maugis_parameter": maugis.maugis_parameter(**case),
-            "pull_off_force_N": -end.force,
-            "contact_radius_at_pull_off_m": end.contact_radius,
-            "cohesive_radius_at_pull_off_m": end.cohesive_radius,
-            "pull_off_depth_m": end.depth,
-            "work_to_pull_off_J": maugis.work_to_pull_off(**case),
+            f"pull_off_force{tails[0]}": -end.force / load,
+            f"contact_radius_at_pull_off{tails[1]}": end.contact_radius / length,
+            f"cohesive_radius_at_pull_off{tails[1]}": end.cohesive_radius / length,
+            f"pull_off_depth{tails[2]}": end.depth / height,
+            f"work_to_pull_off{tails[3]}": maugis.work_to_pull_off(**case) / (load * height),
         }
-    curve = (states.depth, states.force)
-    _answer(answer, curve, ("depth [m]", "force [N]"), as_json, plot_file)
+    curve = (states.depth / height, states.force / load)
+    _answer(answer, curve, labels, as_json, plot_file)
 
 
 @theory.command("persson-brener")
@@ -204,6 +232,16 @@ def _sphere(radius: str, contact_modulus: str, work_of_adhesion: str) -> dict[st
         "contact_modulus": parse(contact_modulus, "Pa"),
         "work_of_adhesion": parse(work_of_adhesion, "J/m^2"),
     }
+
+
+def _check_maugis(quantities: dict[str, str | None], tabor: float | None) -> None:
+    """Refuse a sphere that is stated twice or in part."""
+    given = [name for name, value in quantities.items() if value is not None]
+    missing = [name for name, value in quantities.items() if value is None]
+    if tabor is not None and given:
+        raise ValueError(f"--tabor states the whole problem; leave out {', '.join(given)}")
+    if tabor is None and missing:
+        raise ValueError(f"{' and '.join(missing)} missing; or give --tabor alone")
 
 
 def _crack(

@@ -286,7 +286,8 @@ def march(
     """Retract a relaxed contact at a constant rate [h0 per time unit] and return its history.
 
     `until` is "pull-off" (a little past the force minimum) or "detached" (surfaces apart).
-    The outcome is "pull-off", "detached", or "steps" when the bound on steps was met.
+    The outcome is "pull-off", "detached", "steps" when the bound on steps was met, or "lost" when
+    no equilibrium was found.
     """
     tabor = start.surface.tabor
     solid = _Solid(modes, np.asarray(modes.weights), law, rate, 2 * tabor / (3 * np.pi))
@@ -314,19 +315,22 @@ def march(
         tolerated = settings.imbalance * max(entry.largest(first, after.seen), SMALLEST_ENERGY)
         room = looser * settings.force_change * (abs(now.force) + 1)
         strain = max(
-            error / (settings.step_error * looser**2) if now.time > 0 else 0.0,
+            error / (settings.step_error * looser**2) if now.time > 0 or error == np.inf else 0.0,
             (abs(after.seen.force - now.force) / (2 * room)) ** 2,
             abs(entry.imbalance(first, after.seen) - balance) / tolerated,
             _edge_strain(now.edge, after.seen.edge, grading),
         )
-        if strain > 1.5 and not stiffest:
+        if not strain <= 1.5 and not stiffest:
             history.rejected += 1
             dt *= max(0.2, min(0.8 / np.sqrt(strain), 0.7))
             continue
+        if not np.isfinite(error):  # however short the step, no equilibrium was found
+            history.outcome = "lost"
+            break
         if strain > 1.5:  # the branch has ended: what is missing was lost in a jump
             lost = entry.imbalance(first, after.seen) - balance
             entry = replace(entry, jumps=entry.jumps + lost)
-            if abs(lost) > tolerated or not after.seen.edge > 0:
+            if abs(lost) > tolerated or (now.edge > 0 and not after.seen.edge > 0):
                 history.events.append(_jump(now, after.seen, lost))
             dt = least / rate
         else:

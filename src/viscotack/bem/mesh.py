@@ -28,6 +28,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.theory import jkr
+
+# In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
+JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+
+
+def jkr_radius(depth: float) -> float:
+    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
+    last = jkr.instability(**JKR_UNITS).depth
+    return float(jkr.contact_radius_at_depth(max(depth, last), **JKR_UNITS))
+
 
 def edge_zone(tabor: float) -> float:
     """Return the length [beta] over which the gap opens at a relaxed contact edge."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscotack.bem.mesh import Grading, edge_zone
+from viscotack.bem.mesh import Grading, edge_zone, jkr_radius
 
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
 DEFAULT_ACCURACY = 2e-3
@@ -64,9 +64,9 @@ class Settings:
     @classmethod
     def for_accuracy(cls, accuracy: float) -> Settings:
         """Return the settings that keep the pull-off force within this relative error."""
-        if not 1e-6 <= accuracy <= 0.1:
+        if not 1e-6 <= accuracy <= 0.02:
             raise ValueError(
-                f"accuracy must be between 1e-6 and 0.1 (relative, on the pull-off force), "
+                f"accuracy must be between 1e-6 and 0.02 (relative, on the pull-off force), "
                 f"got {accuracy}"
             )
         s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
@@ -105,7 +105,9 @@ class Settings:
 
     def grading(self, tabor: float, depth: float) -> Grading:
         """Return the grading of the nodes for a sphere at this Tabor number and depth [h0]."""
-        zone = edge_zone(tabor)
+        zone, edge = edge_zone(tabor), jkr_radius(depth / tabor)
+        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
+        squares = (self.reach + max(depth, 0.0), self.reach + tabor * edge**2 / 2)
         return Grading(
             spacing=zone / self.nodes_per_zone,
             half_width=zone * self.fine_zones,
@@ -113,5 +115,5 @@ class Settings:
             scar_half_width=zone * _SCAR_ZONES,
             growth_inside=self.growth_inside,
             growth_outside=self.growth_outside,
-            outer_radius=float(np.sqrt(2 * (self.reach + max(depth, 0.0)) / tabor)),
+            outer_radius=max(float(np.sqrt(2 * max(squares) / tabor)), 2.5 * edge),
         )

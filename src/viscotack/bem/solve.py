@@ -29,6 +29,8 @@ _MARGIN = 1.8
 # in the median 1.9 and 3.3 times as large.
 _FLOOR = {"force": 0.2, "work": 1.0}
 
+# Tabor numbers that the mesh can serve; tested from 0.01 to 10.
+_TABOR_RANGE = (1e-6, 300.0)
 # A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
 _LARGEST_RESIDUAL = 1e-2
 
@@ -63,7 +65,7 @@ def solve(
     problem : Problem or Groups
         What is retracted, in SI or in dimensionless groups.
     accuracy : float
-        Wanted relative error of the pull-off force, from 1e-6 to 0.1; the work to pull-off, whose
+        Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
         end is a flat minimum, has up to five times this error.
     until : {"detached", "pull-off"}
         Run until the surfaces are apart, or only until the force minimum is passed (faster; the
@@ -109,6 +111,12 @@ def solve(
     """
     if until not in _UNTIL:
         raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
+    low, high = _TABOR_RANGE
+    if not low <= problem.groups().tabor <= high:
+        raise ValueError(
+            f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
+            f"{problem.groups().tabor:g}; below take theory.bradley, above theory.jkr"
+        )
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     # The matrices are small: a second BLAS thread costs many times what it brings.
@@ -116,8 +124,7 @@ def solve(
         result = _run(problem, chosen, until, fields, progress)
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            companion = _run(problem, chosen.coarser(_COARSER), "pull-off", False, None)
-            estimate = _estimate(result, companion, chosen.accuracy)
+            estimate = _estimate(problem, result, chosen)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     result = replace(result, error_estimate=estimate, statistics=statistics)
     if throw and result.outcome is Outcome.STOPPED:
@@ -212,6 +219,11 @@ def _status(history: History, residual: float) -> str:
             f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
             "ask for a better accuracy, and mind that Tabor numbers above 10 are not tested"
         )
+    if history.outcome == "lost":
+        return (
+            f"{Outcome.STOPPED} because no equilibrium of the surface was found at a depth of "
+            f"{last.depth:.4g} h0; ask for a better accuracy"
+        )
     if history.outcome == "steps":
         return (
             f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met "
@@ -240,14 +252,17 @@ def _fields(history: History, time: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def _estimate(fine: Result, coarse: Result, accuracy: float) -> dict[str, float] | None:
-    """Return the relative errors of the fine run's force and work, from the coarse one's."""
-    if coarse.outcome is Outcome.STOPPED:
+def _estimate(
+    problem: Problem | Groups, result: Result, settings: Settings
+) -> dict[str, float] | None:
+    """Return the relative errors of force and work from a coarser companion, None without one."""
+    try:
+        coarse = _run(problem, settings.coarser(_COARSER), "pull-off", False, None)
+        values = [(pull_off_force(r), work_to_pull_off(r)) for r in (result, coarse)]
+    except ValueError:  # the companion has no start or no pull-off: nothing is known
         return None
-    quantities = {"force": pull_off_force, "work": work_to_pull_off}
     estimate = {}
-    for name, quantity in quantities.items():
-        value, other = quantity(fine), quantity(coarse)
+    for name, value, other in zip(("force", "work"), *values, strict=True):
         share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
-        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * accuracy)
+        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * settings.accuracy)
     return estimate

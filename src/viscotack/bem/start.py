@@ -17,15 +17,13 @@ from scipy.optimize import brentq
 
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.halfspace import Surface, half_space
-from viscotack.bem.mesh import Grading
+from viscotack.bem.mesh import JKR_UNITS, Grading, jkr_radius
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import jkr
 from viscotack.traction import Traction
 
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 RADIUS_UNIT = np.pi ** (1 / 3)
-# In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
-_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 _MOST_MESHES = 200
 # A start by force or radius is found to this part of (mu + 1) h0 in depth.
 _DEPTH_TOLERANCE = 1e-6
@@ -48,11 +46,6 @@ class Relaxed:
     lattice: float
 
 
-def _jkr_radius(depth: float) -> float:
-    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
-    return float(jkr.contact_radius_at_depth(max(depth, jkr.instability(**_UNITS).depth), **_UNITS))
-
-
 def relaxed_at_depth(
     depth: float,
     law: Traction,
@@ -70,12 +63,12 @@ def relaxed_at_depth(
         If no contact exists at this depth: the surfaces have let go of each other.
     """
     mesh_of = grading(depth)
-    edge = max(_jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor)) + offset
+    edge = max(jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor)) + offset
     surface, gap = None, None
     for _ in range(_MOST_MESHES):
         nodes = mesh_of.nodes(edge, edge)
         if surface is None or gap is None:
-            guess = 1 + tabor * np.asarray(jkr.gap(nodes, contact_radius=edge, **_UNITS))
+            guess = 1 + tabor * np.asarray(jkr.gap(nodes, contact_radius=edge, **JKR_UNITS))
         else:
             guess = np.maximum(CubicSpline(surface.radius, gap)(nodes), 0.8)
         surface = half_space(nodes, tabor)
@@ -109,7 +102,7 @@ def _root(
     def error(depth: float) -> float:
         # The mesh shifts edges by about the same at all depths: look where the last one was.
         last = list(found.values())[-1:]
-        offset = sum(x.lattice - _jkr_radius(x.depth / tabor) for x in last)
+        offset = sum(x.lattice - jkr_radius(x.depth / tabor) for x in last)
         found[depth] = relaxed_at_depth(depth, law, tabor, grading, offset if tabor > 1 else 0.0)
         return quantity(found[depth]) - wanted
 
@@ -162,11 +155,11 @@ def relaxed(
         return relaxed_at_depth(start.depth, law, tabor, grading)
     if isinstance(start, AtRadius):
         wanted = start.contact_radius
-        first = tabor * float(jkr.depth(wanted * RADIUS_UNIT, **_UNITS))
+        first = tabor * float(jkr.depth(wanted * RADIUS_UNIT, **JKR_UNITS))
         return _root(
             lambda x: x.contact_radius, wanted, "contact radius", first, law, tabor, grading
         )
     weakest = -jkr.pull_off_force(radius=1.0, work_of_adhesion=1.0)
-    edge = jkr.contact_radius_at_force(max(1.5 * np.pi * start.force, weakest), **_UNITS)
-    first = tabor * float(jkr.depth(edge, **_UNITS))
+    edge = jkr.contact_radius_at_force(max(1.5 * np.pi * start.force, weakest), **JKR_UNITS)
+    first = tabor * float(jkr.depth(edge, **JKR_UNITS))
     return _root(lambda x: x.force, start.force, "force", first, law, tabor, grading)

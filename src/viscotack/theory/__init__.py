@@ -23,6 +23,7 @@ from . import (
     profiles,
     rate,
     tabulated,
+    tabulated_modulus,
     transition,
     unloading,
 )
@@ -43,6 +44,7 @@ __all__ = [
     "profiles",
     "rate",
     "tabulated",
+    "tabulated_modulus",
     "transition",
     "unloading",
 ]

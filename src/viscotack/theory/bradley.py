@@ -6,7 +6,7 @@ Parameters: ``radius`` R of the sphere [m], ``work_of_adhesion`` :math:`\Delta\g
 gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small against R, Tabor
 number tending to zero. For a deformable solid use :mod:`viscotack.theory.maugis`.
 
-Source: Bradley (1932), doi:10.1080/14786443209461917, with the 3-9 traction of Eq. 2.1.
+Source: Bradley (1932), Philosophical Magazine 13, 853, with the 3-9 traction of Eq. 2.1.
 """
 
 from __future__ import annotations

@@ -5,8 +5,9 @@ with a power of it that follows the breadth of the spectrum (:func:`local_expone
 :func:`steepest`); the fastest not at all. Speeds are dimensionless as in
 :mod:`viscotack.theory.persson_brener`, :math:`\hat v = v \tau_0 / l_0`.
 
-Source: Persson & Brener (2005); Maghami, PhD thesis (2025), Fig. 4.6 and appendix IV, whose fit
-q1 = -0.0125 + 3.136 n stands for the exact coefficient below at k = 0.
+Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
+Fig. 4.6 and appendix IV, whose fit q1 = -0.0125 + 3.136 n stands for the exact coefficient below
+at k = 0.
 """
 
 from __future__ import annotations

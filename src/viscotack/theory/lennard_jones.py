@@ -13,7 +13,7 @@ mu, :math:`\tfrac43 - f \sim \mu^{3/2}` and :math:`f - 1 \sim \mu^{-2} (c + \ln\
 last value of the table: errors below 1e-3 of the force and 1 % of the work.
 
 Source: the table is this package's, remade by ``benchmarks/elastic_table.py``; limits of Bradley
-(1932), doi:10.1080/14786443209461917, and Johnson, Kendall & Roberts (1971),
+(1932), Philosophical Magazine 13, 853, and Johnson, Kendall & Roberts (1971),
 doi:10.1098/rspa.1971.0141.
 """
 

@@ -13,7 +13,8 @@ With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
 half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma runs from 1 at no speed
 to glassy over rubbery modulus. ``material`` is any of :mod:`viscotack.materials`.
 
-Source: Persson & Brener (2005), in the form of Maghami, PhD thesis (2025), chapter 4.
+Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, in the form of Maghami, PhD
+thesis (2025), chapter 4.
 """
 
 from __future__ import annotations
