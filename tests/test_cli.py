@@ -209,11 +209,13 @@ def test_wrong_scales_are_refused_in_words(changes, words, fake, capsys):
 
 
 def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
-    assert call([*SPHERE, *ELASTIC, *scales(tau0=None)]) == 0
+    assert "--rate missing" in wrong([*SPHERE, *ELASTIC, *scales(tau0=None)], capsys)
+    timed = [*ELASTIC, "--rate", "2"]  # h0 per second
+    assert call([*SPHERE, *timed, *scales(tau0=None)]) == 0
     assert isinstance(fake["problem"].material, Elastic)
     assert fake["problem"].material.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
     capsys.readouterr()
-    assert "--tau0 is not needed" in wrong([*SPHERE, *ELASTIC, *scales()], capsys)
+    assert "--tau0 is not needed" in wrong([*SPHERE, *timed, *scales()], capsys)
 
 
 def test_a_start_that_does_not_exist_is_wrong_input(monkeypatch, capsys):

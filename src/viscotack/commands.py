@@ -110,8 +110,8 @@ def simulate_sphere(
             "--material",
             "MATERIAL",
             "power-law (also when left out): modified power law by its retardation spectrum. "
-            "elastic: no memory, --rate is not needed. sls: standard linear solid, tau0 is its "
-            "retardation time. prony:FILE: CSV file with the header "
+            "elastic: no memory; --rate is only needed in SI, in h0/s. sls: standard linear solid, "
+            "tau0 is its retardation time. prony:FILE: CSV file with the header "
             "'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
             "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) "
             "is then that of the header: s, ms, ..., or none.",

@@ -36,12 +36,14 @@ def problem_from_flags(flags: Mapping[str, Any]) -> Groups | Problem:
     given = {name: value for name, value in flags.items() if value is not None}
     material, unit = material_from_flags(given)
     elastic = isinstance(material, Elastic)
-    _require(given, ["tabor"] if elastic else ["tabor", "rate"])
+    # An elastic solid has no time of its own: without a rate the time unit of a dimensionless
+    # answer is that in which the drive travels h0. Seconds need a speed.
+    timeless = elastic and not given.keys() & _SCALES.keys()
+    _require(given, ["tabor"] if timeless else ["tabor", "rate"])
     groups = Groups(
         tabor=positive("--tabor", given["tabor"], "1"),
         material=material,
         start=_start(given),
-        # An elastic solid does not know how fast it is pulled.
         rate=positive("--rate", given.get("rate", 1.0), "1"),
     )
     if not given.keys() & _SCALES.keys():
