@@ -66,6 +66,24 @@ Start = AtDepth | AtForce | AtRadius
 
 
 @dataclass(frozen=True)
+class Apart:
+    """Start out of contact and at rest.
+
+    Parameters
+    ----------
+    gap : float
+        Smallest gap between the undeformed surfaces [m; h_0 when dimensionless]; positive. Forces
+        of finite range act there already: a few h_0 are needed to be out of contact, and more the
+        softer the solid is; the search says so where contact is all there is.
+    """
+
+    gap: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "gap", positive("gap", self.gap, "m"))
+
+
+@dataclass(frozen=True)
 class Retraction:
     """Pull away at a constant speed from a relaxed start.
 

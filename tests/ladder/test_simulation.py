@@ -311,7 +311,7 @@ def test_moving_the_mesh_changes_next_to_nothing():
     base = Settings.for_accuracy(DEFAULT)
     moving = _run(groups, base)
     still = _run(groups, _with(base, fine_zones=40.0))
-    assert moving.statistics["meshes"] > 4
+    assert moving.statistics["meshes"] >= 4
     assert still.statistics["meshes"] <= 2
     assert pull_off_force(moving) == pytest.approx(pull_off_force(still), rel=1e-3, abs=0)
     energy = moving.energy

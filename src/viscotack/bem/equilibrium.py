@@ -1,7 +1,7 @@
 r"""Balance of the surface at one instant: gaps at which tractions and displacements agree.
 
 With the stiffness S of the relaxed solid, the compliance c of this instant or step and the gap b
-that the drive and the past alone would leave, the gap g makes the energy
+that depth and past alone would leave, the gap g makes the energy
 
 .. math:: \Pi(g) = \frac{1}{2c} (g-b)^T S\, (g-b) + \sum_i A_i\, \varphi(g_i)
 
@@ -20,7 +20,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
-from viscotack.bem.halfspace import Surface
+from viscotack.bem.machine import Hold
+from viscotack.bem.surface import Surface
 from viscotack.traction import Traction
 
 _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
@@ -29,17 +30,63 @@ _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 _LAST_CHANGE = 1e-6
 # What is added to an unstable tangent, as parts of its most negative curvature.
 _STIFFER = (1e-3, 1e-2, 1e-1)
+# A dead load that has opened the smallest gap so far [h0] is held by nothing.
+_RELEASED = 30.0
 # A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
 _LARGEST_CLOSING = 0.3
 
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """A gap, how many iterations it took, and whether it is a stable equilibrium."""
+    """A gap and a depth, how many iterations they took, and whether they are stable.
+
+    `released` says that a dead load has pulled the surfaces apart: nothing holds it.
+    """
 
     gap: npt.NDArray
+    depth: float
     iterations: int
     stable: bool
+    released: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class _Elastic:
+    """The elastic energy of solid and machine, v M v/2 + f v, with v the gap beyond the free one.
+
+    A rigid machine fixes the depth. Behind a spring the depth is where the energy is least,
+    delta = (P - s v)/(K + k) with s = S 1/c and K = 1 S 1/c, which leaves a matrix M that is S/c
+    less a part of rank one.
+    """
+
+    matrix: npt.NDArray
+    linear: npt.NDArray | float
+    free: npt.NDArray
+    hold: Hold
+    pushed: npt.NDArray | None
+    softness: float
+
+    @classmethod
+    def of(cls, stiffness: npt.NDArray, free_gap: npt.NDArray, hold: Hold) -> _Elastic:
+        if hold.rigid:
+            return cls(stiffness, 0.0, free_gap - hold.depth, hold, None, 0.0)
+        s = stiffness.sum(axis=1)
+        softness = 1 / (float(s.sum()) + hold.stiffness)
+        matrix = stiffness - softness * np.outer(s, s)
+        return cls(matrix, softness * hold.load * s, free_gap, hold, s, softness)
+
+    def depth(self, gap: npt.NDArray) -> float:
+        if self.pushed is None:
+            return self.hold.depth
+        return self.softness * (self.hold.load - float(self.pushed @ (gap - self.free)))
+
+    def at(self, gap: npt.NDArray) -> tuple[float, npt.NDArray]:
+        """Return the energy and its gradient."""
+        v = gap - self.free
+        Mv = self.matrix @ v
+        if self.pushed is None:
+            return 0.5 * float(v @ Mv), Mv
+        return 0.5 * float(v @ Mv) + float(self.linear @ v), Mv + self.linear  # type: ignore[operator]
 
 
 def _factor(stiffness: npt.NDArray, diagonal: npt.NDArray):
@@ -61,7 +108,9 @@ def _stiffened(stiffness: npt.NDArray, curvature: npt.NDArray):
         factor = _factor(stiffness, curvature + share * softest)
         if factor is not None:
             return factor
-    return _factor(stiffness, np.maximum(curvature, 0.0))
+    factor = _factor(stiffness, np.maximum(curvature, 0.0))
+    # under a dead load the solid alone does not resist all of them
+    return _factor(stiffness, curvature + 1.1 * softest) if factor is None else factor
 
 
 def _limited(change: npt.NDArray, gap: npt.NDArray) -> float:
@@ -76,39 +125,46 @@ def descend(
     free_gap: npt.NDArray,
     compliance: float,
     guess: npt.NDArray,
+    hold: Hold,
     *,
+    least_gain: float = 0.0,
     most_iterations: int = 500,
 ) -> Balance:
     """Return the stable equilibrium downhill from a guess.
 
-    Where the tangent is not positive definite it is stiffened, which keeps the direction downhill;
-    the line search is in energy. Not stable if the iterations ran out.
+    The free gap is the one at depth zero. Where the tangent is not positive definite it is
+    stiffened, which keeps the direction downhill; the line search is in energy. Done when the gaps
+    no longer change, or sooner when an iteration gains less than this part of the energy: at large
+    Tabor numbers the energy hardly depends on where the edge is, and iterations would go on along
+    that valley. Not stable if they ran out.
     """
-    S, A = surface.stiffness / compliance, surface.area
-    gap, u = guess, guess - free_gap
-    Su = S @ u
-    elastic, interface = 0.5 * float(u @ Su), float(A @ law.energy(gap))
+    A, solid = surface.area, _Elastic.of(surface.stiffness / compliance, free_gap, hold)
+    gap = guess
+    elastic, pull = solid.at(gap)
+    interface = float(A @ law.energy(gap))
     energy = elastic + interface
     # Near the minimum the round-off of the two sums decides, not the slope.
-    noise = 1e-12 * (elastic + abs(interface))
+    size = abs(elastic) + abs(interface)
     for iteration in range(1, most_iterations + 1):
         curvature = A * law.stiffness(gap)
-        factor = _factor(S, curvature)
+        factor = _factor(solid.matrix, curvature)
         stable = factor is not None
         if factor is None:
-            factor = _stiffened(S, curvature)
-        residual = Su + A * law.traction(gap)
+            factor = _stiffened(solid.matrix, curvature)
+        residual = pull + A * law.traction(gap)
         change, _ = _potrs(factor, -residual, lower=1)
         part, slope = _limited(change, gap), float(residual @ change)
         while True:
             trial = gap + part * change
-            u = trial - free_gap
-            Su = S @ u
-            trial_energy = 0.5 * float(u @ Su) + float(A @ law.energy(trial))
-            if trial_energy <= energy + 1e-4 * part * slope + noise or part < 1e-6:
+            elastic, pull = solid.at(trial)
+            trial_energy = elastic + float(A @ law.energy(trial))
+            if trial_energy <= energy + 1e-4 * part * slope + 1e-12 * size or part < 1e-6:
                 break
             part *= 0.5
         gap, energy = trial, trial_energy
-        if stable and part == 1.0 and np.max(np.abs(change) / gap) < _LAST_CHANGE:
-            return Balance(gap, iteration, True)
-    return Balance(gap, most_iterations, False)
+        little = -slope < least_gain * size
+        if stable and part == 1.0 and (little or np.max(np.abs(change) / gap) < _LAST_CHANGE):
+            return Balance(gap, solid.depth(gap), iteration, True)
+        if hold.stiffness == 0 and np.min(gap) > _RELEASED:
+            return Balance(gap, solid.depth(gap), iteration, False, released=True)
+    return Balance(gap, solid.depth(gap), most_iterations, False)

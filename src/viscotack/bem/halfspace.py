@@ -26,16 +26,11 @@ pressure in dg/h0, force in dg beta^2 / h0. Then displacement = mu^2 B force.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
-from scipy.linalg import get_lapack_funcs
 from scipy.special import ellipe, ellipkm1
 
-from viscotack.traction import Traction
-
-_potrf, _potri = get_lapack_funcs(("potrf", "potri"), dtype=np.float64)
+from viscotack.bem.surface import Surface, stiffness
 
 # Below this ratio (c/r)^2 the closed form outside the cap loses digits to cancellation.
 _SERIES_BELOW = 0.05
@@ -97,89 +92,17 @@ def nodal_areas(radius: npt.NDArray) -> npt.NDArray:
     return np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """A meshed half-space facing a sphere: all that equilibrium and memory need to know.
-
-    Attributes
-    ----------
-    radius : ndarray, shape (N,)
-        Nodes [beta].
-    area : ndarray, shape (N,)
-        Area of each node [beta^2].
-    stiffness : ndarray, shape (N, N)
-        Nodal forces [dg beta^2/h0] that hold unit displacements [h0] of the relaxed solid;
-        symmetric and positive definite.
-    rigid_gap : ndarray, shape (N,)
-        Gap [h0] at depth zero without displacement: 1 + mu r^2 / 2.
-    tabor : float
-        mu; force [1.5 pi R dg0] = 2 mu / (3 pi) times the sum of nodal forces.
-    """
-
-    radius: npt.NDArray
-    area: npt.NDArray
-    stiffness: npt.NDArray
-    rigid_gap: npt.NDArray
-    tabor: float
-
-    def force(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the normal force [1.5 pi R dg0], compression positive, with the far tail."""
-        nodal = -2 * self.tabor / (3 * np.pi) * float(self.area @ law.traction(gap))
-        # Beyond the last node the surface is flat: Derjaguin gives 2 pi R times the energy there.
-        return nodal + 4 / 3 * float(law.energy(gap[-1]))
-
-    def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the interface energy [1.5 pi R dg0 h0], zero for surfaces far apart."""
-        nodal = 2 * self.tabor / (3 * np.pi) * float(self.area @ law.energy(gap))
-        return nodal + 4 / 3 * float(law.energy_beyond(gap[-1]))
-
-    def edge(self, gap: npt.NDArray, edge_gap: float) -> float:
-        """Return the contact radius [beta], where the gap last passes edge_gap; nan without one."""
-        below = np.flatnonzero(gap < edge_gap)
-        if len(below) == 0 or below[-1] == len(gap) - 1:
-            return float("nan")
-        i = int(below[-1])
-        r, g = self.radius, gap - edge_gap
-        linear = r[i] - g[i] * (r[i + 1] - r[i]) / (g[i + 1] - g[i])
-        if i == 0 or i + 2 >= len(r):
-            return float(linear)
-        # The cubic through four nodes, by Newton from the chord: a linear edge would move in jerks
-        # from node to node, and its speed would be noise.
-        x, y = r[i - 1 : i + 3].tolist(), g[i - 1 : i + 3].tolist()
-        for order in (1, 2, 3):  # divided differences
-            y[order:] = [(y[k] - y[k - 1]) / (x[k] - x[k - order]) for k in range(order, 4)]
-        at = float(linear)
-        for _ in range(4):
-            p, d = at - x[0], at - x[1]
-            e = at - x[2]
-            value = y[0] + p * (y[1] + d * (y[2] + e * y[3]))
-            slope = y[1] + (p + d) * y[2] + (d * e + p * e + p * d) * y[3]
-            if slope <= 0:
-                return float(linear)
-            at -= value / slope
-        return at if x[1] <= at <= x[2] else float(linear)
-
-
 def half_space(radius: npt.NDArray, tabor: float) -> Surface:
     """Return the surface with these nodes [beta] under a sphere of this Tabor number."""
     area = nodal_areas(radius)
     B = influence(radius) / area
     B = (B + B.T) / 2
     return Surface(
-        radius=radius,
+        position=radius,
         area=area,
-        stiffness=_inverse(B) / tabor**2,
+        stiffness=stiffness(B) / tabor**2,
         rigid_gap=1 + tabor * radius * radius / 2,
-        tabor=tabor,
+        unit=2 * tabor / (3 * np.pi),  # dg beta^2/h0 in 1.5 pi R dg
+        flank=4 / 3,  # 2 pi R times the energy there
+        whole=float("nan"),
     )
-
-
-def _inverse(matrix: npt.NDArray) -> npt.NDArray:
-    """Return the inverse of a symmetric positive definite matrix, symmetric to the last bit."""
-    factor, info = _potrf(matrix, lower=1)
-    if info == 0:
-        lower, info = _potri(factor, lower=1, overwrite_c=1)
-    if info:
-        raise ArithmeticError("the influence matrix is not positive definite: the mesh is too fine")
-    lower = np.tril(lower)
-    return lower + np.tril(lower, -1).T

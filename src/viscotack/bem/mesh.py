@@ -17,8 +17,7 @@ Growth inside the contact is slower than outside: the pressure there is that of 
 at a distance x from the edge, and every decade of x adds the same error, of second order in the
 growth, to the energy that the edge releases. Outside there is next to no pressure.
 
-At small Tabor numbers the process zone is larger than the contact; the gap then varies over
-:math:`\beta/\sqrt{\mu}`, the distance over which a paraboloid rises by about h0.
+A punch ends somewhere: there are no nodes beyond, and the last one is there.
 """
 
 from __future__ import annotations
@@ -28,39 +27,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.theory import jkr
-
-# In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
-JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
-
-
-def jkr_radius(depth: float) -> float:
-    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
-    last = jkr.instability(**JKR_UNITS).depth
-    return float(jkr.contact_radius_at_depth(max(depth, last), **JKR_UNITS))
-
-
-def edge_zone(tabor: float) -> float:
-    """Return the length [beta] over which the gap opens at a relaxed contact edge."""
-    return min(0.75 / tabor**2, 0.25 / np.sqrt(tabor))
-
 
 @dataclass(frozen=True)
 class Grading:
-    """How fine the nodes are, and where they end.
+    """How fine the nodes are, and where they end; lengths in the unit of the contact.
 
     Attributes
     ----------
     spacing : float
-        Distance of the nodes around the edge [beta].
+        Distance of the nodes around the edge.
     half_width : float
-        The fine zone reaches this far to both sides of the edge [beta].
+        The fine zone reaches this far to both sides of the edge.
     growth_inside, growth_outside : float
         Relative growth of the distance from node to node towards the centre and outwards.
     outer_radius : float
-        Last node [beta].
+        Last node.
     scar_spacing, scar_half_width : float
-        Spacing and half width of the zone kept fine around the first edge [beta].
+        Spacing and half width of the zone kept fine around the first edge; without a width
+        there is none, for a solid that remembers nothing.
+    ends : bool
+        Whether the indenter ends at the outer radius; the last node is then exactly there.
     """
 
     spacing: float
@@ -70,17 +56,18 @@ class Grading:
     outer_radius: float
     scar_spacing: float
     scar_half_width: float
+    ends: bool = False
 
     def widened(self, factor: float) -> Grading:
         """Return the grading for a crack whose zone has grown by this factor, a power of two."""
         return replace(self, spacing=self.spacing * factor, half_width=self.half_width * factor)
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
-        """Return the nodes [beta], from 0 outwards, for an edge and the first edge of the run."""
-        h = self.spacing
+        """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
+        h, outer = self.spacing, self.outer_radius
         edge = first_edge + h * round((edge - first_edge) / h)
         inward = int(min(self.half_width, edge) / h)
-        fine = edge + h * np.arange(-inward, int(self.half_width / h) + 1)
+        fine = self._within(edge + h * np.arange(-inward, int(self.half_width / h) + 1))
         if fine[0] <= 2 * h:
             fine = np.linspace(0.0, fine[-1], max(round(fine[-1] / h), 8) + 1)
             inner = np.empty(0)
@@ -90,14 +77,25 @@ class Grading:
             inner[0] = 0.0
         parts, end, last_step = [inner, fine], fine[-1], h
         kept = int(self.scar_half_width / self.scar_spacing)
-        scar = first_edge + self.scar_spacing * np.arange(-kept, kept + 1)
-        if scar[-1] > end + h / 2:
+        scar = self._within(first_edge + self.scar_spacing * np.arange(-kept, kept + 1))
+        if kept and len(scar) and scar[-1] > end + h / 2:
             if scar[0] > end + h / 2:
                 parts.append(self._bridge(end, scar[0]))
             parts.append(scar[scar > end + self.scar_spacing / 2])
             end, last_step = scar[-1], self.scar_spacing
-        outwards = self._growing(self.outer_radius - end, self.growth_outside, first=last_step)
-        return np.concatenate([*parts, end + outwards])
+        if outer > end + h / 2:
+            outwards = self._growing(outer - end, self.growth_outside, first=last_step)
+            if self.ends:
+                outwards *= (outer - end) / outwards[-1]
+            parts.append(end + outwards)
+        nodes = np.concatenate(parts)
+        if self.ends:
+            nodes[-1] = outer
+        return nodes
+
+    def _within(self, nodes: npt.NDArray) -> npt.NDArray:
+        """Return the nodes on the indenter; the last, if near its end, stands for the end."""
+        return nodes[nodes < self.outer_radius + self.spacing / 4] if self.ends else nodes
 
     def _growing(
         self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf

@@ -6,12 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from viscotack.bem.mesh import Grading, edge_zone, jkr_radius
-
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
 DEFAULT_ACCURACY = 2e-3
-# Lengths of the relaxed crack's zone that stay fine around the first edge.
-_SCAR_ZONES = 2.0
 
 
 @dataclass(frozen=True)
@@ -101,19 +97,4 @@ class Settings:
             first_travel=self.first_travel * s,
             imbalance=self.imbalance * factor,
             mode_tolerance=self.mode_tolerance * factor,
-        )
-
-    def grading(self, tabor: float, depth: float) -> Grading:
-        """Return the grading of the nodes for a sphere at this Tabor number and depth [h0]."""
-        zone, edge = edge_zone(tabor), jkr_radius(depth / tabor)
-        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
-        squares = (self.reach + max(depth, 0.0), self.reach + tabor * edge**2 / 2)
-        return Grading(
-            spacing=zone / self.nodes_per_zone,
-            half_width=zone * self.fine_zones,
-            scar_spacing=zone / self.nodes_per_zone,
-            scar_half_width=zone * _SCAR_ZONES,
-            growth_inside=self.growth_inside,
-            growth_outside=self.growth_outside,
-            outer_radius=max(float(np.sqrt(2 * max(squares) / tabor)), 2.5 * edge),
         )

@@ -9,10 +9,13 @@ from time import perf_counter
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from viscotack.bem.march import SMALLEST_ENERGY, History, march
+from viscotack.bem.books import History
+from viscotack.bem.contact import Contact
+from viscotack.bem.machine import Leg
+from viscotack.bem.march import march
 from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
-from viscotack.bem.start import RADIUS_UNIT, Relaxed, relaxed
-from viscotack.materials import Modes
+from viscotack.bem.sphere import SphereContact
+from viscotack.materials import Material, Modes
 from viscotack.observables import pull_off_force, work_to_pull_off
 from viscotack.problem import Groups, Problem
 from viscotack.result import Outcome, Result, receding_speed
@@ -140,46 +143,52 @@ def _run(
     progress: Callable[[float], None] | None,
 ) -> Result:
     groups = problem.groups()
-    law, tabor = groups.traction, groups.tabor
-    start = relaxed(groups.start, law, tabor, lambda depth: settings.grading(tabor, depth))
-    modes = _modes(groups, start, settings)
-    grading = settings.grading(tabor, start.depth)
+    contact = SphereContact(groups.tabor, groups.traction)
+    start = contact.relaxed(groups.start, settings)
+    legs = (
+        Leg(
+            stiffness=np.inf,
+            rate=-groups.rate,
+            least_step=settings.first_travel * contact.travel / groups.rate,
+        ),
+    )
+    longest = (max(start.depth, 0.0) + 5 * contact.travel) / groups.rate
+    modes = _modes(groups.material, legs, longest, settings)
+    grading = contact.grading(settings, start.depth)
+    if not modes.weights:
+        grading = replace(grading, scar_half_width=0.0)
     history = march(
+        contact,
         start,
         modes,
-        law,
-        groups.rate,
+        legs,
         grading,
         settings,
         until=until,
         profiles=fields,
         progress=progress,
     )
-    return _result(problem, history, modes, fields)
+    return _result(problem, contact, history, modes, fields)
 
 
-def _modes(groups: Groups, start: Relaxed, settings: Settings) -> Modes:
+def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
     """Return the retardation modes that this run can tell apart."""
-    scale = groups.tabor + 1
-    shortest = _FASTEST * settings.first_travel * scale / groups.rate
-    longest = (max(start.depth, 0.0) + 5 * scale) / groups.rate
+    shortest = _FASTEST * min(leg.least_step for leg in legs)
     # Relative to the compliance at the shortest time: where k is tiny, that is tiny as well.
-    compliance = float(groups.material.creep(shortest))
-    return groups.material.retardation_modes(
+    compliance = float(material.creep(shortest))
+    return material.retardation_modes(
         shortest=shortest, longest=longest, tolerance=settings.mode_tolerance * compliance
     )
 
 
-def _result(problem: Problem | Groups, history: History, modes: Modes, fields: bool) -> Result:
+def _result(
+    problem: Problem | Groups, contact: Contact, history: History, modes: Modes, fields: bool
+) -> Result:
     states, books = history.snapshots, history.books
-    first = states[0]
     time = np.array([s.time for s in states])
-    contact_radius = np.array([s.edge for s in states]) / RADIUS_UNIT
+    contact_radius = np.array([s.edge for s in states]) / contact.edge_unit
     heat = np.array([b.heat for b in books])
-    missing = np.array([b.imbalance(first, s) for b, s in zip(books, states, strict=True)])
-    largest = np.array([b.largest(first, s) for b, s in zip(books, states, strict=True)])
-    measure = np.maximum(np.maximum.accumulate(largest), SMALLEST_ENERGY)
-    residual = float(np.max(np.abs(missing) / measure))
+    residual = float(np.max(np.abs(history.imbalances())))
     return Result(
         problem=problem,
         time=time,
@@ -208,7 +217,7 @@ def _result(problem: Problem | Groups, history: History, modes: Modes, fields: b
             "mode_heat": heat[-1],
         },
         energy_residual=residual,
-        fields=_fields(history, time) if fields else None,
+        fields=_fields(history, contact, time) if fields else None,
     )
 
 
@@ -237,7 +246,7 @@ def _status(history: History, residual: float) -> str:
     return str(Outcome.DETACHED)
 
 
-def _fields(history: History, time: np.ndarray) -> dict[str, np.ndarray]:
+def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
     """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
     longest = max(len(p.gap) for p in history.profiles)
 
@@ -246,7 +255,7 @@ def _fields(history: History, time: np.ndarray) -> dict[str, np.ndarray]:
 
     return {
         "time": time,
-        "radius": np.array([padded(p.radius / RADIUS_UNIT) for p in history.profiles]),
+        "radius": np.array([padded(p.position / contact.edge_unit) for p in history.profiles]),
         "gap": np.array([padded(p.gap) for p in history.profiles]),
         "pressure": np.array([padded(p.pressure) for p in history.profiles]),
     }

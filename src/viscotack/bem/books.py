@@ -1,0 +1,94 @@
+"""What a run keeps of each step: where it was, and where the work of the drive went."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.result import Event
+
+# The imbalance of the energies is measured by their largest term, but by no less than this: at the
+# start all of them are zero [output force times h0].
+SMALLEST_ENERGY = 0.1
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """One instant; energies in the output unit of force times h0."""
+
+    time: float
+    depth: float  # [h0]
+    drive: float  # [h0], the depth where there is no spring
+    edge: float  # [unit of the mesh], nan without one
+    force: float  # [output unit]
+    elastic: float
+    interface: float
+    spring: float
+
+    @property
+    def stored(self) -> float:
+        """All energy that is not lost."""
+        return self.elastic + self.interface + self.spring
+
+
+@dataclass(frozen=True, eq=False)
+class Books:
+    """Where the drive's work went so far; heat by mode."""
+
+    drive: float
+    heat: npt.NDArray
+    jumps: float = 0.0
+    transfer: float = 0.0
+
+    def imbalance(self, start: Snapshot, now: Snapshot) -> float:
+        """Return the drive work that is nowhere to be found."""
+        stored = now.stored - start.stored
+        return self.drive - stored - float(self.heat.sum()) - self.jumps - self.transfer
+
+    def largest(self, start: Snapshot, now: Snapshot) -> float:
+        """Return the largest term, the measure of the imbalance."""
+        stored = (
+            now.elastic - start.elastic,
+            now.interface - start.interface,
+            now.spring - start.spring,
+        )
+        terms = (self.drive, *stored, float(self.heat.sum()), self.jumps, self.transfer)
+        return max(abs(term) for term in terms)
+
+
+@dataclass(frozen=True, eq=False)
+class Profile:
+    """Pressure [dg/h0] and gap [h0] over the surface [unit of the mesh] at one instant."""
+
+    position: npt.NDArray
+    pressure: npt.NDArray
+    gap: npt.NDArray
+
+
+@dataclass(eq=False)
+class History:
+    """What the march passed through: a snapshot and the books after each step.
+
+    `legs` has the number of the leg that led to each snapshot.
+    """
+
+    snapshots: list[Snapshot] = field(default_factory=list)
+    books: list[Books] = field(default_factory=list)
+    legs: list[int] = field(default_factory=list)
+    profiles: list[Profile] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
+    outcome: str = ""
+    iterations: int = 0
+    rejected: int = 0
+    meshes: int = 1
+    nodes: int = 0
+
+    def imbalances(self) -> npt.NDArray:
+        """Return the missing energy at each snapshot over the largest term until then."""
+        first = self.snapshots[0]
+        pairs = list(zip(self.books, self.snapshots, strict=True))
+        missing = np.array([b.imbalance(first, s) for b, s in pairs])
+        largest = np.array([b.largest(first, s) for b, s in pairs])
+        return missing / np.maximum(np.maximum.accumulate(largest), SMALLEST_ENERGY)

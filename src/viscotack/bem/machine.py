@@ -1,0 +1,87 @@
+r"""What the machine imposes: a depth, a load, or a drive behind a spring; and its legs.
+
+The drive at D pushes the indenter, at depth :math:`\delta`, through a spring k with the force
+:math:`P = k (D - \delta)`. A rigid machine has an infinite k, and a dead load none: there P itself
+is imposed. A history is a sequence of legs, in each of which one of the three is linear in time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Hold:
+    """What is imposed at one instant; forces here are sums of nodal forces.
+
+    Attributes
+    ----------
+    stiffness : float
+        Of the spring [nodal force/h0]; infinite for a rigid machine, 0 for a dead load.
+    depth : float
+        Depth of a rigid machine's indenter [h0].
+    load : float
+        Force of the spring on an indenter at depth 0, or the dead load [nodal force].
+    """
+
+    stiffness: float
+    depth: float = 0.0
+    load: float = 0.0
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the depth is imposed."""
+        return bool(np.isinf(self.stiffness))
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A part of the history of the machine, in the units of the contact's outputs.
+
+    Attributes
+    ----------
+    stiffness : float
+        Spring between drive and indenter [force/h0]; infinite or 0 as above.
+    rate : float
+        Change of the drive's depth [h0 per time], or of the dead load [force per time]; positive
+        into the solid.
+    duration : float
+        It ends after this time, or sooner, when the first of the following is met.
+    depth, force, edge : float
+        Depth of the indenter [h0], force, contact edge [unit of the mesh] at which it ends, met in
+        the direction of the rate; nan where they do not matter.
+    least_step : float
+        Step with which it begins.
+    """
+
+    stiffness: float
+    rate: float
+    duration: float = np.inf
+    depth: float = np.nan
+    force: float = np.nan
+    edge: float = np.nan
+    least_step: float = 1.0
+
+    @property
+    def dead_load(self) -> bool:
+        """Whether the force is imposed."""
+        return self.stiffness == 0
+
+    @property
+    def outwards(self) -> bool:
+        """Whether the contact is being opened."""
+        return self.rate < 0
+
+    @property
+    def opens(self) -> bool:
+        """Whether the contact may come apart in it: it is being opened, or hangs on a load."""
+        return self.outwards or self.dead_load
+
+    def missing(self, depth: float, force: float, edge: float) -> float:
+        """Return how far the nearest of the ends is; not positive where one of them is reached."""
+        way = -1.0 if self.outwards else 1.0
+        edge = 0.0 if np.isnan(edge) else edge
+        ends = (self.depth - depth, self.force - force, self.edge - edge)
+        return min((way * x for x in ends if not np.isnan(x)), default=np.inf)

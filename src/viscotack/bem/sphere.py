@@ -1,0 +1,238 @@
+r"""A sphere on the half-space: where its nodes go, and the relaxed contact it starts from.
+
+Lengths along the surface are in :math:`\beta = (R^2 \Delta\gamma_0/E_0^*)^{1/3}`.
+
+The search for the relaxed contact begins at the exact JKR surface, goes downhill in energy, and
+puts the fine nodes where the edge was found, until edge and nodes agree: an edge outside the fine
+zone would be pinned by the coarse nodes there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+from scipy.optimize import brentq, minimize_scalar
+
+from viscotack.bem.contact import Relaxed
+from viscotack.bem.equilibrium import descend
+from viscotack.bem.halfspace import half_space
+from viscotack.bem.machine import Hold
+from viscotack.bem.mesh import Grading
+from viscotack.bem.settings import Settings
+from viscotack.bem.surface import Surface
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.theory import jkr
+from viscotack.traction import Traction
+
+# In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
+_JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+# Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
+_RADIUS_UNIT = np.pi ** (1 / 3)
+_MOST_MESHES = 200
+# A start by force or radius is found to this part of (mu + 1) h0 in depth.
+_DEPTH_TOLERANCE = 1e-6
+# The edge has been found when it lies within this part of the fine zone around its nodes.
+_CENTRED = 0.25
+# Lengths of the relaxed crack's zone that stay fine around the first edge.
+_SCAR_ZONES = 2.0
+
+
+def jkr_radius(depth: float) -> float:
+    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
+    last = jkr.instability(**_JKR_UNITS).depth
+    return float(jkr.contact_radius_at_depth(max(depth, last), **_JKR_UNITS))
+
+
+@dataclass(frozen=True)
+class SphereContact:
+    """A sphere of this Tabor number; see :class:`viscotack.bem.contact.Contact`."""
+
+    tabor: float
+    law: Traction
+
+    @property
+    def travel(self) -> float:
+        """A contact changes over mu h0 where it is large, over the range h0 where it is small."""
+        return self.tabor + 1
+
+    @property
+    def edge_unit(self) -> float:
+        """Contact radii are given in (pi R^2 dg/E0*)^(1/3)."""
+        return _RADIUS_UNIT
+
+    @property
+    def zone(self) -> float:
+        """Length over which the gap opens at a relaxed edge [beta].
+
+        That of a crack is 0.75 beta/mu^2. At small Tabor numbers it would be larger than the
+        contact; the gap then opens over the distance over which a paraboloid rises by about h0.
+        """
+        return min(0.75 / self.tabor**2, 0.25 / np.sqrt(self.tabor))
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the half-space with these nodes [beta]."""
+        return half_space(nodes, self.tabor)
+
+    def grading(self, settings: Settings, depth: float) -> Grading:
+        """Return the grading of the nodes for a largest depth [h0]."""
+        tabor, zone = self.tabor, self.zone
+        edge = jkr_radius(depth / tabor)
+        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
+        squares = (settings.reach + max(depth, 0.0), settings.reach + tabor * edge**2 / 2)
+        return Grading(
+            spacing=zone / settings.nodes_per_zone,
+            half_width=zone * settings.fine_zones,
+            scar_spacing=zone / settings.nodes_per_zone,
+            scar_half_width=zone * _SCAR_ZONES,
+            growth_inside=settings.growth_inside,
+            growth_outside=settings.growth_outside,
+            outer_radius=max(float(np.sqrt(2 * max(squares) / tabor)), 2.5 * edge),
+        )
+
+    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
+        """Return the relaxed state of a dimensionless start; by force, the load-stable contact.
+
+        Raises
+        ------
+        ValueError
+            If no such contact exists.
+        """
+        if isinstance(start, Apart):
+            return self._apart(start, settings)
+        if isinstance(start, AtDepth):
+            return self._at_depth(start.depth, settings)
+        if isinstance(start, AtRadius):
+            wanted = start.contact_radius
+            first = self.tabor * float(jkr.depth(wanted * _RADIUS_UNIT, **_JKR_UNITS))
+            return self._where(
+                lambda x: x.edge / _RADIUS_UNIT, wanted, "contact radius", first, settings
+            )
+        return self._where(
+            lambda x: x.force, start.force, "force", self._jkr_depth(start), settings
+        )
+
+    def deepest(self, start: Start) -> float:
+        """Return the depth [h0] of a start as JKR has it: how far a history goes, about."""
+        if isinstance(start, AtDepth):
+            return start.depth
+        if isinstance(start, AtForce):
+            return self._jkr_depth(start)
+        return self.tabor * float(jkr.depth(start.contact_radius * _RADIUS_UNIT, **_JKR_UNITS))
+
+    def _jkr_depth(self, start: AtForce) -> float:
+        weakest = -jkr.pull_off_force(radius=1.0, work_of_adhesion=1.0)
+        force = max(1.5 * np.pi * start.force, weakest)
+        edge = jkr.contact_radius_at_force(force, **_JKR_UNITS)
+        return self.tabor * float(jkr.depth(edge, **_JKR_UNITS))
+
+    def _apart(self, start: Apart, settings: Settings) -> Relaxed:
+        depth = 1 - start.gap
+        surface = self.surface(self.grading(settings, 0.0).nodes(0.0, 0.0))
+        guess = np.maximum(surface.rigid_gap - depth, self.law.edge_gap)
+        balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
+        if not balance.stable or not np.isnan(surface.edge(balance.gap, self.law.edge_gap)):
+            raise ValueError(
+                f"surfaces {start.gap:g} h0 apart (Tabor number {self.tabor:g}) jump into contact "
+                "at rest; start farther away"
+            )
+        force = surface.force(self.law, balance.gap)
+        return Relaxed(surface, balance.gap, depth, force, float("nan"), 0.0)
+
+    def _at_depth(self, depth: float, settings: Settings, offset: float = 0.0) -> Relaxed:
+        """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
+        tabor, law = self.tabor, self.law
+        grading = self.grading(settings, depth)
+        edge = max(jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor)) + offset
+        surface, gap = None, None
+        for _ in range(_MOST_MESHES):
+            nodes = grading.nodes(edge, edge)
+            if surface is None or gap is None:
+                guess = 1 + tabor * np.asarray(jkr.gap(nodes, contact_radius=edge, **_JKR_UNITS))
+            else:
+                guess = np.maximum(CubicSpline(surface.position, gap)(nodes), 0.8)
+            surface = self.surface(nodes)
+            balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
+            gap = balance.gap
+            found = surface.edge(gap, law.edge_gap)
+            if not balance.stable or np.isnan(found):
+                break
+            if abs(found - edge) < _CENTRED * grading.half_width:
+                return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
+            edge = found
+        raise ValueError(
+            f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {tabor:g}): "
+            "the surfaces do not hold each other there; start deeper"
+        )
+
+    def _where(
+        self,
+        quantity: Callable[[Relaxed], float],
+        wanted: float,
+        name: str,
+        first_depth: float,
+        settings: Settings,
+    ) -> Relaxed:
+        """Return the contact at which a quantity that grows with depth has the wanted value."""
+        found: dict[float, Relaxed] = {}
+
+        def error(depth: float) -> float:
+            if depth not in found:
+                # The mesh shifts edges by about the same at all depths: look where the last was.
+                last = list(found.values())[-1:]
+                offset = sum(x.lattice - jkr_radius(x.depth / self.tabor) for x in last)
+                offset = offset if self.tabor > 1 else 0.0
+                found[depth] = self._at_depth(depth, settings, offset)
+            return quantity(found[depth]) - wanted
+
+        scale = self.tabor + 1.0
+        low = high = first_depth
+        try:
+            span = 0.05 * scale
+            while error(low) > 0:
+                if low < high and error(low) > error(high):
+                    raise ValueError  # past the least there is
+                high, low, span = low, low - span, 1.6 * span
+            span = 0.05 * scale
+            while error(high) < 0:
+                low, high, span = high, high + span, 1.6 * span
+        except ValueError:
+            low, high = self._least(error, found, scale)
+            if low == high:
+                least = min((quantity(contact) for contact in found.values()), default=np.nan)
+                raise ValueError(
+                    f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
+                    f"there is, at the end of the branch in contact, is {least:.4g}"
+                ) from None
+        if low == high:
+            return found[low]
+        depth: float = brentq(error, low, high, xtol=_DEPTH_TOLERANCE * scale, maxiter=100)  # type: ignore[assignment]
+        error(depth)
+        return found[depth]
+
+    @staticmethod
+    def _least(
+        error: Callable[[float], float], found: dict[float, Relaxed], scale: float
+    ) -> tuple[float, float]:
+        """Return a bracket that begins at the least of a quantity, empty where that is too much."""
+        depths = sorted(found)
+        if len(depths) < 2:
+            return (0.0, 0.0)
+        best = min(depths, key=error)
+        above = next((d for d in depths if d > best), best)
+        below = next((d for d in reversed(depths) if d < best), 2 * best - above)
+
+        def bounded(depth: float) -> float:
+            try:
+                return error(depth)
+            except ValueError:
+                return 1e9  # no contact: larger than any, and finite for the parabolas
+
+        options = {"xatol": 1e-3 * scale, "maxiter": 40}
+        minimize_scalar(bounded, bounds=(below, above), method="bounded", options=options)
+        best = min(found, key=error)
+        high = min((d for d in found if d > best and error(d) > 0), default=best)
+        return (best, high) if error(best) <= 0 else (best, best)

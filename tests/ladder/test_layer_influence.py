@@ -1,0 +1,234 @@
+"""The compliance of an elastic layer on the ladder: identities, limits, orders and a peer."""
+
+import itertools
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.special import sici, xlogy
+
+from viscotack.bem.layer import layer_influence, nodal_lengths
+from viscotack.theory import punch_crossover
+from viscotack.theory.punch_base import Bonded, Frictionless
+
+REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
+SQUEEZED = Bonded(poisson_ratio=0.5)
+
+
+def crowded(count, shortest=1e-4):
+    """Return nodes whose distances shrink evenly towards the end of a punch of half width 1."""
+    growth = np.log(1 / shortest) * np.linspace(0, 1, count)
+    return np.expm1(-growth) / np.expm1(-growth[-1])
+
+
+def compliance(x, thickness, base):
+    B = layer_influence(x, thickness, base) / nodal_lengths(x)
+    return (B + B.T) / 2
+
+
+def punch_stiffness(x, thickness, base):
+    """Return force over depth of a rigid punch, for E* = 1."""
+    return float(np.sum(np.linalg.solve(compliance(x, thickness, base), np.ones(len(x)))))
+
+
+def strip(x, half_width, thickness, base):
+    """Return the displacement under uniform pressure, by quadrature of the transfer function."""
+    nodes, weights = np.polynomial.legendre.leggauss(30)
+    last = 40 / thickness
+    edges = np.linspace(0, last, 400)
+    half = np.diff(edges)[:, None] / 2
+    k = (edges[:-1, None] + half * (1 + nodes)).ravel()
+    weight = (half * weights).ravel() * base.transfer(k * thickness) / k**2
+    u = 4 / np.pi * np.cos(np.multiply.outer(x, k)) @ (weight * np.sin(k * half_width))
+    for c in (half_width + x, half_width - x):  # beyond, where the transfer function is 1
+        cosine = np.where(c > 0, sici(np.where(c > 0, c * last, 1.0))[1], 0.0)
+        u += 2 / np.pi * (np.sin(c * last) / last - c * cosine)
+    return u
+
+
+# identity
+
+
+def test_equal_nodes_have_the_hats_of_the_thesis():
+    if not REFERENCE.exists():
+        pytest.skip("no reference values")
+    rows = [
+        row for row in json.loads(REFERENCE.read_text())["values"] if "(layer)" in row["equation"]
+    ]
+    assert len(rows) >= 15
+    for row in rows:
+        ratio, elements, apart = (row["inputs"][name] for name in ("B=b/a", "M", "m-n"))
+        x = np.arange(apart + 2) * 2 / elements
+        first = layer_influence(x, ratio, Frictionless())[0, apart]
+        # away from the middle, a column has the hat on the other side as well
+        hat = first / (2 if apart else 1)
+        assert -hat == pytest.approx(row["value"], abs=1e-12, rel=0)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+@pytest.mark.parametrize("thickness", [0.02, 0.3, 1.9, 2.1, 30.0])
+def test_uniform_pressure_moves_the_surface_as_its_fourier_integral_says(thickness, base):
+    x = np.concatenate([np.linspace(0, 0.6, 7), [0.7, 0.83, 0.9, 0.97, 1.0]])
+    u = layer_influence(x, thickness, base) @ np.ones(len(x))
+    assert u == pytest.approx(strip(x, 1.0, thickness, base), abs=1e-12, rel=1e-12)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+@pytest.mark.parametrize("thickness", [0.02, 0.3, 5.0])
+def test_nodes_added_on_a_straight_line_of_pressure_change_nothing(thickness, base):
+    x = np.array([0.0, 0.3, 0.45, 0.7, 0.9, 1.0])
+    fine = np.sort(np.concatenate([x, [0.1, 0.15, 0.31, 0.8, 0.96, 0.99]]))
+    pressure = np.array([1.0, -2.0, 0.5, 3.0, 1.5, 2.5])
+    coarse = layer_influence(x, thickness, base) @ pressure
+    other = layer_influence(fine, thickness, base) @ np.interp(fine, x, pressure)
+    assert other[np.searchsorted(fine, x)] == pytest.approx(coarse, rel=1e-11, abs=1e-13)
+
+
+@pytest.mark.parametrize("thickness", [0.02, 0.3, 5.0])
+def test_equal_hats_are_reciprocal(thickness):
+    x = np.linspace(0, 1, 41)
+    B = layer_influence(x, thickness, Frictionless()) / nodal_lengths(x)
+    inner = B[:-1, :-1]  # the last hat is half a hat
+    assert inner == pytest.approx(inner.T, abs=1e-12, rel=0)
+
+
+def test_the_unit_of_length_does_not_matter():
+    x = crowded(20, 1e-2)
+    for base in BASES:
+        scaled = layer_influence(1e-3 * x, 0.2e-3, base)
+        assert scaled == pytest.approx(1e-3 * layer_influence(x, 0.2, base), rel=1e-9, abs=1e-16)
+
+
+def test_nodal_lengths_add_up_to_the_width():
+    x = crowded(30)
+    assert np.sum(nodal_lengths(x)) == pytest.approx(2.0, rel=1e-14)
+    pair = np.array([0.0, 0.5, 2.0])
+    assert nodal_lengths(pair).tolist() == [0.5, 2.0, 1.5]
+
+
+# limit
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_a_thin_layer_is_a_foundation_with_half_of_it_at_the_end(base):
+    x = crowded(60, 1e-3)
+    u = layer_influence(x, 0.005, base) @ np.ones(len(x))
+    inside = x < 0.7
+    assert u[inside] == pytest.approx(0.005 * base.foundation, abs=1e-13, rel=0)
+    assert u[-1] == pytest.approx(0.005 * base.foundation / 2, abs=1e-13, rel=0)
+
+
+def test_the_foundation_of_a_bonded_layer_is_that_of_appendix_one():
+    for nu in (0.0, 0.2, 0.45):
+        zeta = (1 - nu) ** 2 / (1 - 2 * nu)
+        base = Bonded(poisson_ratio=nu)
+        x = np.linspace(0, 1, 11)
+        middle = layer_influence(x, 0.01, base)[0] @ np.ones(11)
+        assert middle == pytest.approx(0.01 / zeta, rel=1e-11)
+
+
+def test_an_incompressible_bonded_layer_is_squeezed_out_with_an_error_of_third_order():
+    # u = -(4/3) p'' b^3/E*
+    b, counts = 0.03, np.array([26, 51, 101, 201])
+    error = []
+    for count in counts:
+        x = np.linspace(0, 1, count)
+        u = layer_influence(x, b, SQUEEZED)[0] @ (1 - x**2)
+        error.append(u / (8 / 3 * b**3) - 1)
+    slope = np.polyfit(np.log(counts - 1), np.log(error), 1)[0]
+    assert slope == pytest.approx(-3, abs=0.02)
+    assert error[-1] < 1e-4
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_differences_of_displacement_tend_to_the_half_plane_as_the_square_of_a_over_b(base):
+    x = np.linspace(0, 1, 11)
+
+    def F(s):
+        return -xlogy(s * s, np.abs(s)) / np.pi
+
+    def hat(at, top):
+        return (F(at - top - 0.1) - 2 * F(at - top) + F(at - top + 0.1)) / 0.1
+
+    half_plane = hat(x, 0.5) + hat(x, -0.5)
+    error = []
+    for b in (10.0, 20.0, 40.0, 80.0):
+        u = layer_influence(x, b, base)[:, 5]
+        error.append(np.max(np.abs(u - u[0] - (half_plane - half_plane[0]))))
+    slope = np.polyfit(np.log([10.0, 20.0, 40.0, 80.0]), np.log(error), 1)[0]
+    assert slope == pytest.approx(-2, abs=0.02)
+
+
+def test_a_thick_layer_sinks_by_the_logarithm_of_its_thickness():
+    x = np.linspace(0, 1, 11)
+    for base in BASES:
+        low, high = (layer_influence(x, b, base) / nodal_lengths(x) for b in (300.0, 900.0))
+        assert high - low == pytest.approx(2 / np.pi * np.log(3), abs=1e-4, rel=0)
+
+
+def test_a_stiffer_base_makes_a_stiffer_layer():
+    x = crowded(40, 1e-2)
+    for thickness in (0.1, 1.0, 10.0):
+        stiffness = [punch_stiffness(x, thickness, base) for base in BASES]
+        assert np.all(np.diff(stiffness) > 0)
+        loose, held = compliance(x, thickness, BASES[0]), compliance(x, thickness, BASES[2])
+        pressure = nodal_lengths(x) * np.cos(9 * x)
+        assert pressure @ held @ pressure < pressure @ loose @ pressure
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_the_symmetric_compliance_is_positive_definite(base):
+    for thickness, x in itertools.product(
+        (0.005, 0.05, 0.5, 1.99, 2.01, 10.0, 100.0), (crowded(150), np.linspace(0, 1, 101))
+    ):
+        np.linalg.cholesky(compliance(x, thickness, base))
+
+
+# order, and a peer: the same punch from its integral equation, by Chebyshev polynomials
+
+
+@pytest.mark.parametrize("base", BASES[:4], ids=repr)
+@pytest.mark.parametrize("thickness", [0.2, 1.0, 20.0])
+def test_the_stiffness_of_a_punch_is_first_order_in_the_nodes_distance(thickness, base):
+    exact = punch_crossover.stiffness(thickness, half_width=1.0, contact_modulus=1.0, base=base)
+    found = np.array([punch_stiffness(np.linspace(0, 1, n), thickness, base) for n in LEVELS])
+    error = found / exact - 1
+    slope = np.polyfit(np.log(LEVELS - 1), np.log(np.abs(error)), 1)[0]
+    assert slope == pytest.approx(-1, abs=0.1)
+    assert 2 * found[-1] - found[-2] == pytest.approx(exact, rel=2e-4)
+
+
+LEVELS = np.array([41, 81, 161, 321])
+
+
+def test_each_end_of_a_punch_on_a_thin_layer_adds_0177():
+    found = [punch_stiffness(crowded(n, 1e-3), 0.2, Frictionless()) for n in (151, 301)]
+    # S = 2a/b + 0.354263151658 but for exponentially small terms
+    assert 2 * found[1] - found[0] == pytest.approx(10.354263151658, rel=2e-6)
+
+
+@pytest.mark.parametrize("base", [Frictionless(), SQUEEZED], ids=repr)
+@pytest.mark.parametrize("thickness", [0.3, 5.0])
+def test_the_displacement_under_smooth_pressure_is_second_order(thickness, base):
+    def middle(count):
+        x = np.linspace(0, 1, count)
+        return layer_influence(x, thickness, base)[0] @ (1 - x**2) ** 2
+
+    values = np.array([middle(n) for n in (21, 41, 81, 161)])
+    order = np.log2(np.diff(values)[:-1] / np.diff(values)[1:])
+    assert order == pytest.approx(2, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("x", "thickness", "words"),
+    [
+        ([0.1, 0.5, 1.0], 1.0, "must ascend from 0"),
+        ([0.0, 0.5, 0.5], 1.0, "must ascend from 0"),
+        ([0.0, 0.5, 1.0], 0.0, "thickness must be positive, got 0"),
+    ],
+)
+def test_impossible_layers_are_refused(x, thickness, words):
+    with pytest.raises(ValueError, match=words):
+        layer_influence(np.array(x), thickness, Frictionless())
