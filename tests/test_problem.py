@@ -164,14 +164,13 @@ def test_a_contact_beyond_small_strain_is_refused(start):
 def test_small_strain_is_judged_by_the_jkr_radius(start, force):
     """The estimate of the contact radius puts depth and force back on the JKR curve."""
     R, w, contact = 5.19e-3, 0.1523, E / (1 - NU**2)
-    a = module._relaxed_radius(lens(protocol=Retraction(start=AtForce(force), speed=1e-4)))
+    a = module._relaxed_radius(lens(), AtForce(force))
     # Eq. 2.3 and 2.4
     load = 4 * contact * a**3 / (3 * R) - math.sqrt(8 * math.pi * w * contact * a**3)
     assert load == pytest.approx(force, rel=1e-9)
     depth = a**2 / R - math.sqrt(2 * math.pi * a * w / contact)
     if start is AtDepth:
-        at_depth = lens(protocol=Retraction(start=AtDepth(depth), speed=1e-4))
-        assert module._relaxed_radius(at_depth) == pytest.approx(a, rel=1e-9)
+        assert module._relaxed_radius(lens(), AtDepth(depth)) == pytest.approx(a, rel=1e-9)
 
 
 def test_a_start_without_a_jkr_contact_is_left_to_the_solver():
@@ -224,9 +223,9 @@ def test_a_contact_radius_is_positive():
 
 
 def test_a_start_must_say_what_it_holds():
-    with pytest.raises(ValueError, match="start must be AtDepth, AtForce or AtRadius, got 1e-06"):
+    with pytest.raises(ValueError, match="start must be AtDepth, AtForce, AtRadius or Apart, got 1e-06"):
         Retraction(start=1e-6, speed=1e-4)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="start must be AtDepth, AtForce or AtRadius, got 73"):
+    with pytest.raises(ValueError, match="start must be AtDepth, AtForce, AtRadius or Apart, got 73"):
         Groups(tabor=2, material=MATERIALS[0].reduced(), start=73, rate=1)  # type: ignore[arg-type]
 
 

@@ -37,3 +37,19 @@ class Sphere:
         """Return the undeformed gap [m] at a distance from the axis [m], r^2/(2 R)."""
         r = np.asarray(position, dtype=float)
         return r * r / (2 * self.radius)
+
+
+@dataclass(frozen=True)
+class FlatPunch:
+    """Rigid flat punch, long in the third direction: plane strain.
+
+    Parameters
+    ----------
+    half_width : float
+        Half of its width, a [m]; positive.
+    """
+
+    half_width: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "half_width", positive("half_width", self.half_width, "m"))

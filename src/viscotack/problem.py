@@ -20,7 +20,21 @@ import numpy.typing as npt
 
 from .geometry import Sphere
 from .materials import Material
-from .protocol import AtDepth, AtForce, AtRadius, Retraction, Start
+from .protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    LoadTo,
+    Move,
+    MoveTo,
+    Retract,
+    Retraction,
+    Start,
+    Units,
+    check_moves,
+)
 from .traction import LennardJones, Traction
 from .units import finite, positive
 
@@ -103,8 +117,8 @@ class Problem:
     protocol: Retraction
 
     def __post_init__(self) -> None:
-        _check_material(self.material)
-        _check_traction(self.traction)
+        check_material(self.material)
+        check_traction(self.traction)
         for name, kind, example in (
             ("geometry", Sphere, "Sphere(radius=5e-3)"),
             ("protocol", Retraction, "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
@@ -145,27 +159,28 @@ class Problem:
 
     def groups(self) -> "Groups":
         """Return the dimensionless problem; its time unit is that of the material."""
-        unit = self.scales()
+        unit, protocol = self.scales(), self.protocol
+        units = Units(1 / unit.length, 1 / unit.force, 1 / unit.radius, 1 / unit.time)
         return Groups(
             tabor=self.tabor,
             material=self.material.reduced(),
-            start=_rescaled(
-                self.protocol.start,
-                depth=1 / unit.length,
-                force=1 / unit.force,
-                contact_radius=1 / unit.radius,
-            ),
-            rate=self.protocol.speed * unit.time / unit.length,
+            start=units.start(protocol.start),
+            rate=units.speed(protocol.speed),
             traction=self.traction.reduced(),
+            moves=units.moves(protocol.moves),
+            stiffness=units.stiffness(protocol.stiffness),
         )
 
     def _check_small_strain(self) -> None:
-        R, a = self.geometry.radius, _relaxed_radius(self)
-        if a > LARGEST_CONTACT * R:
+        R = self.geometry.radius
+        for state in _farthest(self.protocol):
+            a = _relaxed_radius(self, state)
+            if a <= LARGEST_CONTACT * R:
+                continue
             raise ValueError(
                 "the start lies beyond small strain: its relaxed contact radius is about "
                 f"{a:.3g} m = {a / R:.2g} sphere radii, and the theory holds to {LARGEST_CONTACT}; "
-                f"reduce the preload of {self.protocol.start}, or use a larger sphere"
+                f"reduce the preload of {state}, or use a larger sphere"
             )
         rim = float(np.sqrt(2 * R * self.traction.equilibrium_gap))
         if rim > LARGEST_CONTACT * R:
@@ -190,10 +205,14 @@ class Groups:
     start : AtDepth, AtForce or AtRadius
         Depth in h_0, force in 1.5 pi R Delta-gamma_0, radius in
         (pi R^2 Delta-gamma_0/E_0*)^(1/3).
-    rate : float
-        Retraction speed in h_0 per time unit; positive.
+    rate : float or None
+        Retraction speed in h_0 per time unit; positive. None if the test ends with its moves.
     traction : LennardJones
         Reduced law; leave it out for Lennard-Jones.
+    moves : tuple of Approach, Retract, MoveTo, Dwell and LoadTo
+        What the machine does before the retraction, in the same units.
+    stiffness : float or None
+        Of the machine [1.5 pi R Delta-gamma_0/h_0]; None for a rigid one.
 
     Examples
     --------
@@ -208,27 +227,15 @@ class Groups:
 
     tabor: float
     material: Material
-    start: Start
-    rate: float
+    start: Start | Apart
+    rate: float | None
     traction: Traction = LennardJones(1.0, 1.0)
+    moves: tuple[Move, ...] = ()
+    stiffness: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "tabor", positive("tabor", self.tabor, "1"))
-        object.__setattr__(self, "rate", positive("rate", self.rate, "h0 per time unit"))
-        _check_material(self.material)
-        _check_traction(self.traction)
-        if self.material.rubbery_modulus != 1 or self.material.poisson_ratio != 0:
-            raise ValueError(
-                "the material of dimensionless groups must have a rubbery modulus of 1 and a "
-                f"Poisson ratio of 0, got {self.material}; pass material.reduced()"
-            )
-        if self.traction.work_of_adhesion != 1 or self.traction.equilibrium_gap != 1:
-            raise ValueError(
-                f"the traction law of dimensionless groups must be reduced, got {self.traction}; "
-                "pass traction.reduced()"
-            )
-        if not isinstance(self.start, Start):
-            raise ValueError(f"start must be AtDepth, AtForce or AtRadius, got {self.start!r}")
+        check_reduced(self)
 
     @property
     def modulus_ratio(self) -> float:
@@ -281,21 +288,22 @@ class Groups:
         T, nu = positive("time_unit", time_unit, "s"), finite("poisson_ratio", poisson_ratio, "1")
         if not 0 <= nu <= 0.5:
             raise ValueError(f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {nu}")
-        start = _rescaled(
-            self.start,
-            depth=h0,
-            force=1.5 * np.pi * R * w,
-            contact_radius=(np.pi * R**2 * w / E) ** (1 / 3),
-        )
+        units = Units(h0, 1.5 * np.pi * R * w, (np.pi * R**2 * w / E) ** (1 / 3), T)
         return Problem(
-            material=_material_in_si(self.material, E * (1 - nu**2), T, nu),
+            material=material_in_si(self.material, E * (1 - nu**2), T, nu),
             traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
             geometry=Sphere(radius=R),
-            protocol=Retraction(start=start, speed=self.rate * h0 / T),
+            protocol=Retraction(
+                start=units.start(self.start),
+                speed=units.speed(self.rate),
+                moves=units.moves(self.moves),
+                stiffness=units.stiffness(self.stiffness),
+            ),
         )
 
 
-def _check_material(material: Any) -> None:
+def check_material(material: Any) -> None:
+    """Refuse what is not a material."""
     if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
         raise ValueError(
             f"material must be one of viscotack.materials, got {type(material).__name__}; "
@@ -303,7 +311,8 @@ def _check_material(material: Any) -> None:
         )
 
 
-def _check_traction(traction: Any) -> None:
+def check_traction(traction: Any) -> None:
+    """Refuse what is not a traction law."""
     if not hasattr(traction, "stiffness") or not hasattr(traction, "reduced"):
         raise ValueError(
             f"traction must be a traction law, got {type(traction).__name__}; "
@@ -311,16 +320,32 @@ def _check_traction(traction: Any) -> None:
         )
 
 
-def _rescaled(start: Start, *, depth: float, force: float, contact_radius: float) -> Start:
-    """Return a start whose number is multiplied by the factor for its kind."""
-    if isinstance(start, AtDepth):
-        return AtDepth(start.depth * depth)
-    if isinstance(start, AtForce):
-        return AtForce(start.force * force)
-    return AtRadius(start.contact_radius * contact_radius)
+def check_reduced(groups: Any) -> None:
+    """Refuse dimensionless groups whose parts are not reduced, or in which nothing moves."""
+    check_material(groups.material)
+    check_traction(groups.traction)
+    if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
+        raise ValueError(
+            "the material of dimensionless groups must have a rubbery modulus of 1 and a "
+            f"Poisson ratio of 0, got {groups.material}; pass material.reduced()"
+        )
+    if groups.traction.work_of_adhesion != 1 or groups.traction.equilibrium_gap != 1:
+        raise ValueError(
+            f"the traction law of dimensionless groups must be reduced, got {groups.traction}; "
+            "pass traction.reduced()"
+        )
+    if not isinstance(groups.start, Start | Apart):
+        raise ValueError(f"start must be AtDepth, AtForce, AtRadius or Apart, got {groups.start!r}")
+    object.__setattr__(groups, "moves", tuple(groups.moves))
+    check_moves(groups.moves, groups.rate, "rate")
+    if groups.rate is not None:
+        object.__setattr__(groups, "rate", positive("rate", groups.rate, "h0 per time unit"))
+    if groups.stiffness is not None:
+        stiffness = positive("stiffness", groups.stiffness, "force over h0")
+        object.__setattr__(groups, "stiffness", stiffness)
 
 
-def _material_in_si(material: Any, modulus: float, time: float, poisson_ratio: float) -> Any:
+def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: float) -> Any:
     """Return a reduced material with moduli and times multiplied; fields are told by name."""
     changed: dict[str, Any] = {}
     for field in fields(material):
@@ -334,9 +359,23 @@ def _material_in_si(material: Any, modulus: float, time: float, poisson_ratio: f
     return replace(material, **changed, poisson_ratio=poisson_ratio)
 
 
-def _relaxed_radius(problem: Problem) -> float:
-    """Return the JKR contact radius of the start [m], or 0 where JKR has none."""
-    start, E = problem.protocol.start, problem.material.contact_modulus
+def _farthest(protocol: Retraction) -> list[Start]:
+    """Return the states that a test goes through, each as if it were relaxed."""
+    states = [] if isinstance(protocol.start, Apart) else [protocol.start]
+    for move in protocol.moves:
+        match move:
+            case Approach() | Retract():
+                states.append(move.to)
+            case MoveTo():
+                states.append(AtDepth(move.depth))
+            case LoadTo():
+                states.append(AtForce(move.force))
+    return states
+
+
+def _relaxed_radius(problem: Problem, start: Start) -> float:
+    """Return the JKR contact radius of a relaxed state [m], or 0 where JKR has none."""
+    E = problem.material.contact_modulus
     R, w = problem.geometry.radius, problem.traction.work_of_adhesion
     if isinstance(start, AtRadius):
         return start.contact_radius

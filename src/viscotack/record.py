@@ -2,18 +2,19 @@
 
 import hashlib
 import json
-from dataclasses import fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
-from . import geometry, materials, problem, protocol, traction
+from . import geometry, layer, materials, problem, protocol, punch_problem, traction
 
 # Where the classes of a record may live. A new law in one of these rooms needs nothing here.
-_ROOMS = (materials, traction, geometry, protocol, problem)
+_ROOMS = (materials, traction, geometry, layer, protocol, problem, punch_problem)
 
 
 def to_dict(thing: Any) -> dict[str, Any]:
     """Return a problem, or a part of one, as a dictionary with the name of its type.
 
+    What is as it would be if left out is left out, so that a new option renames no old problem.
     Only dictionaries, lists, words and numbers are in it: ``json.dumps`` writes it, and
     :func:`from_dict` makes an equal object.
 
@@ -24,8 +25,10 @@ def to_dict(thing: Any) -> dict[str, Any]:
     """
     if not is_dataclass(thing) or isinstance(thing, type):
         raise ValueError(f"expected a problem or a part of one, got {type(thing).__name__}")
+    values = {f.name: getattr(thing, f.name) for f in fields(thing)}
+    defaults = {f.name: f.default for f in fields(thing)}
     return {"type": type(thing).__name__} | {
-        f.name: _plain(getattr(thing, f.name)) for f in fields(thing)
+        name: _plain(value) for name, value in values.items() if value != defaults[name]
     }
 
 
@@ -46,10 +49,11 @@ def from_dict(record: Any) -> Any:
             f"unknown type {record['type']!r} in a record; a newer version may know it"
         )
     given, known = record.keys() - {"type"}, {f.name for f in fields(kind)}
-    if given != known:
+    needed = {f.name for f in fields(kind) if f.default is MISSING}
+    if not needed <= given <= known:
         raise ValueError(
-            f"a record of {record['type']} must have the fields {sorted(known)}, "
-            f"got {sorted(given)}"
+            f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
+            f"{sorted(known - needed)}, got {sorted(given)}"
         )
     return kind(**{name: _made(record[name]) for name in given})
 
@@ -71,4 +75,6 @@ def _plain(value: Any) -> Any:
 
 def _made(value: Any) -> Any:
     # A list stays one: the classes make their own tuples.
+    if isinstance(value, list):
+        return [_made(entry) for entry in value]
     return from_dict(value) if isinstance(value, dict) else value

@@ -23,7 +23,8 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
-from .problem import Groups, Problem
+from .problem import Problem
+from .punch_problem import Case
 from .record import from_dict, to_dict
 from .units import finite
 
@@ -124,7 +125,7 @@ class Result:
         Versions of this package, numpy and scipy that made it.
     """
 
-    problem: Problem | Groups
+    problem: Case
     time: npt.NDArray[np.float64]
     depth: npt.NDArray[np.float64]
     force: npt.NDArray[np.float64]
@@ -150,9 +151,9 @@ class Result:
         self._check()
 
     def _check(self) -> None:
-        if not isinstance(self.problem, Problem | Groups):
+        if not isinstance(self.problem, Case):
             raise ValueError(
-                f"problem must be a Problem or Groups, got {type(self.problem).__name__}"
+                f"problem must be a Problem, Groups, PunchProblem or PunchGroups, got {type(self.problem).__name__}"
             )
         lengths = {name: getattr(self, name).shape for name in _SERIES}
         if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:

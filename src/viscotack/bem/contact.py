@@ -55,3 +55,4 @@ class Contact(Protocol):
     def surface(self, nodes: npt.NDArray) -> Surface: ...  # noqa: D102
     def grading(self, settings: Settings, depth: float) -> Grading: ...  # noqa: D102
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed: ...  # noqa: D102
+    def deepest(self, start: Start) -> float: ...  # noqa: D102

@@ -7,7 +7,7 @@ is imposed. A history is a sequence of legs, in each of which one of the three i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -46,9 +46,11 @@ class Leg:
         Spring between drive and indenter [force/h0]; infinite or 0 as above.
     rate : float
         Change of the drive's depth [h0 per time], or of the dead load [force per time]; positive
-        into the solid.
+        into the solid. nan: what brings the drive, or the load, to `drive` in the duration.
     duration : float
-        It ends after this time, or sooner, when the first of the following is met.
+        It ends after this time, or sooner, when the first of depth, force and edge is met.
+    drive : float
+        Depth of the drive [h0], or dead load, at the end; nan where it does not matter.
     depth, force, edge : float
         Depth of the indenter [h0], force, contact edge [unit of the mesh] at which it ends, met in
         the direction of the rate; nan where they do not matter.
@@ -59,10 +61,18 @@ class Leg:
     stiffness: float
     rate: float
     duration: float = np.inf
+    drive: float = np.nan
     depth: float = np.nan
     force: float = np.nan
     edge: float = np.nan
     least_step: float = 1.0
+
+    def beginning(self, drive: float, force: float) -> Leg:
+        """Return the leg with its rate, for a drive and a force at its beginning."""
+        if not np.isnan(self.rate):
+            return self
+        now = force if self.dead_load else drive
+        return replace(self, rate=(self.drive - now) / self.duration)
 
     @property
     def dead_load(self) -> bool:

@@ -60,6 +60,7 @@ class _March:
     lattice: float
     meshed_at: float
     opening: float
+    leg: Leg
     dt: float = 0.0
     number: int = 0
     began: Snapshot = field(init=False)
@@ -67,11 +68,6 @@ class _March:
     lowest: float = np.inf
     since_lowest: int = 0
     history: History = field(default_factory=History)
-
-    @property
-    def leg(self) -> Leg:
-        """The present leg."""
-        return self.legs[self.number]
 
     @property
     def past(self) -> bool:
@@ -110,16 +106,17 @@ class _March:
 
     def _begin(self, number: int) -> None:
         """Begin a leg: the machine takes hold of the contact as it is."""
-        turns = number > 0 and self.leg.outwards != self.legs[number].outwards
+        before, was_outwards = self.state.seen, self.leg.outwards
         self.number, self.known = number, False
+        self.leg = self.legs[number].beginning(before.drive, before.force)
+        turns = number > 0 and self.leg.outwards and not was_outwards
         self.dt, self.lowest, self.since_lowest = self.leg.least_step, np.inf, 0
-        before = self.state.seen
         self.state = self.body.stopped(self.state, self._hold(before, 0.0))
         # The drive does the work that tightens the spring where another machine held the contact.
         tightened = self.state.seen.spring - before.spring
         self.books = replace(self.books, drive=self.books.drive + tightened)
         self.began = self.state.seen
-        if turns and self.leg.outwards and self.began.edge > 0:
+        if turns and self.began.edge > 0:
             self.lattice = self.began.edge
             self._remesh()
 
@@ -195,9 +192,7 @@ class _March:
         leg = self.leg
         if leg.rate and not leg.dead_load:
             self.dt = min(self.dt, self.travel / abs(leg.rate))
-        imposed = np.isinf(leg.stiffness) and not np.isnan(leg.depth)
-        imposed = imposed or (leg.dead_load and not np.isnan(leg.force))
-        if imposed and leg.rate and 0 < ahead < np.inf:
+        if np.isinf(leg.stiffness) and leg.depth == leg.depth and leg.rate and ahead > 0:
             self.dt = min(self.dt, ahead / abs(leg.rate))
         left = leg.duration - elapsed
         if self.dt > 0.999 * left > 0:
@@ -376,4 +371,5 @@ def march(
         lattice=start.lattice,
         meshed_at=0.0 if np.isnan(start.edge) else start.edge,
         opening=_opening(first, contact),
+        leg=legs[0],
     ).run(until, progress)

@@ -145,6 +145,8 @@ def plain_solve(
     groups = problem.groups()
     if not isinstance(groups.start, AtDepth):
         raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
+    if groups.rate is None or groups.moves:
+        raise ValueError("the plain twin retracts and does nothing else")
     mu, depth = groups.tabor, groups.start.depth
     r = np.linspace(0.0, outer_radius, nodes)
     G = mu * hat_matrix(nodes, r[1])

@@ -11,13 +11,16 @@ from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
 from viscotack.bem.contact import Contact
+from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
+from viscotack.bem.punch import PunchContact
 from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
 from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Material, Modes
 from viscotack.observables import pull_off_force, work_to_pull_off
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups
+from viscotack.punch_problem import Case, PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 
 _UNTIL = ("pull-off", "detached")
@@ -47,7 +50,7 @@ class SimulationError(RuntimeError):
 
 
 def solve(
-    problem: Problem | Groups,
+    problem: Case,
     *,
     accuracy: float = DEFAULT_ACCURACY,
     until: str = "detached",
@@ -114,12 +117,6 @@ def solve(
     """
     if until not in _UNTIL:
         raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
-    low, high = _TABOR_RANGE
-    if not low <= problem.groups().tabor <= high:
-        raise ValueError(
-            f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
-            f"{problem.groups().tabor:g}; below take theory.bradley, above theory.jkr"
-        )
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     # The matrices are small: a second BLAS thread costs many times what it brings.
@@ -136,25 +133,20 @@ def solve(
 
 
 def _run(
-    problem: Problem | Groups,
+    problem: Case,
     settings: Settings,
     until: str,
     fields: bool,
     progress: Callable[[float], None] | None,
 ) -> Result:
     groups = problem.groups()
-    contact = SphereContact(groups.tabor, groups.traction)
+    contact = contact_of(groups)
     start = contact.relaxed(groups.start, settings)
-    legs = (
-        Leg(
-            stiffness=np.inf,
-            rate=-groups.rate,
-            least_step=settings.first_travel * contact.travel / groups.rate,
-        ),
-    )
-    longest = (max(start.depth, 0.0) + 5 * contact.travel) / groups.rate
+    legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
+    depths = reached(start, groups.moves, contact)
+    longest = longest_time(depths, groups.moves, groups.rate, contact)
     modes = _modes(groups.material, legs, longest, settings)
-    grading = contact.grading(settings, start.depth)
+    grading = contact.grading(settings, max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
     history = march(
@@ -171,6 +163,19 @@ def _run(
     return _result(problem, contact, history, modes, fields)
 
 
+def contact_of(groups: Groups | PunchGroups) -> Contact:
+    """Return the contact that dimensionless groups describe."""
+    if isinstance(groups, PunchGroups):
+        return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
+    low, high = _TABOR_RANGE
+    if not low <= groups.tabor <= high:
+        raise ValueError(
+            f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
+            f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
+        )
+    return SphereContact(groups.tabor, groups.traction)
+
+
 def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
     """Return the retardation modes that this run can tell apart."""
     shortest = _FASTEST * min(leg.least_step for leg in legs)
@@ -182,7 +187,7 @@ def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: 
 
 
 def _result(
-    problem: Problem | Groups, contact: Contact, history: History, modes: Modes, fields: bool
+    problem: Case, contact: Contact, history: History, modes: Modes, fields: bool
 ) -> Result:
     states, books = history.snapshots, history.books
     time = np.array([s.time for s in states])
@@ -240,9 +245,11 @@ def _status(history: History, residual: float) -> str:
         )
     if history.outcome == "pull-off":
         return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
-    for event in history.events:
-        if event.kind == "jump out of contact":
-            return f"{Outcome.JUMPED} at depth {event.depth:.4g} h0 out of contact"
+    if history.outcome == "end" and last.edge > 0:
+        return f"{Outcome.IN_CONTACT} at the end of the test"
+    out = [event for event in history.events if event.kind == "jump out of contact"]
+    if out:
+        return f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
     return str(Outcome.DETACHED)
 
 
@@ -261,9 +268,7 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
     }
 
 
-def _estimate(
-    problem: Problem | Groups, result: Result, settings: Settings
-) -> dict[str, float] | None:
+def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
     """Return the relative errors of force and work from a coarser companion, None without one."""
     try:
         coarse = _run(problem, settings.coarser(_COARSER), "pull-off", False, None)

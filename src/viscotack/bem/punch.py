@@ -1,0 +1,147 @@
+r"""A flat punch on a layer: its surface, its nodes, and the relaxed contact it starts from.
+
+Lengths along the surface are in :math:`a_0 = \pi E_0^* \Delta\gamma_0/(2 \sigma_0^2)`. With
+:math:`\hat\sigma = \sigma_0 h_0/\Delta\gamma_0`, a pressure of 1 dg/h0 on a length a_0 moves the
+surface by :math:`\pi/(2 \hat\sigma^2)` h0 times the influence for E* = 1.
+
+Cracks start at the ends of the punch, so the nodes are finest there and follow the crack inwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+from viscotack.bem.contact import Relaxed
+from viscotack.bem.equilibrium import descend
+from viscotack.bem.layer import layer_influence, nodal_lengths
+from viscotack.bem.machine import Hold
+from viscotack.bem.mesh import Grading
+from viscotack.bem.settings import Settings
+from viscotack.bem.surface import Surface, stiffness
+from viscotack.layer import Base
+from viscotack.protocol import Apart, AtDepth, AtForce, Start
+from viscotack.traction import Traction
+
+_SCAR_ZONES = 2.0
+# A start by force is found to this part of the travel in depth.
+_DEPTH_TOLERANCE = 1e-8
+
+
+@dataclass(frozen=True)
+class PunchContact:
+    """A punch of this half width on a layer of this thickness [a0]; see `contact.Contact`."""
+
+    size: float
+    thickness: float
+    base: Base
+    law: Traction
+
+    @property
+    def travel(self) -> float:
+        """A thin layer is stretched by about sqrt(3 b/a0) h0 when it lets go."""
+        return 1 + float(np.sqrt(3 * min(self.thickness, self.size)))
+
+    @property
+    def edge_unit(self) -> float:
+        """Lengths are given in a0."""
+        return 1.0
+
+    @property
+    def zone(self) -> float:
+        """Length over which the gap opens at a slow crack [a0], at most that of the layer."""
+        return min(1.5 * self.law.strength**2 / np.pi, 2 * self.thickness)
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the layer with these nodes [a0]."""
+        length = nodal_lengths(nodes)
+        B = layer_influence(nodes, self.thickness, self.base) / length
+        strength = self.law.strength
+        return Surface(
+            position=nodes,
+            area=length,
+            stiffness=stiffness((B + B.T) / 2) * (2 * strength**2 / np.pi),
+            rigid_gap=np.ones(len(nodes)),
+            unit=1 / (2 * self.size * strength),  # a0 dg/h0 in 2 a sigma0
+            flank=0.0,
+            whole=self.size,
+        )
+
+    def grading(self, settings: Settings, depth: float) -> Grading:
+        """Return the grading of the nodes; the depth does not matter to it."""
+        zone = self.zone
+        # Nodes lie on a lattice that begins at the end of the punch.
+        spacing = min(zone / settings.nodes_per_zone, self.size / 8)
+        return Grading(
+            spacing=spacing,
+            half_width=zone * settings.fine_zones,
+            scar_spacing=spacing,
+            scar_half_width=zone * _SCAR_ZONES,
+            growth_inside=settings.growth_inside,
+            growth_outside=settings.growth_outside,
+            outer_radius=self.size,
+            ends=True,
+        )
+
+    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
+        """Return the relaxed state of a dimensionless start, the whole punch in contact.
+
+        Raises
+        ------
+        ValueError
+            If no such contact exists.
+        """
+        if isinstance(start, Apart):
+            return self._at_depth(1 - start.gap, settings, apart=True)
+        if isinstance(start, AtDepth):
+            return self._at_depth(start.depth, settings)
+        assert isinstance(start, AtForce)
+
+        def error(depth: float) -> float:
+            return self._at_depth(depth, settings).force - start.force
+
+        low = high = 0.0
+        span = 0.1 * self.travel
+        try:
+            while error(low) > 0:
+                low, span = low - span, 1.5 * span
+            while error(high) < 0:
+                high, span = high + span, 1.5 * span
+        except ValueError:
+            raise ValueError(
+                f"no relaxed contact bears a mean stress of {start.force:g} sigma0: the punch lets "
+                "go before; start with more"
+            ) from None
+        if low < high:
+            tolerance = _DEPTH_TOLERANCE * self.travel
+            low: float = brentq(error, low, high, xtol=tolerance)  # type: ignore[assignment]
+        return self._at_depth(low, settings)
+
+    def deepest(self, start: Start) -> float:
+        """Return the depth [h0] of a start, about: a foundation of the layer's compliance."""
+        if isinstance(start, AtForce):
+            give = np.pi / (2 * self.law.strength) * min(self.thickness, self.size)
+            return give * start.force
+        assert isinstance(start, AtDepth)
+        return start.depth
+
+    def _at_depth(self, depth: float, settings: Settings, *, apart: bool = False) -> Relaxed:
+        surface = self.surface(self.grading(settings, depth).nodes(self.size, self.size))
+        guess = np.full(len(surface.position), 1 - depth if apart else 1.0)
+        if apart and guess[0] <= self.law.edge_gap:
+            raise ValueError(f"surfaces {1 - depth:g} h0 apart are in contact; start farther away")
+        balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
+        edge = surface.edge(balance.gap, self.law.edge_gap)
+        if not balance.stable or np.isnan(edge) != apart:
+            raise ValueError(
+                f"no relaxed contact exists at a depth of {depth:g} h0 (thickness "
+                f"{self.thickness:g} a0): the punch has let go there; start deeper"
+                if not apart
+                else f"surfaces {1 - depth:g} h0 apart (thickness {self.thickness:g} a0) jump "
+                "into contact at rest; start farther away"
+            )
+        force = surface.force(self.law, balance.gap)
+        return Relaxed(surface, balance.gap, depth, force, edge, self.size)
