@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -93,5 +93,12 @@ def words(groups: Groups) -> str:
 
 def spread_out(work: Callable[[Any], Any], items: Sequence[Any], workers: int = 2) -> list[Any]:
     """Return work(item) for all items, done by a few processes."""
+    return list(spread_as_done(work, items, workers))
+
+
+def spread_as_done(
+    work: Callable[[Any], Any], items: Sequence[Any], workers: int = 2
+) -> Iterator[Any]:
+    """Yield work(item) for all items in their order, while a few processes go on with the rest."""
     with ProcessPoolExecutor(workers) as pool:
-        return list(pool.map(work, items, chunksize=max(1, len(items) // (20 * workers))))
+        yield from pool.map(work, items, chunksize=min(16, max(1, len(items) // (20 * workers))))

@@ -1,20 +1,24 @@
 """Nothing crashes, nothing hangs: `python benchmarks/robust.py [--count 1000] [--until detached]`.
 
 Random cases over the whole range; each ends with an answer or with a physical reason. Warnings are
-errors here: an overflow or a division by zero is a failure.
+errors here: an overflow or a division by zero is a failure. With --keep FILE each row is written at
+once, and a run that was cut short goes on where it was.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import warnings
 from collections import Counter
+from contextlib import nullcontext
 from functools import partial
+from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
-from cases import spread, spread_out, words
+from cases import spread, spread_as_done, words
 
 from viscotack import Groups, pull_off_force, solve
 
@@ -40,15 +44,31 @@ def measure(groups: Groups, until: str) -> dict[str, Any]:
     return row | {"case": words(groups), "time": perf_counter() - began}
 
 
+def measured(cases: list[Groups], until: str, keep: Path | None) -> list[dict[str, Any]]:
+    """Return a row for each case, and keep them in a file as they come."""
+    rows = []
+    if keep is not None and keep.exists():
+        rows = [json.loads(line) for line in keep.read_text().splitlines()]
+    file = keep.open("a") if keep is not None else nullcontext()
+    with file as written:
+        for row in spread_as_done(partial(measure, until=until), cases[len(rows) :]):
+            rows.append(row)
+            if written is not None:
+                written.write(json.dumps(row) + "\n")
+                written.flush()
+    return rows
+
+
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--until", choices=("pull-off", "detached"), default="pull-off")
+    parser.add_argument("--keep", type=Path, help="a file of rows, one JSON object a line")
     chosen = parser.parse_args()
     began = perf_counter()
-    rows = spread_out(partial(measure, until=chosen.until), spread(chosen.count, chosen.seed))
+    rows = measured(spread(chosen.count, chosen.seed), chosen.until, chosen.keep)
     times = np.array([row["time"] for row in rows])
     good = [row for row in rows if "residual" in row]
     residuals = np.array([row["residual"] for row in good])

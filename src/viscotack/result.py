@@ -5,6 +5,10 @@ All numbers of a :class:`Result` are dimensionless, whatever the units of the pr
 radius in (pi R^2 Delta-gamma_0/E_0*)^(1/3); time in the material's time unit; edge speed in
 (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit; work and energy in 1.5 pi R Delta-gamma_0 h_0;
 pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` has the factors to SI.
+
+A punch has its mean stress for a force, in sigma_0 and positive in compression as well, and the
+half length of its contact in a_0 for a radius; energies are in sigma_0 h_0 of unit area. Tables
+and summaries (:mod:`viscotack.outputs`) give stress, ligament, crack speed and work of separation.
 """
 
 import csv
@@ -23,7 +27,7 @@ from typing import IO, Any
 import numpy as np
 import numpy.typing as npt
 
-from .problem import Problem
+from .outputs import kind_of, si_scales
 from .punch_problem import Case
 from .record import from_dict, to_dict
 from .units import finite
@@ -153,7 +157,8 @@ class Result:
     def _check(self) -> None:
         if not isinstance(self.problem, Case):
             raise ValueError(
-                f"problem must be a Problem, Groups, PunchProblem or PunchGroups, got {type(self.problem).__name__}"
+                "problem must be a Problem, Groups, PunchProblem or PunchGroups, got "
+                f"{type(self.problem).__name__}"
             )
         lengths = {name: getattr(self, name).shape for name in _SERIES}
         if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:
@@ -209,23 +214,21 @@ def receding_speed(time: npt.ArrayLike, contact_radius: npt.ArrayLike) -> npt.ND
     for piece in np.split(np.arange(t.size), starts):
         if piece.size > 1 and known[piece[0]]:
             order = 2 if piece.size > 2 else 1
-            speed[piece] = -(np.pi ** (1 / 3)) * np.gradient(a[piece], t[piece], edge_order=order)
+            way = a[piece] - a[piece[0]]  # so that an edge at rest has no speed at all
+            speed[piece] = -(np.pi ** (1 / 3)) * np.gradient(way, t[piece], edge_order=order)
     return speed
 
 
 def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
     """Return the series by column name: dimensionless, then in SI with the unit in the name."""
-    table = {name: getattr(result, name) for name in _SERIES}
-    if isinstance(result.problem, Problem):
-        unit = result.problem.scales()
-        table |= {
-            "time_s": result.time * unit.time,
-            "depth_m": result.depth * unit.length,
-            "force_N": result.force * unit.force,
-            "contact_radius_m": result.contact_radius * unit.radius,
-            "edge_speed_m_per_s": result.edge_speed * unit.edge_speed,
-        }
-    return table
+    outputs, groups = kind_of(result.problem).series, result.problem.groups()
+    scales = si_scales(result.problem)
+    table = {n: getattr(result, o.source) * o.factor(groups) for n, o in outputs.items()}
+    if scales is None:
+        return table
+    return table | {
+        f"{n}_{o.unit.tail}": table[n] * getattr(scales, o.unit.scale) for n, o in outputs.items()
+    }
 
 
 def write_csv(result: Result, path: str | os.PathLike[str]) -> None:

@@ -94,13 +94,11 @@ def nodal_areas(radius: npt.NDArray) -> npt.NDArray:
 
 def half_space(radius: npt.NDArray, tabor: float) -> Surface:
     """Return the surface with these nodes [beta] under a sphere of this Tabor number."""
-    area = nodal_areas(radius)
-    B = influence(radius) / area
-    B = (B + B.T) / 2
+    panels = np.pi * np.diff(radius * radius)
     return Surface(
         position=radius,
-        area=area,
-        stiffness=stiffness(B) / tabor**2,
+        area=nodal_areas(radius),
+        stiffness=stiffness(influence(radius), panels) / tabor**2,
         rigid_gap=1 + tabor * radius * radius / 2,
         unit=2 * tabor / (3 * np.pi),  # dg beta^2/h0 in 1.5 pi R dg
         flank=4 / 3,  # 2 pi R times the energy there

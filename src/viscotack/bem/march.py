@@ -28,7 +28,8 @@ from viscotack.result import Event
 # The surfaces have separated when the smallest gap is this large [h0]; the work that is left is
 # the energy of the interface there.
 SEPARATED = 10.0
-# Pull-off is behind when the force has risen again by this part of its minimum.
+# Pull-off is behind when the force has risen again by this part of its minimum and of the unit of
+# force: a force that has just become tensile is as large as what nodes add to it.
 _RISEN = 0.03
 # The solid answers as stiffly as it can when a step's compliance exceeds the instantaneous one by
 # less than this part.
@@ -72,9 +73,8 @@ class _March:
     @property
     def past(self) -> bool:
         """Whether the force minimum of this leg is behind."""
-        return self.since_lowest > 2 and (
-            (1 - _RISEN) * self.lowest < min(self.state.seen.force, 0.0)
-        )
+        risen = min(self.state.seen.force, 0.0) - self.lowest
+        return self.since_lowest > 2 and risen > _RISEN * (abs(self.lowest) + 1)
 
     @property
     def looser(self) -> float:

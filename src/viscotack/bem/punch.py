@@ -26,9 +26,20 @@ from viscotack.layer import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction
 
+# Lengths of the relaxed crack's zone that stay fine at the end of the punch, for what remembers.
 _SCAR_ZONES = 2.0
 # A start by force is found to this part of the travel in depth.
 _DEPTH_TOLERANCE = 1e-8
+
+
+@dataclass(frozen=True)
+class _EndedGrading(Grading):
+    """A grading whose last node is at the end of the punch, and there once."""
+
+    def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
+        nodes = super().nodes(edge, first_edge)
+        inside = nodes < self.outer_radius - self.scar_spacing / 4
+        return np.append(nodes[inside], self.outer_radius)
 
 
 @dataclass(frozen=True)
@@ -57,13 +68,15 @@ class PunchContact:
 
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the layer with these nodes [a0]."""
-        length = nodal_lengths(nodes)
-        B = layer_influence(nodes, self.thickness, self.base) / length
+        G = layer_influence(nodes, self.thickness, self.base)
+        panels = 2 * np.diff(nodes)  # on both sides
+        # A layer that is thin beside a panel is a row of springs.
+        distant = 1 / (1 + (np.diff(nodes) / self.thickness) ** 2)
         strength = self.law.strength
         return Surface(
             position=nodes,
-            area=length,
-            stiffness=stiffness((B + B.T) / 2) * (2 * strength**2 / np.pi),
+            area=nodal_lengths(nodes),
+            stiffness=stiffness(G, panels, distant) * (2 * strength**2 / np.pi),
             rigid_gap=np.ones(len(nodes)),
             unit=1 / (2 * self.size * strength),  # a0 dg/h0 in 2 a sigma0
             flank=0.0,
@@ -75,7 +88,7 @@ class PunchContact:
         zone = self.zone
         # Nodes lie on a lattice that begins at the end of the punch.
         spacing = min(zone / settings.nodes_per_zone, self.size / 8)
-        return Grading(
+        return _EndedGrading(
             spacing=spacing,
             half_width=zone * settings.fine_zones,
             scar_spacing=spacing,

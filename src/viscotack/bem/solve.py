@@ -29,7 +29,7 @@ _FASTEST = 0.2
 # The coarse companion of a run is less accurate by this factor; every error is of second order.
 _COARSER = 4.0
 # The estimate is the difference to the companion over _COARSER - 1, times this margin ...
-_MARGIN = 1.8
+_MARGIN = 2.2
 # ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
 # over the whole range the estimate then covers the true error in 62 (force) and 61 (work), and is
 # in the median 1.9 and 3.3 times as large.

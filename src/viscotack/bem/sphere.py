@@ -71,7 +71,7 @@ class SphereContact:
         That of a crack is 0.75 beta/mu^2. At small Tabor numbers it would be larger than the
         contact; the gap then opens over the distance over which a paraboloid rises by about h0.
         """
-        return min(0.75 / self.tabor**2, 0.25 / np.sqrt(self.tabor))
+        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(self.tabor))
 
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta]."""

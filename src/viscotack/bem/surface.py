@@ -91,12 +91,62 @@ class Surface:
         return at if x[1] <= at <= x[2] else float(linear)
 
 
-def stiffness(compliance: npt.NDArray) -> npt.NDArray:
-    """Return the inverse of a symmetric compliance, symmetric to the last bit."""
-    factor, info = _potrf(compliance, lower=1)
+def stiffness(
+    influence: npt.NDArray, panels: npt.NDArray, distant: npt.NDArray | float = 1.0
+) -> npt.NDArray:
+    r"""Return the nodal forces that hold unit displacements, for a collocated influence matrix.
+
+    Collocation gives G: displacement *at* node i under the hat at node j. Two things are mended.
+
+    The discrete contact needs an energy, so the compliance B = G/A of nodal *forces* is replaced by
+    its symmetric part.
+
+    And pressures drawn as straight lines from node to node are too large where they are convex:
+    over a panel of width h by :math:`h^2 p''/12` in the mean, an error of second order, the largest
+    there is at the edge of a contact. Half of it is taken off the pressures and, so that the matrix
+    stays symmetric, half off the displacements: with the smoothing
+    :math:`W = 1 - \tfrac{1}{24} h^2 \partial^2`, here by differences that conserve the force,
+    :math:`B \to W B W^T` has an error of fourth order on equal nodes.
+
+    Parameters
+    ----------
+    influence : ndarray, shape (N, N)
+        G [length], from nodes that ascend from the axis.
+    panels : ndarray, shape (N - 1,)
+        Area between neighbours, half of it belonging to each of them.
+    distant : float or ndarray, shape (N - 1,)
+        1 where a pressure is felt far beyond its panel, 0 where the solid answers on the spot, like
+        springs side by side: there the straight lines do no harm.
+
+    Returns
+    -------
+    ndarray, shape (N, N)
+        Symmetric to the last bit, and positive definite.
+
+    Raises
+    ------
+    ArithmeticError
+        If the nodes are too close to each other for the digits there are.
+    """
+    none = np.zeros(1)
+    area = (np.concatenate([panels, none]) + np.concatenate([none, panels])) / 2
+    B = influence / area
+    moved = panels * distant / 24
+    B = _smoothed(_smoothed((B + B.T) / 2, moved, area).T, moved, area)
+    B = (B + B.T) / 2
+    factor, info = _potrf(B, lower=1)
     if info == 0:
         lower, info = _potri(factor, lower=1, overwrite_c=1)
     if info:
         raise ArithmeticError("the influence matrix is not positive definite: the mesh is too fine")
     lower = np.tril(lower)
     return lower + np.tril(lower, -1).T
+
+
+def _smoothed(rows: npt.NDArray, moved: npt.NDArray, area: npt.NDArray) -> npt.NDArray:
+    """Return W times a matrix: what leaves a node over a panel arrives at its neighbour."""
+    flux = moved[:, None] * np.diff(rows, axis=0)
+    smooth = rows.copy()
+    smooth[:-1] -= flux / area[:-1, None]
+    smooth[1:] += flux / area[1:, None]
+    return smooth

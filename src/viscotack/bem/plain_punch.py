@@ -1,0 +1,167 @@
+r"""The plain twin of the punch: the published algorithm, slow and obvious, for the tests.
+
+Chapter 3 of Maghami, PhD thesis (2025): M + 1 equally spaced nodes under the punch, overlapping
+triangles by quadrature, full ones at the ends too, a fixed time step, the full hereditary sum and a
+dense Newton, without use of the symmetry. Nothing is shared with the fast solver but the statement
+of the problem.
+
+The full end triangles reach beyond the punch, so that M + 1 triangles bear where M would: the
+cohesive limit comes out as (M + 1)/M, and every stress too high by about as much.
+
+Lengths are in a0, gap and depth in h0, the pressure p in dg/h0 and positive in compression:
+
+.. math::
+
+    h_i = 1 - \delta + u_i, \qquad u_i^{(q)} = \frac{\pi}{2 \hat\sigma_0^2} \sum_j G_{ij}
+      \Big\{p_j^{(0)} + \sum_{m=0}^{q-1} \bar C_{q-1-m} \big(p_j^{(m+1)} - p_j^{(m)}\big)\Big\}
+
+with the mean creep compliance of each step and :math:`\hat\sigma_0 = 16/(9\sqrt3)`.
+"""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import toeplitz
+from scipy.special import sici, xlogy
+
+from viscotack.bem.plain import lennard_jones, mean_compliance, newton
+from viscotack.layer import Base
+from viscotack.protocol import AtDepth
+from viscotack.punch_problem import PunchGroups, PunchProblem
+from viscotack.result import Outcome, Result, receding_speed
+
+# kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.
+_END = 60.0
+_GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(20)
+
+
+def triangle_matrix(triangles: int, size: float, thickness: float, base: Base) -> npt.NDArray:
+    r"""Return G[i, j], displacement at node i under triangle j of unit pressure, E* = 1.
+
+    .. math:: G_{ij} = -\frac{4 b}{\pi} \left[ I_{A0} + I_A(i-j) + 4 z I_{AR}(i-j) \right],
+              \quad z = \frac{a}{2 b M}
+
+    Eq. 3.19 to 3.22, of the other sign: compression is positive. The ratio of hyperbolic functions
+    there is minus the base's transfer function at beta/2.
+    """
+    M, z = triangles, size / (2 * thickness * triangles)
+    beta, weight = _panels(0.0, 1.0, 1)
+    head = base.transfer(beta / 2) * np.sin(beta * z) ** 2 / beta**3 @ weight
+    # beyond 1 the transfer function is taken off and put back: an integral in closed form
+    w = 2 * z
+    tail = ((1 - np.cos(w)) / 2 + w / 2 * (np.sin(w) - w * sici(w)[1])) / 2
+    beta, weight = _panels(1.0, _END, 60)
+    tail -= (1 - base.transfer(beta / 2)) * np.sin(beta * z) ** 2 / beta**3 @ weight
+    first = -2 / z * (head + tail)
+    j = np.arange(M + 1)
+    # the panels follow the oscillation
+    beta, weight = _panels(0.0, _END, 60 + int(_END * z * M))
+    decaying = weight * (1 - base.transfer(beta / 2)) * np.sin(beta * z) ** 2 / beta**3
+    second = -4 / z * np.array([decaying @ np.sin(beta * z * n) ** 2 for n in j])
+    half_plane = (
+        xlogy((j + 1) ** 2, j + 1) + xlogy((j - 1) ** 2, np.abs(j - 1)) - 2 * xlogy(j * j, j)
+    ) / 4
+    return toeplitz(-4 * thickness / np.pi * (first + second + 4 * z * half_plane))
+
+
+def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArray]:
+    """Return Gauss points and weights on so many equal panels."""
+    edges = np.linspace(low, high, count + 1)
+    half = np.diff(edges)[:, None] / 2
+    return (edges[:-1, None] + half * (1 + _GAUSS)).ravel(), (half * _WEIGHT).ravel()
+
+
+def plain_solve(
+    problem: PunchProblem | PunchGroups, *, triangles: int, steps: int, last_depth: float
+) -> Result:
+    """Simulate a retraction from a relaxed depth with the published algorithm.
+
+    Parameters
+    ----------
+    problem : PunchProblem or PunchGroups
+        The start must be by depth and the traction law Lennard-Jones.
+    triangles : int
+        M, spacings under the punch; the thesis takes 200.
+    steps : int
+        Equal time steps from the start to `last_depth`.
+    last_depth : float
+        Depth of the drive at the end [h0], below the start.
+
+    Returns
+    -------
+    Result
+        Ends early just past the pull-off, where a jump may follow, or with a status "stopped" where
+        Newton fails.
+    """
+    began = perf_counter()
+    groups = problem.groups()
+    if not isinstance(groups.start, AtDepth):
+        raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
+    if groups.rate is None or groups.moves:
+        raise ValueError("the plain twin retracts and does nothing else")
+    depth, strength = groups.start.depth, groups.traction.strength
+    x = np.linspace(-groups.size, groups.size, triangles + 1)
+    G = triangle_matrix(triangles, groups.size, groups.thickness, groups.base)
+    G *= np.pi / (2 * strength**2)
+    dt = (depth - last_depth) / groups.rate / steps
+    C = mean_compliance(groups.material, dt, steps)
+
+    def mean(p: npt.NDArray) -> float:
+        return float(p.sum()) / (triangles * strength)
+
+    gap, iterations = newton(G, np.full(len(x), 1 - depth), 1.0, np.ones(len(x)), 200)
+    first = p = lennard_jones(gap, 1.0)[0]
+    changes = np.zeros((steps, len(x)))
+    times, depths, forces, edges = [0.0], [depth], [mean(p)], [_edge(x, gap)]
+    status = f"{Outcome.IN_CONTACT} at the end of the travel"
+    lowest, rate = 0, np.zeros(len(x))
+    for q in range(1, steps + 1):
+        depth -= groups.rate * dt
+        past = first + C[q - 1 : 0 : -1] @ changes[: q - 1] if q > 1 else first
+        guess = np.maximum(gap + rate, 0.7 * gap)
+        try:
+            found, count = newton(C[0] * G, 1 - depth + G @ (past - C[0] * p), 1.0, guess, 30)
+        except (ArithmeticError, np.linalg.LinAlgError) as failure:
+            status = f"{Outcome.STOPPED} because {failure} at depth {depth:.4g} h0; take more steps"
+            break
+        rate, gap, iterations = found - gap, found, iterations + count
+        new = lennard_jones(gap, 1.0)[0]
+        changes[q - 1], p = new - p, new
+        times.append(q * dt)
+        depths.append(depth)
+        forces.append(mean(p))
+        edges.append(_edge(x, gap))
+        lowest = q if forces[q] < forces[lowest] else lowest
+        if q > lowest + 2 and forces[lowest] < 0 and forces[q] > 0.9 * forces[lowest]:
+            status = f"{Outcome.IN_CONTACT} just past the pull-off"
+            break
+    return Result(
+        problem=problem,
+        time=np.array(times),
+        depth=np.array(depths),
+        force=np.array(forces),
+        contact_radius=np.array(edges),
+        edge_speed=receding_speed(times, edges),
+        status=status,
+        statistics={
+            "steps": len(times) - 1,
+            "newton_iterations": iterations,
+            "nodes": len(x),
+            "wall_time_s": perf_counter() - began,
+        },
+    )
+
+
+def _edge(x: npt.NDArray, gap: npt.NDArray) -> float:
+    """Return the half length of the contact [a0], nan without one."""
+    below = np.flatnonzero(gap < 3 ** (1 / 6))
+    if len(below) == 0:
+        return float("nan")
+    i = below[-1]
+    if i == len(x) - 1:
+        return float(x[-1])
+    share = (3 ** (1 / 6) - gap[i]) / (gap[i + 1] - gap[i])
+    return float(x[i] + share * (x[i + 1] - x[i]))
