@@ -10,7 +10,7 @@ from scipy.special import sici, xlogy
 
 from viscotack.bem.layer import layer_influence, nodal_lengths
 from viscotack.theory import punch_crossover
-from viscotack.theory.punch_base import Bonded, Frictionless
+from viscotack.layer import Bonded, Frictionless
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]

@@ -2,9 +2,10 @@
 
 Everywhere below: SI units; force positive in compression, depth positive into the solid,
 pressure positive in compression; the sphere is rigid, of radius R, and the half-space has the
-contact modulus E* = E / (1 - nu^2). The varying quantity comes first and may be an array; the
-parameters are keywords, and arrays of them broadcast. A scalar gives a float. A value outside
-the domain of a formula, in any element, raises ``ValueError``.
+contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` and its companions sits on a
+layer, in plane strain, and counts stress positive in tension. The varying quantity comes first
+and may be an array; the parameters are keywords, and arrays of them broadcast. A scalar gives a
+float. A value outside the domain of a formula, in any element, raises ``ValueError``.
 """
 
 from . import (
@@ -12,6 +13,7 @@ from . import (
     bounds,
     bradley,
     crack_regimes,
+    detachment,
     dmt,
     empirical,
     greenwood,
@@ -19,8 +21,17 @@ from . import (
     jkr,
     lennard_jones,
     maugis,
+    modulus_file,
     persson_brener,
     profiles,
+    punch,
+    punch_crossover,
+    punch_curve,
+    punch_design,
+    punch_laws,
+    punch_map,
+    punch_rate,
+    punch_unloading,
     rate,
     tabulated,
     tabulated_modulus,
@@ -33,6 +44,7 @@ __all__ = [
     "bounds",
     "bradley",
     "crack_regimes",
+    "detachment",
     "dmt",
     "empirical",
     "greenwood",
@@ -40,8 +52,17 @@ __all__ = [
     "jkr",
     "lennard_jones",
     "maugis",
+    "modulus_file",
     "persson_brener",
     "profiles",
+    "punch",
+    "punch_crossover",
+    "punch_curve",
+    "punch_design",
+    "punch_laws",
+    "punch_map",
+    "punch_rate",
+    "punch_unloading",
     "rate",
     "tabulated",
     "tabulated_modulus",

@@ -20,6 +20,11 @@ UNITS = {
     "strength": " Pa",
     "work_of_adhesion": " J/m^2",
     "force": " N",
+    "half_width": " m",
+    "thickness": " m",
+    "ligament": " m",
+    "stress": " Pa",
+    "pull_off_stress": " Pa",
 }
 # A limit computed by one formula and passed to another may miss it by the last digits.
 ROUND_OFF = 16 * np.finfo(float).eps
@@ -52,6 +57,16 @@ def at_least(lower: npt.ArrayLike, hint: str, **quantity: npt.ArrayLike) -> Any:
             f"{name} must be finite and at least {limit:.6g}{unit}, got {given}{unit}; {hint}"
         )
     return np.maximum(x, low)
+
+
+def ratio(modulus_ratio: npt.ArrayLike) -> Any:
+    """Return the modulus ratio as a float array in (0, 1]."""
+    k = positive(modulus_ratio=modulus_ratio)
+    if np.any(k > 1):
+        raise ValueError(
+            f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
+        )
+    return k
 
 
 def plain(x: Any) -> Any:

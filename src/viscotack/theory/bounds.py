@@ -11,19 +11,18 @@ Parameters: ``radius`` R [m], ``contact_modulus`` the rubbery :math:`E_0^*` [Pa]
 in (0, 1]. Force and work are positive numbers. These are limits in rate; that everything
 in between stays between them is what simulations show, not a theorem.
 
-Source: Maghami, PhD thesis (2025), sections 4.4 and 4.7, appendices VIII and IX, with the fast
-limit by superposition in place of Eq. 43.
+Source: Maghami, PhD thesis (2025), sections 4.4 and 4.7, appendices VIII and IX, published as
+doi:10.1016/j.jmps.2024.105844 and doi:10.1016/j.ijsolstr.2025.113584, with the fast limit by
+superposition in place of Eq. 43.
 """
 
 from __future__ import annotations
-
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import jkr, lennard_jones
-from ._checks import Number, at_least, plain, positive
+from ._checks import Number, at_least, plain, ratio
 from ._scales import contact_scales
 
 # Range of the fit of the threshold radius, in the units of the fit.
@@ -78,7 +77,7 @@ def glassy_force(
     >>> f"{glassy_force(**lens, modulus_ratio=0.1) * 1e3:.1f} mN"
     '38.2 mN'
     """
-    k = _ratio(modulus_ratio)
+    k = ratio(modulus_ratio)
     return lennard_jones.pull_off_force(
         radius=np.asarray(radius) / k,
         contact_modulus=np.asarray(contact_modulus) / k,
@@ -109,7 +108,7 @@ def glassy_force_at_radius(
     >>> f"{glassy_force_at_radius(2e-4, **lens, modulus_ratio=0.1) * 1e3:.1f} mN"
     '20.3 mN'
     """
-    k = _ratio(modulus_ratio)
+    k = ratio(modulus_ratio)
     a = at_least(0, "a contact radius is a length", contact_radius=contact_radius)
     length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     c = np.minimum((a / length) ** 3, 9 / (8 * k))
@@ -166,7 +165,7 @@ def glassy_work(
     >>> f"{glassy_work(**lens, modulus_ratio=0.1) * 1e9:.0f} nJ"
     '98 nJ'
     """
-    k = _ratio(modulus_ratio)
+    k = ratio(modulus_ratio)
     return lennard_jones.work_to_pull_off(
         radius=np.asarray(radius) / k,
         contact_modulus=np.asarray(contact_modulus) / k,
@@ -221,7 +220,7 @@ def smallest_full_radius(
     >>> f"{smallest_full_radius(**lens, modulus_ratio=0.1) * 1e6:.0f} um"
     '405 um'
     """
-    k = _ratio(modulus_ratio)
+    k = ratio(modulus_ratio)
     length, _, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
     return plain(length * np.cbrt(9 / (8 * k)))
 
@@ -259,12 +258,3 @@ def threshold_contact_radius(
     least = jkr.pull_off_force(radius=radius, work_of_adhesion=work_of_adhesion)
     P = at_least(least, "no rate detaches below the elastic force", force=force) / load
     return plain(length * (P / _THRESHOLD_COEFFICIENT) ** (1 / _THRESHOLD_EXPONENT))
-
-
-def _ratio(modulus_ratio: Any) -> Any:
-    k = positive(modulus_ratio=modulus_ratio)
-    if np.any(k > 1):
-        raise ValueError(
-            f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
-        )
-    return k

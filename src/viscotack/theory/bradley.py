@@ -6,7 +6,8 @@ Parameters: ``radius`` R of the sphere [m], ``work_of_adhesion`` :math:`\Delta\g
 gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small against R, Tabor
 number tending to zero. For a deformable solid use :mod:`viscotack.theory.maugis`.
 
-Source: Bradley (1932), Philosophical Magazine 13, 853, with the 3-9 traction of Eq. 2.1.
+Source: Bradley (1932), Philosophical Magazine 13, 853 (no DOI known to this package), with the 3-9
+traction of Eq. 2.1, that of Greenwood (1997), doi:10.1098/rspa.1997.0070.
 """
 
 from __future__ import annotations

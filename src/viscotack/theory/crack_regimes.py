@@ -6,8 +6,8 @@ with a power of it that follows the breadth of the spectrum (:func:`local_expone
 :mod:`viscotack.theory.persson_brener`, :math:`\hat v = v \tau_0 / l_0`.
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
-Fig. 4.6 and appendix IV, whose fit q1 = -0.0125 + 3.136 n stands for the exact coefficient below
-at k = 0.
+Fig. 4.6 and appendix IV, published as doi:10.1016/j.jmps.2024.105844, whose fit
+q1 = -0.0125 + 3.136 n stands for the exact coefficient below at k = 0.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _crack, persson_brener
-from ._checks import Number, at_least, plain, positive
+from ._checks import Number, at_least, plain, positive, ratio
 
 _PER_DECADE = 40
 
@@ -45,11 +45,7 @@ def slow_amplification(
     >>> f"{slow_amplification(0.01, modulus_ratio=0.1, exponent=0.6):.4f}"
     '1.0170'
     """
-    k, n = positive(modulus_ratio=modulus_ratio, exponent=exponent)
-    if np.any(k > 1):
-        raise ValueError(
-            f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
-        )
+    k, n = ratio(modulus_ratio), positive(exponent=exponent)
     v = at_least(0, "a crack that closes is another problem", speed=speed)
     return plain(1 + np.pi * n * (1 - k) * v)
 

@@ -3,8 +3,9 @@ r"""Laws that fit measured adhesion: Gent-Schultz, the loss in the process zone,
 They say what a material did in a range of speed and temperature; nothing else carries them outside
 it. Speeds are those of the crack [m/s].
 
-Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25, 4.28 and Fig. 4.10b; Gent & Schultz (1972);
-Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
+Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25, 4.28 and Fig. 4.10b, published as
+doi:10.1016/j.jmps.2024.105844; Gent & Schultz (1972), J. Adhesion 3, 281 (no DOI known to this
+package); Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
 """
 
 from __future__ import annotations

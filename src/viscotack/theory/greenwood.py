@@ -14,7 +14,8 @@ and :func:`cohesive_zone_length` for l: multiply by l/tau_0 for m/s. Range: stea
 in a half-space much larger than l Gamma, linear viscoelastic solid. ``material`` is any of
 :mod:`viscotack.materials`.
 
-Source: Greenwood (2004), in the form of Maghami, PhD thesis (2025), chapter 3.
+Source: Greenwood (2004), J. Phys. D 37, 2557 (no DOI known to this package), in the form of
+Maghami, PhD thesis (2025), chapter 3, published as doi:10.1016/j.engfracmech.2024.109898.
 """
 
 from __future__ import annotations

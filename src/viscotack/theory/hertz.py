@@ -3,6 +3,8 @@ r"""Hertz: a rigid sphere pressed into an elastic half-space without adhesion.
 Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa].
 Range: contact radius small against R (parabolic profile), no adhesion. With short-range
 adhesion use :mod:`viscotack.theory.jkr`, with long-range adhesion :mod:`viscotack.theory.dmt`.
+
+Source: Hertz (1882), doi:10.1515/crll.1882.92.156.
 """
 
 from __future__ import annotations

@@ -13,8 +13,8 @@ mu, :math:`\tfrac43 - f \sim \mu^{3/2}` and :math:`f - 1 \sim \mu^{-2} (c + \ln\
 last value of the table: errors below 1e-3 of the force and 1 % of the work.
 
 Source: the table is this package's, remade by ``benchmarks/elastic_table.py``; limits of Bradley
-(1932), Philosophical Magazine 13, 853, and Johnson, Kendall & Roberts (1971),
-doi:10.1098/rspa.1971.0141.
+(1932), Philosophical Magazine 13, 853 (no DOI known to this package), and Johnson, Kendall &
+Roberts (1971), doi:10.1098/rspa.1971.0141.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma runs fro
 to glassy over rubbery modulus. ``material`` is any of :mod:`viscotack.materials`.
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, in the form of Maghami, PhD
-thesis (2025), chapter 4.
+thesis (2025), chapter 4, published as doi:10.1016/j.jmps.2024.105844.
 """
 
 from __future__ import annotations

@@ -1,4 +1,8 @@
-"""A measured or published spectrum as a table, as a material for the theories of a crack."""
+"""A measured or published spectrum as a table, as a material for the theories of a crack.
+
+Source: the definition of a retardation spectrum, in no need of a DOI; the laws that take it have
+theirs.
+"""
 
 from __future__ import annotations
 

@@ -8,10 +8,11 @@ of adhesion G, and the edge recedes as a crack of Persson and Brener with that e
           \frac{G}{\Delta\gamma_0} = \Gamma\!\left(-\frac{da}{dt}\right), \quad
           \frac{d\delta}{dt} = -r
 
-after Muller (1999), with the law of :mod:`viscotack.theory.persson_brener` in place of a power
-law. Range: large Tabor number, and time enough for the bulk to relax while the edge moves:
-slow or moderate retraction. In fast retraction the bulk stiffens as well, and the curve is only
-near. Against simulations of power-law solids (k = 0.1, n 0.4 to 1.6, deep preload) with
+after Muller (1999) (no DOI known to this package; taken up by Ciavarella (2021),
+doi:10.1080/01694243.2021.1882766), with the law of :mod:`viscotack.theory.persson_brener` in
+place of a power law. Range: large Tabor number, and time enough for the bulk to relax while the
+edge moves: slow or moderate retraction. In fast retraction the bulk stiffens as well, and the curve
+is only near. Against simulations of power-law solids (k = 0.1, n 0.4 to 1.6, deep preload) with
 alpha = pi/9 in the tip length, the pull-off force is
 
 - at mu = 3.24: 3 % low up to rates of 10 h0/tau0, all of it the range of the forces (the
