@@ -1,13 +1,15 @@
 """The advisor, and the commands that answer at once."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import viscotack as vt
 from viscotack.cli import main
-from viscotack.theory import jkr, maugis, persson_brener
+from viscotack.protocol import Dwell
+from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
 
 POWER_LAW = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
@@ -61,7 +63,15 @@ def test_the_regime_follows_the_rate(rate, regime, use):
 
 @pytest.mark.parametrize(
     ("rate", "tabor", "exponent"),
-    [(1e-3, 3.24, 0.8), (1.0, 3.24, 0.8), (10.0, 3.24, 1.6), (10.0, 8.0, 0.4), (1.0, 1.0, 0.8)],
+    [
+        (1e-3, 3.24, 0.8),
+        (1.0, 3.24, 0.8),
+        (10.0, 3.24, 1.6),
+        (10.0, 8.0, 0.4),
+        (1.0, 1.0, 0.8),
+        (1e3, 3.24, 0.8),
+        (1e6, 5.0, 1.6),
+    ],
 )
 def test_what_is_said_to_apply_is_as_good_as_it_is_said_to_be(rate, tabor, exponent):
     case = groups(rate, tabor=tabor, exponent=exponent)
@@ -71,6 +81,33 @@ def test_what_is_said_to_apply_is_as_good_as_it_is_said_to_be(rate, tabor, expon
         if e.applies and e.pull_off_force is not None:
             # the simulation itself is good to half a per cent here
             assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
+
+
+@pytest.mark.parametrize("rate", [1.0, 1e3])
+def test_the_speed_of_the_edge_is_that_of_a_simulation(rate):
+    case = groups(rate).in_si(
+        radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15, time_unit=0.1, poisson_ratio=0.5
+    )
+    result = vt.solve(case, accuracy=5e-3, until="pull-off", estimate_error=False)
+    speed = vt.crack_speed_at_pull_off(result) * case.scales().edge_speed
+    assert vt.advise(case).crack_speed_m_per_s == pytest.approx(speed, rel=0.25, abs=0)
+
+
+def test_a_start_too_light_for_the_rate_has_no_state_at_pull_off():
+    light = estimate(vt.advise(groups(1e4, start=vt.AtRadius(1.7))), "detachment")
+    assert not light.applies and light.pull_off_force is None and "too light" in light.why
+    long = estimate(vt.advise(groups(1e4, tabor=0.5, start=vt.AtRadius(6.0))), "detachment")
+    assert not long.applies and "reach too far" in long.why
+
+
+def test_the_glassy_band_widens_with_the_range_of_the_forces_and_the_lightness_of_the_start():
+    bands = [
+        estimate(vt.advise(groups(1e8, tabor=mu, start=vt.AtRadius(x))), "glassy").error
+        for mu, x in ((5.0, 6.0), (1.0, 6.0), (1.0, 5.0))
+    ]
+    assert 0.05 <= bands[0] < bands[1] < bands[2] <= 0.25
+    far = estimate(vt.advise(groups(1e8, tabor=0.3, start=vt.AtRadius(3.5))), "glassy")
+    assert not far.applies and "larger contact at the start" in far.why
 
 
 def test_the_limits_bracket_the_simulation():
@@ -150,6 +187,14 @@ def test_advice_does_not_depend_on_the_unit_of_time():
     )
 
 
+@pytest.mark.parametrize(
+    "change", [dict(rate=None, moves=(Dwell(1.0),)), dict(stiffness=1.0), dict(moves=(Dwell(1.0),))]
+)
+def test_other_tests_than_a_steady_retraction_get_no_advice(change):
+    with pytest.raises(ValueError, match="a rigid drive pulls off at a constant speed; simulate"):
+        vt.advise(replace(groups(1.0), **change))
+
+
 @pytest.mark.slow
 def test_beyond_the_computed_threshold_force_hardly_grows():
     case = groups(10**0.5, exponent=1.6)
@@ -188,7 +233,7 @@ def test_advise_prints_sentences_or_one_object(capsys):
     assert "Use: unloading." in capsys.readouterr().out
     assert call(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["use"] == "unloading" and len(found["estimates"]) == 5
+    assert found["use"] == "unloading" and len(found["estimates"]) == 6
     assert found["sentences"][-1] == "Use: unloading."
 
 
@@ -278,6 +323,53 @@ def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path,
             [1.0, 10.0], material=groups(1.0, exponent=0.6).material
         )
         assert found["amplification"] == pytest.approx(expected, rel=1e-12, abs=0)
+
+
+MODULUS = "frequency_Hz,storage_MPa,loss_kPa\n0.1,1.01,30\n1,1.1,200\n10,2,900\n100,4,3000\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [
+        ("persson-brener", tabulated_modulus.amplification),
+        ("greenwood", tabulated_modulus.greenwood_amplification),
+    ],
+)
+def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, capsys):
+    file, picture = tmp_path / "dma.csv", tmp_path / "crack.png"
+    file.write_text(MODULUS)
+    law = ["theory", name, "--modulus-table", file, "--rubbery-modulus", "1 MPa"]
+    assert call([*law, "--speed", "2", "--speed", "20", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    modulus = modulus_file.read_modulus(file, rubbery_modulus=1e6)
+    low, high = function([2.0, 20.0], modulus=modulus)
+    assert found == {
+        "speed": [2, 20],
+        "amplification_low": pytest.approx(low, rel=1e-12, abs=0),
+        "amplification_high": pytest.approx(high, rel=1e-12, abs=0),
+    }
+    assert call([*law, "--plot", picture]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 42
+    assert picture.stat().st_size > 1000
+
+
+def test_a_measured_modulus_is_refused_in_words(tmp_path, capsys):
+    file = tmp_path / "dma.csv"
+    file.write_text(MODULUS)
+    table, plateau = ["--modulus-table", file], ["--rubbery-modulus", "1 MPa"]
+    for arguments, words in (
+        (table, "--rubbery-modulus missing"),
+        (plateau, "--modulus-table missing"),
+        ([*table, "--rubbery-modulus", "1"], "has no unit"),
+        ([*table, "--rubbery-modulus", "-1 MPa"], "--rubbery-modulus must be positive"),
+        ([*table, *plateau, "--exponent", "1"], "leave out --exponent"),
+        ([*table, *plateau, "--speed", "1e9"], "measure a wider range"),
+        (["--modulus-table", tmp_path, *plateau], "is a folder"),
+        (["--modulus-table", tmp_path / "none.csv", *plateau], "there is no file"),
+    ):
+        assert call(["theory", "persson-brener", *arguments]) == 2
+        out, err = capsys.readouterr()
+        assert words in err and out == ""
 
 
 def test_theory_refuses_what_is_impossible(tmp_path, capsys):

@@ -150,14 +150,23 @@ def test_scales_with_units_turn_groups_into_si(fake, capsys):
             "got --preload and --preload-force",
         ),
         ("--material elastic --tabor 2 --preload 3 --exponent 1", "--exponent does not go with"),
-        ("--material rubber --tabor 2 --preload 3", "--material must be power-law, elastic, sls"),
-        ("--material prony --tabor 2 --preload 3", "or prony:FILE, got 'prony'"),
+        ("--material rubber --tabor 2 --preload 3", "--material must be .*power-law, elastic, sls"),
+        ("--material prony --tabor 2 --preload 3", "prony:FILE.* got 'prony'"),
         ("--material elastic:x --tabor 2 --preload 3", "--material must be"),
         ("--material prony:no.csv --tabor 2 --preload 3 --rate 1", "there is no file no.csv"),
         ("--material elastic --tabor -2 --preload 3", "--tabor must be positive, got -2.0$"),
         ("--material elastic --tabor nan --preload 3", "--tabor must be finite, got nan"),
-        ("--material elastic --tabor 2 --preload nan", "depth must be finite"),
-        ("--material elastic --tabor 2 --preload-radius 0", "contact_radius must be positive"),
+        ("--material elastic --tabor 2 --preload nan", "--preload must be finite, got nan$"),
+        ("--material elastic --tabor 2 --preload-force inf", "--preload-force must be .* got inf$"),
+        ("--material elastic --tabor 2 --preload-radius 0", "--preload-radius must be .* got 0.0$"),
+        (
+            "--material elastic --tabor 2 --preload 1e300",
+            "--preload 1e.300 is a contact of radius .* a simulation takes up to 1000",
+        ),
+        ("--material elastic --tabor 2 --preload-force 1e300", "up to 1000"),
+        ("--material elastic --tabor 2 --preload-force 1e12", "up to 1000"),
+        ("--material elastic --tabor 2 --preload-radius 1e10", "up to 1000"),
+        ("--material elastic --tabor 1e-300 --preload 3", "up to 1000"),
         (
             "--tabor 2 --modulus-ratio 10 --exponent 1 --preload 3 --rate 1",
             "rubbery over the glassy modulus, in .0, 1., got 10; perhaps 0.1 is meant",
@@ -195,12 +204,16 @@ def test_wrong_flags_are_refused_in_words(flags, words, fake, capsys):
     [
         ({"radius": None}, "--radius missing to go to SI"),
         ({"tau0": None}, "--tau0 missing to go to SI"),
-        ({"work_of_adhesion": None}, "--equilibrium-gap or --work-of-adhesion"),
-        ({"equilibrium_gap": "1 um"}, "not both"),
+        (
+            {"work_of_adhesion": None},
+            "exactly one of --equilibrium-gap and --work-of-adhesion, got none",
+        ),
+        ({"equilibrium_gap": "1 um"}, "exactly one of .* got both"),
         ({"radius": "5.19"}, "--radius: '5.19' has no unit"),
         ({"radius": "5.19 kg"}, '--radius: .* something in m; for example --radius "5.19 mm"'),
         ({"radius": "5.19 um"}, "beyond small strain|too long"),
         ({"poisson_ratio": "0.7"}, "poisson_ratio must lie between 0 and 0.5"),
+        ({"radius": "1e300 m"}, "too large or too small to compute with; check its unit"),
     ],
 )
 def test_wrong_scales_are_refused_in_words(changes, words, fake, capsys):
@@ -218,12 +231,33 @@ def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
     assert "--tau0 is not needed" in wrong([*SPHERE, *timed, *scales()], capsys)
 
 
-def test_a_start_that_does_not_exist_is_wrong_input(monkeypatch, capsys):
-    def solve(problem, **options):
-        raise ValueError("no relaxed contact exists at a depth of -300 h0")
+def test_a_start_that_does_not_exist_is_wrong_input(capsys):
+    start = "--material elastic --tabor 3.24 --preload -300".split()
+    assert "no relaxed contact exists" in wrong([*SPHERE, *start], capsys)
 
-    monkeypatch.setattr(bem, "solve", solve)
-    assert "no relaxed contact exists" in wrong([*SPHERE, *ELASTIC], capsys)
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        lambda *problem, **options: int(np.float64("nan")),
+        lambda *problem, **options: np.linalg.cholesky(-np.eye(2)),
+        lambda *problem, **options: 1 / 0,
+    ],
+)
+def test_a_defect_is_not_taken_for_wrong_input(broken, monkeypatch, capsys):
+    """ValueErrors as well: only those that the package words itself are about the input."""
+    monkeypatch.setattr(bem, "solve", broken)
+    assert call([*SPHERE, *ELASTIC]) == 3
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "Traceback" in err and "a defect of viscotack and not of the input" in err
+
+
+@pytest.mark.parametrize("command", [SPHERE, ["advise"], ["show"]])
+def test_a_folder_in_place_of_a_file_is_named(command, tmp_path, capsys):
+    message = wrong([*command, tmp_path], capsys)
+    assert f"{tmp_path} is a folder; give the name of a file" in message
+    assert "Errno" not in message
 
 
 def test_json_is_one_object_and_nothing_else(fake, capsys, tmp_path):

@@ -1,8 +1,8 @@
 """Which answer may be trusted: the regime of a problem, and what each tier says about it.
 
-Nothing here simulates, but :func:`threshold_contact_radius`. The limits of the tiers were measured
-against :func:`viscotack.solve`: power-law solids, modulus ratios 0.01 and 0.1, exponents 0.4 to
-1.6, Tabor numbers 0.3 to 8, rates 0.01 to 1e5.
+Nothing here simulates, but :func:`threshold_contact_radius`. The limits of the tiers and their
+errors were measured against :func:`viscotack.solve`: power laws and standard solids, modulus
+ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates 0.1 to 1e8.
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from .problem import LARGEST_CONTACT, Groups, Problem
-from .protocol import AtDepth, AtForce, AtRadius
-from .theory import bounds, jkr, lennard_jones, persson_brener, rate, unloading
+from .protocol import AtDepth, AtForce, AtRadius, Start
+from .theory import bounds, detachment, jkr, lennard_jones, persson_brener, rate, unloading
+from .traction import LennardJones
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9
@@ -24,6 +25,15 @@ _DMT, _JKR = 0.1, 3.0
 _SLOW, _FAST = 0.02, 0.9
 # Retraction over mean retardation, in contact heights, up to which the bulk is relaxed or nearly.
 _RELAXED, _NEARLY = 6.0, 25.0
+# Errors that hold nine of ten cases. `benchmarks/rate_law.py` measures their cover again: of 384
+# cases they were not chosen by (--seed 7) 92 % of 121 (glassy), and 90 % or more of 109 (rate-fit),
+# 263 (detachment) and 101 (unloading) that each applies to.
+_FIT_ERROR = 0.22
+# Of `detachment`: Tabor number, start over the radius at pull-off, error.
+_DETACHMENT = ((2.0, 1.5, 0.07), (2.0, 1.2, 0.15), (1.0, 2.0, 0.12))
+# Of the glassy limit: an error of c (mu k^(1/3))^p s^q and at least the first number, s the start
+# over the smallest contact of the full glassy force; beyond the last number it is of no use.
+_GLASSY_LEAST, _GLASSY_ERROR, _GLASSY_MOST = 0.05, (0.6, -1.3, -3.0), 0.25
 # Crack speed beyond which linear theory fell short of silicone experiments [m/s].
 LINEAR_SPEED = 100e-6
 _SMALL_STRAIN = 0.2
@@ -39,11 +49,11 @@ class Estimate:
     Attributes
     ----------
     tier : str
-        "elastic", "unloading", "rate-fit", "glassy" or "simulation".
+        "elastic", "unloading", "detachment", "rate-fit", "glassy" or "simulation".
     pull_off_force : float or None
         In 1.5 pi R dg0; None where the tier has no answer, or is not run here.
     error : float or None
-        Relative error to expect where it applies; None where it does not.
+        Relative error that holds nine of ten cases where it applies; None where it does not.
     applies : bool
         Whether the problem lies in its range.
     why : str
@@ -129,6 +139,11 @@ def advise(problem: Problem | Groups) -> Advice:
     Advice
         Regimes as data, the estimate of each tier with its range, sentences.
 
+    Raises
+    ------
+    ValueError
+        If it is another test than the retraction of a relaxed contact, or another traction.
+
     Examples
     --------
     >>> from viscotack import AtDepth, Groups, RetardationPowerLaw
@@ -140,6 +155,7 @@ def advise(problem: Problem | Groups) -> Advice:
     'unloading: rate-dependent, above the threshold preload'
     """
     groups = problem.groups()
+    _check(groups)
     mu, k = groups.tabor, groups.modulus_ratio
     slowest = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
     fastest = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
@@ -147,8 +163,16 @@ def advise(problem: Problem | Groups) -> Advice:
     # where JKR has no such start the regime is that of a pull from no load
     free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
     curve = _unloading(groups, free if depth is None else depth)
-    force = slowest if curve is None else slowest * curve.pull_off_force / _JKR_FORCE
-    regime = _rate_regime(groups, curve, force / slowest)
+    state = None if depth is None else _at_pull_off(groups, depth)
+    force, gamma, edge = slowest, 1.0, None
+    if state is not None:
+        force, gamma = slowest * float(state.force) / _JKR_FORCE, float(state.amplification)
+        edge = float(state.crack_speed)
+    elif curve is not None:
+        place = int(np.argmin(curve.force))
+        force = slowest * curve.pull_off_force / _JKR_FORCE
+        gamma, edge = float(curve.amplification[place]), float(curve.edge_speed[place])
+    regime = _rate_regime(groups, force / slowest, gamma)
     start = None
     if depth is not None:
         start = float(np.asarray(jkr.contact_radius_at_depth(depth, **_UNIT))) / _TIP
@@ -159,19 +183,19 @@ def advise(problem: Problem | Groups) -> Advice:
         preload = "above" if start is not None and start >= threshold else "below"
     estimates = (
         _elastic(regime, slowest),
-        _unloaded(groups, None if curve is None or depth is None else force),
+        _unloaded(groups, slowest, None if depth is None else curve),
+        _detached(groups, slowest, start, state),
         _fitted(groups, preload),
-        _glassy(groups, regime, fastest, start, slowest),
+        _glassy(groups, regime, fastest, start, slowest, gamma),
         Estimate("simulation", None, 2e-3, True, "solve covers all of this, in about a second"),
     )
     good = [e for e in estimates if e.applies and e.error is not None and e.error <= 0.05]
     scales = problem.scales() if isinstance(problem, Problem) else None
     speed = strain = None
     if scales is not None and isinstance(problem, Problem):
-        if curve is not None:
-            place = int(np.argmin(curve.force))
+        if edge is not None:
             # radii are in beta, times in the unit of the material
-            speed = float(curve.edge_speed[place]) * scales.edge_speed
+            speed = edge * scales.edge_speed
         if start is not None:
             strain = start * scales.radius / problem.geometry.radius
     return Advice(
@@ -262,6 +286,26 @@ _UNIT: dict[str, Any] = dict(radius=1.0, contact_modulus=1.0, work_of_adhesion=1
 _JKR_FORCE = 1.5 * np.pi
 
 
+def _check(groups: Groups) -> None:
+    """Refuse tests for which the theories have no answer."""
+    steady = groups.rate is not None and not groups.moves and groups.stiffness is None
+    if not isinstance(groups.start, Start) or not steady:
+        raise ValueError(
+            "advice is for a relaxed contact that a rigid drive pulls off at a constant speed; "
+            "simulate other tests"
+        )
+    if not isinstance(groups.traction, LennardJones):
+        raise ValueError(
+            "advice is for the Lennard-Jones traction, got "
+            f"{type(groups.traction).__name__}; simulate others"
+        )
+
+
+def _rate(groups: Groups) -> float:
+    assert groups.rate is not None, "checked at the door"
+    return groups.rate
+
+
 def _start_depth(groups: Groups) -> float | None:
     """Return the depth of the start of JKR, or None where JKR has no contact."""
     start = groups.start
@@ -273,26 +317,41 @@ def _start_depth(groups: Groups) -> float | None:
         radius = jkr.contact_radius_at_force(start.force * _JKR_FORCE, **_UNIT)
         depth = float(np.asarray(jkr.depth(radius, **_UNIT)))
     else:
+        assert isinstance(start, AtRadius), "checked at the door"
         depth = float(np.asarray(jkr.depth(start.contact_radius * _TIP, **_UNIT)))
     return depth if depth > float(np.asarray(jkr.instability(**_UNIT).depth)) else None
 
 
-def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
-    if groups.modulus_ratio >= 1:
-        return None
+def _crack(groups: Groups) -> dict[str, Any]:
+    """Return speed, material and tip length as the theories of retraction take them."""
     length = persson_brener.crack_tip_length(
         contact_modulus=1.0,
         work_of_adhesion=1.0,
         strength=groups.traction.strength * groups.tabor,
         strength_ratio=STRENGTH_RATIO,
     )
-    return unloading.retraction(
-        depth,
-        speed=groups.rate / groups.tabor,
-        material=groups.material,
-        tip_length=float(np.asarray(length)),
-        **_UNIT,
-    )
+    return {
+        "speed": _rate(groups) / groups.tabor,
+        "material": groups.material,
+        "tip_length": float(np.asarray(length)),
+    }
+
+
+def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
+    if groups.modulus_ratio >= 1:
+        return None
+    return unloading.retraction(depth, **_crack(groups), **_UNIT)
+
+
+def _at_pull_off(groups: Groups, depth: float) -> detachment.State | None:
+    """Return the state at pull-off, or None where the preload is too light for it."""
+    if groups.modulus_ratio >= 1:
+        return None
+    try:
+        return detachment.at_pull_off(depth=depth, **_crack(groups), **_UNIT)
+    except ValueError:
+        # the problem itself is possible: what is refused is the start
+        return None
 
 
 def _mean_time(groups: Groups) -> float:
@@ -307,16 +366,14 @@ def _mean_time(groups: Groups) -> float:
 
 def _haste(groups: Groups) -> float:
     """Return the contact heights retracted in the mean retardation time."""
-    return groups.rate * _mean_time(groups) / (np.pi ** (2 / 3) * groups.tabor)
+    return _rate(groups) * _mean_time(groups) / (np.pi ** (2 / 3) * groups.tabor)
 
 
-def _rate_regime(groups: Groups, curve: unloading.Unloading | None, amplification: float) -> str:
-    if curve is None or amplification - 1 < _SLOW:
+def _rate_regime(groups: Groups, amplification: float, gamma: float) -> str:
+    """Return the regime from the force over the slow one and the energy of the edge."""
+    if amplification - 1 < _SLOW:
         return "quasi-static"
-    place = int(np.argmin(curve.force))
-    if curve.amplification[place] > _FAST / groups.modulus_ratio:
-        return "glassy"
-    return "rate-dependent"
+    return "glassy" if gamma * groups.modulus_ratio > _FAST else "rate-dependent"
 
 
 def _threshold(groups: Groups, slowest: float) -> float:
@@ -337,15 +394,16 @@ def _elastic(regime: str, slowest: float) -> Estimate:
     return Estimate("elastic", slowest, None, False, why)
 
 
-def _unloaded(groups: Groups, force: float | None) -> Estimate:
+def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None) -> Estimate:
     name, haste, mu = "unloading", _haste(groups), groups.tabor
-    if force is None:
+    if curve is None:
         why = (
             "an elastic solid has no rate"
             if groups.modulus_ratio >= 1
             else "JKR has no contact at the start"
         )
         return Estimate(name, None, None, False, why)
+    force = slowest * curve.pull_off_force / _JKR_FORCE
     if mu < 1:
         why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
         return Estimate(name, force, None, False, why)
@@ -362,11 +420,36 @@ def _unloaded(groups: Groups, force: float | None) -> Estimate:
     return Estimate(name, force, error, True, why)
 
 
+def _detached(
+    groups: Groups, slowest: float, start: float | None, state: detachment.State | None
+) -> Estimate:
+    name, mu = "detachment", groups.tabor
+    if groups.modulus_ratio >= 1:
+        return Estimate(name, None, None, False, "an elastic solid has no rate")
+    if state is None or start is None:
+        why = "the preload is too light for this rate: the start decides, and not the rate alone"
+        return Estimate(name, None, None, False, why)
+    force = slowest * float(state.force) / _JKR_FORCE
+    margin = start * _TIP / float(state.contact_radius)
+    for least, needed, error in _DETACHMENT:
+        if mu >= least and margin >= needed:
+            why = "the edge moves as a crack, and the bulk answers with the creep up to then"
+            return Estimate(name, force, error, True, why)
+    if mu < 1:
+        why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
+    else:
+        why = (
+            f"the start is only {margin:.3g} times the contact radius at pull-off; it needs "
+            f"{1.2 if mu >= 2 else 2:g} times"
+        )
+    return Estimate(name, force, None, False, why)
+
+
 def _fitted(groups: Groups, preload: str) -> Estimate:
     name, mu, k = "rate-fit", groups.tabor, groups.modulus_ratio
     if k >= 1:
         return Estimate(name, None, None, False, "an elastic solid has no rate")
-    r = float(np.asarray(rate.rate_as_published(groups.rate * groups.material.time_unit)))
+    r = float(np.asarray(rate.rate_as_published(_rate(groups) * groups.material.time_unit)))
     speed = rate.COEFFICIENT * r**rate.EXPONENT
     force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
     if abs(np.log(mu / rate.FITTED_TABOR)) > np.log(1.25):
@@ -377,13 +460,18 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
         why = "Eq. 4.24 was fitted above the threshold preload"
     else:
         return Estimate(
-            name, force, 0.2, True, "the fit of crack speed to rate, and Persson-Brener"
+            name, force, _FIT_ERROR, True, "the fit of crack speed to rate, and Persson-Brener"
         )
     return Estimate(name, force, None, False, why)
 
 
 def _glassy(
-    groups: Groups, regime: str, fastest: float, start: float | None, slowest: float
+    groups: Groups,
+    regime: str,
+    fastest: float,
+    start: float | None,
+    slowest: float,
+    gamma: float,
 ) -> Estimate:
     name, k = "glassy", groups.modulus_ratio
     if k >= 1:
@@ -398,7 +486,17 @@ def _glassy(
     if regime != "glassy":
         why = "the retraction is not that fast; this force is an upper limit"
         return Estimate(name, fastest, None, False, why)
-    return Estimate(name, fastest, 0.25, True, "the edge runs at nearly the glassy energy")
+    c, p, q = _GLASSY_ERROR
+    # what the preload leaves out, and what the edge lacks of the glassy energy
+    light = c * (groups.tabor * k ** (1 / 3)) ** p * (start / least) ** q
+    error = max(_GLASSY_LEAST, light + 1 / (gamma * k) - 1)
+    if error > _GLASSY_MOST:
+        why = (
+            "the forces reach so far that the full glassy force takes a larger contact at the "
+            "start; this force is an upper limit"
+        )
+        return Estimate(name, fastest, None, False, why)
+    return Estimate(name, fastest, error, True, "the edge runs at nearly the glassy energy")
 
 
 def _sentences(advice: Advice) -> list[str]:

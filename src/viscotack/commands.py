@@ -1,13 +1,16 @@
 """The commands: reads flags and files, runs the simulation, writes words, tables and pictures.
 
-Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong.
+Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong, 3 a defect
+of viscotack.
 With --json exactly one object goes to standard output, everything else to standard error.
 """
 
+import dis
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator
+import traceback
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
@@ -20,6 +23,9 @@ from . import __version__, plot
 from .case_file import read_case
 from .flags import problem_from_flags
 from .observables import summary
+from .outputs import kind_of
+from .problem import Problem
+from .punch_problem import Case, PunchProblem
 from .result import Outcome, Result, load, save, write_csv
 
 application = typer.Typer(
@@ -71,12 +77,24 @@ PlotWhat = Annotated[
 CsvFile = Annotated[
     Path | None, Option("--csv", metavar="FILE", help="Write the curve as a table.")
 ]
+SaveFile = Annotated[
+    Path | None,
+    Option("--save", "-o", metavar="FILE", help="Save all of the result, for viscotack show."),
+]
+HowFar = Annotated[
+    Until,
+    Option("--until", help="Stop just past the force minimum, or when the surfaces are apart."),
+]
+Accuracy = Annotated[
+    float, Option("--accuracy", metavar="RELATIVE", help="Accuracy wanted of the pull-off force.")
+]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
 ]
 
 
-def _flag(name: str, metavar: str, words: str) -> Any:
+def flag(name: str, metavar: str, words: str) -> Any:
+    """Return an option of a command that states a problem."""
     return Option(name, metavar=metavar, help=words, show_default=False)
 
 
@@ -102,11 +120,11 @@ def simulate_sphere(
     ] = None,
     tabor: Annotated[
         float | None,
-        _flag("--tabor", "MU", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)."),
+        flag("--tabor", "MU", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)."),
     ] = None,
     material: Annotated[
         str | None,
-        _flag(
+        flag(
             "--material",
             "MATERIAL",
             "power-law (also when left out): modified power law by its retardation spectrum. "
@@ -119,18 +137,18 @@ def simulate_sphere(
     ] = None,
     modulus_ratio: Annotated[
         float | None,
-        _flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1]."),
+        flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1]."),
     ] = None,
     exponent: Annotated[
-        float | None, _flag("--exponent", "N", "Exponent of the power law, in (0, 3].")
+        float | None, flag("--exponent", "N", "Exponent of the power law, in (0, 3].")
     ] = None,
     preload: Annotated[
         float | None,
-        _flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the solid."),
+        flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the solid."),
     ] = None,
     preload_force: Annotated[
         float | None,
-        _flag(
+        flag(
             "--preload-force",
             "FORCE",
             "Or: relaxed start under this force, in 1.5 pi R dg0, positive in compression.",
@@ -138,19 +156,53 @@ def simulate_sphere(
     ] = None,
     preload_radius: Annotated[
         float | None,
-        _flag(
+        flag(
             "--preload-radius",
             "RADIUS",
             "Or: relaxed start at this contact radius, in (pi R^2 dg0/E0*)^(1/3).",
         ),
     ] = None,
+    apart: Annotated[
+        float | None,
+        flag("--apart", "GAP", "Or: start at rest with the surfaces this far apart, in h0."),
+    ] = None,
+    move: Annotated[
+        list[str] | None,
+        flag(
+            "--move",
+            "WORDS",
+            "What the machine does before the retraction; give it once for each move. 'approach "
+            "SPEED to WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a "
+            "number), 'move to DEPTH in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold "
+            "drive|depth|force TIME'; all dimensionless.",
+        ),
+    ] = None,
+    stiffness: Annotated[
+        float | None,
+        flag("--stiffness", "K", "Of the machine, in 1.5 pi R dg0/h0; rigid when left out."),
+    ] = None,
     rate: Annotated[
         float | None,
-        _flag("--rate", "RATE", "Retraction speed, in h0/tau0 (prony: h0 per unit of time)."),
+        flag(
+            "--rate",
+            "RATE",
+            "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be "
+            "left out, and the test ends with the last move.",
+        ),
+    ] = None,
+    law: Annotated[
+        str | None,
+        flag(
+            "--law",
+            "LAW",
+            "Forces across the gap: lennard-jones (also when left out), dugdale, "
+            "exponential:DECAY (decay length over h0), or table:FILE, a CSV file with the header "
+            "'gap_nm,traction_kPa' or other units.",
+        ),
     ] = None,
     radius: Annotated[
         str | None,
-        _flag(
+        flag(
             "--radius",
             "LENGTH",
             'For answers in SI as well: sphere radius R with its unit, "5.19 mm". The next ones '
@@ -159,34 +211,27 @@ def simulate_sphere(
     ] = None,
     contact_modulus: Annotated[
         str | None,
-        _flag("--contact-modulus", "PRESSURE", 'SI: E0* = E0/(1 - nu^2), "1.94 MPa".'),
+        flag("--contact-modulus", "PRESSURE", 'SI: E0* = E0/(1 - nu^2), "1.94 MPa".'),
     ] = None,
     work_of_adhesion: Annotated[
         str | None,
-        _flag("--work-of-adhesion", "ENERGY", 'SI: dg0, "0.1523 J/m^2"; or --equilibrium-gap.'),
+        flag("--work-of-adhesion", "ENERGY", 'SI: dg0, "0.1523 J/m^2"; or --equilibrium-gap.'),
     ] = None,
     equilibrium_gap: Annotated[
-        str | None, _flag("--equilibrium-gap", "LENGTH", 'SI: h0, "1.55 um".')
+        str | None, flag("--equilibrium-gap", "LENGTH", 'SI: h0, "1.55 um".')
     ] = None,
     tau0: Annotated[
-        str | None, _flag("--tau0", "TIME", 'SI: the time of the material, "18.76 ms".')
+        str | None, flag("--tau0", "TIME", 'SI: the time of the material, "18.76 ms".')
     ] = None,
     poisson_ratio: Annotated[
-        str | None, _flag("--poisson-ratio", "NU", "SI: Poisson ratio, 0 to 0.5.")
+        str | None, flag("--poisson-ratio", "NU", "SI: Poisson ratio, 0 to 0.5.")
     ] = None,
-    until: Annotated[
-        Until, Option(help="Stop just past the force minimum, or when the surfaces are apart.")
-    ] = Until.DETACHED,
-    accuracy: Annotated[
-        float, Option(metavar="RELATIVE", help="Accuracy wanted of the pull-off force.")
-    ] = 2e-3,
+    until: HowFar = Until.DETACHED,
+    accuracy: Accuracy = 2e-3,
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
-    save_file: Annotated[
-        Path | None,
-        Option("--save", metavar="FILE", help="Save all of the result, for viscotack show."),
-    ] = None,
+    save_file: SaveFile = None,
     as_json: AsJson = False,
 ) -> None:
     """Pull a rigid sphere off a soft viscoelastic half-space.
@@ -206,7 +251,11 @@ def simulate_sphere(
         "preload": preload,
         "preload-force": preload_force,
         "preload-radius": preload_radius,
+        "apart": apart,
+        "move": move or None,
+        "stiffness": stiffness,
         "rate": rate,
+        "law": law,
         "radius": radius,
         "contact-modulus": contact_modulus,
         "work-of-adhesion": work_of_adhesion,
@@ -214,12 +263,46 @@ def simulate_sphere(
         "tau0": tau0,
         "poisson-ratio": poisson_ratio,
     }
+    carry_out(
+        lambda: stated_problem(case, flags, problem_from_flags, Problem),
+        accuracy=accuracy,
+        until=until,
+        files=(plot_file, csv_file, save_file),
+        plot_kind=plot_kind,
+        as_json=as_json,
+    )
+
+
+def stated_problem(
+    case: Path | None, flags: Mapping[str, Any], from_flags: Callable[[Any], Case], kind: type
+) -> Case:
+    """Return the problem that a file or the flags state; one in a file must be of the kind."""
+    if case is None:
+        return from_flags(flags)
+    given = [f"--{name}" for name, value in flags.items() if value is not None]
+    if given:
+        raise ValueError(f"{case} states the whole problem; leave out {', '.join(given)}")
+    problem = read_case(case)
+    if not isinstance(problem, kind):
+        found = "punch" if isinstance(problem, PunchProblem) else "sphere"
+        raise ValueError(f"{case} states a {found}, which has commands of its own")
+    return problem
+
+
+def carry_out(
+    state: Callable[[], Case],
+    *,
+    accuracy: float,
+    until: Until,
+    files: tuple[Path | None, Path | None, Path | None],
+    plot_kind: PlotKind,
+    as_json: bool,
+) -> None:
+    """Simulate a problem and report; the files are for picture, table and result."""
+    plot_file, csv_file, save_file = files
     with wrong_input():
-        check_files(plot_file, csv_file, save_file)
-        if case is not None and any(value is not None for value in flags.values()):
-            names = ", ".join(f"--{name}" for name, value in flags.items() if value is not None)
-            raise ValueError(f"{case} states the whole problem; leave out {names}")
-        problem = problem_from_flags(flags) if case is None else read_case(case)
+        check_files(*files)
+        problem = state()
         from .bem import solve
 
         with _progress() as progress:
@@ -248,6 +331,8 @@ def show(
     """
     with wrong_input():
         check_files(plot_file, csv_file)
+        if file.is_dir():
+            raise ValueError(f"{file} is a folder; give the name of a file")
         result = load(file)
     _report(result, as_json, plot_file, plot_kind, csv_file)
 
@@ -275,29 +360,22 @@ def _report(
         plot.save_figure(_DRAW[kind](result), plot_file)
         typer.echo(f"drew {plot_file}", err=True)
     answer = summary(result)
-    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(answer))
+    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer))
 
 
-_WORDS = {
-    "pull_off_force": ("pull-off force", "1.5 pi R dg0", "N"),
-    "work_to_pull_off": ("work to pull-off", "1.5 pi R dg0 h0", "J"),
-    "work_of_separation": ("work of separation", "1.5 pi R dg0 h0", "J"),
-    "pull_off_depth": ("depth at pull-off", "h0", "m"),
-    "contact_radius_at_pull_off": ("contact radius there", "(pi R^2 dg0/E0*)^(1/3)", "m"),
-    "crack_speed_at_pull_off": ("crack speed there", "(R^2 dg0/E0*)^(1/3)/time unit", "m_per_s"),
-}
-
-
-def _words(answer: dict[str, Any]) -> str:
+def _words(result: Result, answer: dict[str, Any]) -> str:
     """Return a summary as lines a person reads."""
     lines = [answer["status"]]
-    for name, (words, unit, si) in _WORDS.items():
-        if answer[name] is None:
+    for name, observable in kind_of(result.problem).observables.items():
+        value, unit = answer[name], observable.unit
+        if value is None:
             continue
-        line = f"  {words:<21}{answer[name]:>12.5g}  {unit:<30}"
-        if f"{name}_{si}" in answer:
-            line += f"= {answer[f'{name}_{si}']:.4g} {si.replace('_per_', '/')}"
+        line = f"  {observable.words:<21}{value:>12.5g}  {unit.text:<30}"
+        if f"{name}_{unit.tail}" in answer:
+            line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
         lines.append(line.rstrip())
+        if answer.get(f"{name}_note"):
+            lines.append(f"  {'':<21}  {answer[f'{name}_note']}")
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")
     for name, share in (answer["error_estimate"] or {}).items():
@@ -326,15 +404,42 @@ def _progress() -> Iterator[Callable[[float], None] | None]:
 
 @contextmanager
 def wrong_input() -> Iterator[None]:
-    """Turn an error about the input into a paragraph on standard error and exit status 2."""
+    """Turn an error about the input into a paragraph on standard error and exit status 2.
+
+    An error that something inside raised unasked is a defect: its traceback, and exit status 3.
+    """
     try:
         yield
     except FileNotFoundError as error:
         _stop(f"there is no file {error.filename}")
-    except (ValueError, OSError) as error:
+    except IsADirectoryError as error:
+        _stop(f"{error.filename} is a folder; give the name of a file")
+    except OSError as error:
         _stop(str(error))
+    except OverflowError:
+        _stop("a number of the input is too large or too small to compute with; check its unit")
+    except Exception as error:
+        if isinstance(error, ValueError) and _raised_here(error):
+            _stop(str(error))
+        traceback.print_exc()
+        _stop(
+            "this is a defect of viscotack and not of the input; please report the lines above", 3
+        )
 
 
-def _stop(message: str) -> NoReturn:
+def _raised_here(error: BaseException) -> bool:
+    """Return whether a `raise` in the package made the error, and not something it called."""
+    place = error.__traceback__
+    while place is not None and place.tb_next is not None:
+        place = place.tb_next
+    if place is None:
+        return False
+    # int(nan) and the like have no frame of their own: only the instruction tells
+    asked = place.tb_frame.f_code.co_code[place.tb_lasti] == dis.opmap["RAISE_VARARGS"]
+    module = place.tb_frame.f_globals.get("__name__", "")
+    return asked and module.partition(".")[0] == __name__.partition(".")[0]
+
+
+def _stop(message: str, status: int = 2) -> NoReturn:
     typer.echo(f"viscotack: {message}", err=True)
-    raise typer.Exit(2)
+    raise typer.Exit(status)

@@ -11,11 +11,15 @@ import typer
 from typer import Option
 
 from . import commands, plot
-from .case_file import read_case
 from .commands import AsJson, PlotFile, application, check_files, wrong_input
 from .flags import material_from_flags, problem_from_flags
-from .theory import greenwood, jkr, maugis, persson_brener
+from .problem import Groups, Problem
+from .theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
+from .theory.modulus_file import read_modulus
 from .units import parse, positive
+
+# Of a table over the range that matters.
+_ROWS = 41
 
 theory = typer.Typer(help="Ask a closed form.", no_args_is_help=True, rich_markup_mode=None)
 application.add_typer(theory, name="theory")
@@ -46,8 +50,26 @@ Speed = Annotated[
     Option(
         "--speed",
         metavar="V",
-        help="Crack speed, in the theory's length over the time of the material; repeat it for "
-        "more. Without it a table over the range that matters.",
+        help="Crack speed, in the theory's length over the time of the material (a second with "
+        "--modulus-table); repeat it for more. Without it a table over the range that matters.",
+    ),
+]
+ModulusTable = Annotated[
+    Path | None,
+    Option(
+        "--modulus-table",
+        metavar="FILE",
+        help="Instead of a material: a measured complex modulus, CSV with the header "
+        "'frequency_Hz,storage_MPa,loss_MPa' (or angular_frequency_rad/s, and other units). The "
+        "answer is two bounds, for what the solid may do outside of the table.",
+    ),
+]
+RubberyModulus = Annotated[
+    str | None,
+    Option(
+        "--rubbery-modulus",
+        metavar="PRESSURE",
+        help='Goes with --modulus-table: E0, the plateau at low frequency, "1.2 MPa".',
     ),
 ]
 
@@ -152,14 +174,18 @@ def theory_persson_brener(
     modulus_ratio: Ratio = None,
     exponent: Exponent = None,
     speed: Speed = None,
+    modulus_table: ModulusTable = None,
+    rubbery_modulus: RubberyModulus = None,
     plot_file: PlotFile = None,
     as_json: AsJson = False,
 ) -> None:
     """Effective over intrinsic surface energy of a moving crack (Persson and Brener).
 
-    Example: viscotack theory persson-brener --modulus-ratio 0.1 --exponent 0.6 --speed 1
+    Example: viscotack theory persson-brener --modulus-ratio 0.1 --exponent 0.6 --speed 1, or:
+    viscotack theory persson-brener --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
     """
-    _crack(persson_brener, material, modulus_ratio, exponent, speed, plot_file, as_json)
+    flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
+    _crack("persson-brener", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
 
 
 @theory.command("greenwood")
@@ -168,14 +194,18 @@ def theory_greenwood(
     modulus_ratio: Ratio = None,
     exponent: Exponent = None,
     speed: Speed = None,
+    modulus_table: ModulusTable = None,
+    rubbery_modulus: RubberyModulus = None,
     plot_file: PlotFile = None,
     as_json: AsJson = False,
 ) -> None:
     """Effective over intrinsic surface energy of a moving crack with a cohesive zone (Greenwood).
 
-    Example: viscotack theory greenwood --material sls --modulus-ratio 0.1 --speed 1 --speed 10
+    Example: viscotack theory greenwood --material sls --modulus-ratio 0.1 --speed 1 --speed 10, or:
+    viscotack theory greenwood --modulus-table dma.csv --rubbery-modulus "1.2 MPa"
     """
-    _crack(greenwood, material, modulus_ratio, exponent, speed, plot_file, as_json)
+    flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
+    _crack("greenwood", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
 
 
 def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
@@ -190,10 +220,9 @@ def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
 
     given = {name.replace("_", "-"): value for name, value in flags.items()}
     with wrong_input():
-        if case is not None and any(value is not None for value in given.values()):
-            names = ", ".join(f"--{name}" for name, value in given.items() if value is not None)
-            raise ValueError(f"{case} states the whole problem; leave out {names}")
-        advice = advise(problem_from_flags(given) if case is None else read_case(case))
+        problem = commands.stated_problem(case, given, problem_from_flags, Problem)
+        assert isinstance(problem, Problem | Groups)
+        advice = advise(problem)
     if as_json:
         found = asdict(advice) | {"sentences": advice.sentences}
         typer.echo(json.dumps(found, indent=2, allow_nan=False))
@@ -244,33 +273,81 @@ def _check_maugis(quantities: dict[str, str | None], tabor: float | None) -> Non
         raise ValueError(f"{' and '.join(missing)} missing; or give --tabor alone")
 
 
+_LAWS: dict[str, Any] = {"persson-brener": persson_brener, "greenwood": greenwood}
+_TABLE_LAWS = {
+    "persson-brener": (tabulated_modulus.amplification, tabulated_modulus.speed_range),
+    "greenwood": (
+        tabulated_modulus.greenwood_amplification,
+        tabulated_modulus.greenwood_speed_range,
+    ),
+}
+
+
 def _crack(
-    law: Any,
-    material: str | None,
-    modulus_ratio: float | None,
-    exponent: float | None,
+    name: str,
+    flags: dict[str, Any],
     speed: list[float] | None,
+    measured: tuple[Path | None, str | None],
     plot_file: Path | None,
     as_json: bool,
 ) -> None:
-    flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
+    """Answer for a material stated by flags, or for a table of a modulus and its plateau."""
     with wrong_input():
         check_files(plot_file)
-        given = {name: value for name, value in flags.items() if value is not None}
-        solid, _ = material_from_flags(given)
-        if speed:
-            v = np.array(speed)
-        elif solid.modulus_ratio < 1:
-            # from 1 % above the slowest crack to 1 % below the fastest
-            part = np.array([0.01, 0.99])
-            low, high = law.speed(1 + part * (1 / solid.modulus_ratio - 1), material=solid)
-            v = np.geomspace(low, high, 41)
+        given = {flag: value for flag, value in flags.items() if value is not None}
+        if measured == (None, None):
+            v, found = _of_material(_LAWS[name], given, speed)
+            unit = "the time of the material"
         else:
-            raise ValueError("an elastic solid has an amplification of 1 at every speed")
-        gamma = law.amplification(v, material=solid)
-    answer = {"speed": v.tolist(), "amplification": np.asarray(gamma).tolist()}
-    labels = ("speed [length of the theory / time of the material]", "amplification")
-    _answer(answer, (v, gamma), labels, as_json, plot_file, logarithmic=True)
+            v, found = _of_table(name, given, speed, *measured)
+            unit = "s"
+    answer = {"speed": v} | found
+    labels = (f"speed [length of the theory / {unit}]", "amplification")
+    curve = (v, np.stack(list(found.values()), axis=-1))
+    table = {column: values.tolist() for column, values in answer.items()}
+    _answer(table, curve, labels, as_json, plot_file, logarithmic=True)
+
+
+def _of_material(
+    law: Any, given: dict[str, Any], speed: list[float] | None
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    solid, _ = material_from_flags(given)
+    if speed:
+        v = np.array(speed)
+    elif solid.modulus_ratio < 1:
+        # from 1 % above the slowest crack to 1 % below the fastest
+        part = np.array([0.01, 0.99])
+        low, high = law.speed(1 + part * (1 / solid.modulus_ratio - 1), material=solid)
+        v = np.geomspace(low, high, _ROWS)
+    else:
+        raise ValueError("an elastic solid has an amplification of 1 at every speed")
+    return v, {"amplification": np.asarray(law.amplification(v, material=solid))}
+
+
+def _of_table(
+    name: str,
+    given: dict[str, Any],
+    speed: list[float] | None,
+    file: Path | None,
+    rubbery_modulus: str | None,
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    if given:
+        others = ", ".join(f"--{flag}" for flag in given)
+        raise ValueError(f"--modulus-table states the solid; leave out {others}")
+    if file is None or rubbery_modulus is None:
+        missing = "--modulus-table" if file is None else "--rubbery-modulus"
+        raise ValueError(f"{missing} missing; --modulus-table and --rubbery-modulus go together")
+    amplification, speed_range = _TABLE_LAWS[name]
+    plateau = positive("--rubbery-modulus", parse(rubbery_modulus, "Pa"), "Pa")
+    modulus = read_modulus(file, rubbery_modulus=plateau)
+    # not the ends themselves, which round-off may put outside
+    low, high = speed_range(modulus=modulus)
+    v = np.array(speed) if speed else np.geomspace(low * (1 + 1e-9), high * (1 - 1e-9), _ROWS)
+    found = amplification(v, modulus=modulus)
+    return v, {
+        "amplification_low": np.asarray(found.low),
+        "amplification_high": np.asarray(found.high),
+    }
 
 
 def _answer(
@@ -300,9 +377,9 @@ def _answer(
         typer.echo(json.dumps(answer, indent=2, allow_nan=False))
         return
     if isinstance(next(iter(answer.values())), list):
-        typer.echo("  ".join(f"{name:>14}" for name in answer))
+        typer.echo("  ".join(f"{name:>18}" for name in answer))
         for row in zip(*answer.values(), strict=True):
-            typer.echo("  ".join(f"{value:14.6g}" for value in row))
+            typer.echo("  ".join(f"{value:18.6g}" for value in row))
         return
     for name, value in answer.items():
         typer.echo(f"  {name:<32}{value:>12.5g}")

@@ -1,12 +1,13 @@
-"""The ladder of Persson-Brener from a tabulated complex modulus."""
+"""The ladder of the crack theories from a tabulated complex modulus, and of its file."""
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from viscotack.materials import RetardationPowerLaw, StandardSolid
-from viscotack.theory import persson_brener, tabulated_modulus
+from viscotack.theory import greenwood, modulus_file, persson_brener, tabulated_modulus
 from viscotack.theory.tabulated_modulus import TabulatedModulus
 
 RUBBER = RetardationPowerLaw(
@@ -142,3 +143,154 @@ def test_an_impossible_table_is_refused(change, message):
     TabulatedModulus(**GOOD)
     with pytest.raises(ValueError, match=message):
         TabulatedModulus(**(GOOD | change))
+
+
+# Greenwood ------------------------------------------------------------------------------------
+
+
+def inside_zone(table, count=9):
+    low, high = tabulated_modulus.greenwood_speed_range(modulus=table)
+    return np.geomspace(1.0001 * low, 0.9999 * high, count)
+
+
+def test_greenwood_of_a_constant_loss_is_the_integral_of_the_creep_under_the_zone():
+    """Q by its definition, (1/2) int_0^1 H'(xi) cos(y (1 - xi)) dxi, for a passage of 10 s."""
+    omega = np.geomspace(1e-3, 1.0, 13)
+    table = TabulatedModulus(1e6, tuple(omega), (1.05e6,) * 13, (1e5,) * 13)
+    loss = 1e6 * 1e5 / (1.05e6**2 + 1e5**2)
+
+    def kernel(y):
+        # xi = 1 - u^2, against the logarithm; H' = ln[(1 + root)^2/u^2]
+        return quad(
+            lambda u: np.log((1 + np.sqrt(1 - u**2)) ** 2 / u**2) * np.cos(y * u**2) * u, 0, 1
+        )[0]
+
+    passage = 10.0
+    inside = quad(
+        lambda x: kernel(passage * np.exp(x)), np.log(1e-3), 0, epsabs=1e-10, epsrel=1e-10
+    )[0]
+    # below the table C'' is at least in proportion to the frequency, and the kernel 1
+    exact = 1 / (1 - 2 / np.pi * loss * (inside + kernel(1e-3 * passage)))
+    low = tabulated_modulus.greenwood_amplification(exact / passage, modulus=table).low
+    assert low == pytest.approx(exact, rel=1e-6, abs=0)
+
+
+@pytest.mark.parametrize("material", [RUBBER, SOLID])
+def test_a_finer_table_tends_to_greenwood_at_second_order(material):
+    """From the rubbery plateau to the glass, so that the bounds hardly differ."""
+    v = np.array([1e-1, 1e2, 1e4])
+    exact = greenwood.amplification(v * material.tau0, material=material)
+    error = []
+    for per_decade in (8, 16, 32):
+        table = sampled(material, (-4, 9), per_decade)
+        low, high = tabulated_modulus.greenwood_amplification(v, modulus=table)
+        assert high == pytest.approx(low, rel=2e-4, abs=0)
+        error.append(np.max(np.abs((low + high) / 2 / exact - 1)))
+    assert error[2] < 1e-3
+    for coarse, fine in zip(error[:-1], error[1:], strict=True):
+        assert np.log2(coarse / fine) == pytest.approx(2, abs=0.2)
+
+
+@pytest.mark.parametrize("ends", [(1, 6), (-2, 3), (0, 5), (2, 9)])
+def test_the_bounds_of_greenwood_hold_the_truth_where_the_table_ends_early(ends):
+    table = sampled(RUBBER, ends, 64)
+    v = inside_zone(table, 50)
+    low, high = tabulated_modulus.greenwood_amplification(v, modulus=table)
+    exact = greenwood.amplification(v * RUBBER.tau0, material=RUBBER)
+    # the error between the rows, at 64 a decade
+    assert np.all(low < exact * (1 + 2e-4)) and np.all(high > exact * (1 - 2e-4))
+    assert np.all(high > low) and np.all(low >= 1)
+    # no use at the fast end, where all of the glass is missing; two decades below it they are
+    assert np.all((high / low)[v < v[-1] / 100] < 1.15)
+
+
+def test_the_bounds_above_the_table_hold_for_every_relaxation_time():
+    """The integral of x/(1 + x^2) from x to infinity over ln x is arctan(1/x)."""
+    x = np.geomspace(1e-6, 1e6, 10001)
+    lossy, stored = x / (1 + x**2), 1 / (1 + x**2)
+    assert np.all(np.arctan(1 / x) <= (lossy + np.pi / 2 * stored) * (1 + 1e-15))
+
+
+@given(st.floats(-6, 6), st.floats(-6, 6), st.floats(0.2, 200.0))
+@settings(max_examples=30, deadline=None)
+def test_greenwood_of_a_table_does_not_depend_on_the_units(time, load, speed):
+    T, M = 10**time, 10**load
+    old = tabulated_modulus.greenwood_amplification(speed, modulus=TabulatedModulus(**GOOD))
+    scaled = dict(
+        rubbery_modulus=M * 1e6,
+        frequencies=tuple(T * w for w in GOOD["frequencies"]),
+        storage=tuple(M * e for e in GOOD["storage"]),
+        loss=tuple(M * e for e in GOOD["loss"]),
+    )
+    new = tabulated_modulus.greenwood_amplification(T * speed, modulus=TabulatedModulus(**scaled))
+    assert new == pytest.approx(old, rel=1e-9, abs=0)
+
+
+def test_greenwood_of_a_table_keeps_shapes_rises_and_refuses_what_leaves_it():
+    table = sampled(RUBBER, (0, 6), 8)
+    v = inside_zone(table, 300).reshape(2, -1)
+    low, high = tabulated_modulus.greenwood_amplification(v, modulus=table)
+    assert low.shape == v.shape
+    assert np.all(np.diff(np.ravel(low)) > 0) and np.all(np.diff(np.ravel(high)) > 0)
+    one = tabulated_modulus.greenwood_amplification(v[1, 7], modulus=table)
+    assert one == pytest.approx((low[1, 7], high[1, 7]), rel=1e-12, abs=0)
+    ends = tabulated_modulus.greenwood_speed_range(modulus=table)
+    for speed in (0.99 * ends[0], 1.01 * ends[1]):
+        with pytest.raises(ValueError, match="zone lengths a second.*measure a wider range"):
+            tabulated_modulus.greenwood_amplification(speed, modulus=table)
+
+
+# Files ----------------------------------------------------------------------------------------
+
+TEXT = """\
+# a rubber
+frequency_Hz,storage_MPa,loss_kPa
+0.1,1.01,30
+
+1,1.1,200
+10,2,900
+100,4,3000
+"""
+
+
+def written(folder, text):
+    path = folder / "dma.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_file_is_read_in_its_units_whatever_the_order_of_the_columns(tmp_path):
+    expected = TabulatedModulus(**GOOD)
+    angular = TEXT.replace("frequency_Hz", "angular_frequency_rad/s")
+    swapped = "loss_Pa,angular_frequency_rad_per_s,storage_kPa\n30e3,0.1,1010\n"
+    swapped += "2e5,1,1100\n9e5,10,2000\n3e6,100,4000\n"
+    for text in (angular, swapped):
+        found = modulus_file.read_modulus(written(tmp_path, text), rubbery_modulus=1e6)
+        for name in ("frequencies", "storage", "loss"):
+            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1e-14, abs=0)
+    turns = modulus_file.read_modulus(written(tmp_path, TEXT), rubbery_modulus=1e6)
+    assert turns.frequencies[0] == pytest.approx(0.2 * np.pi, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("_Hz", "", "first row must name frequency, storage and loss with their units"),
+        ("loss_kPa", "phase_rad", "first row must name"),
+        ("loss_kPa", "loss_kg", "the column loss_kg: .* something in Pa"),
+        ("_Hz", "_m", "the column frequency_m: .* something in 1/s"),
+        ("1,1.1,200", "1,1.1", "line 5: a row is 3 numbers .* got '1,1.1'; drop the rows"),
+        ("1,1.1,200", "1,,200", "line 5: a row is 3 numbers"),
+        ("1,1.1,200", "1,nan,200", "line 5: a row is 3 numbers"),
+        ("1,1.1,200", "0.01,1.1,200", "line 5: the frequency 0.01 comes after 0.1; sort the table"),
+        ("1,1.1,200\n", "", "line 5: a gap of 2 decades between the frequencies 0.1 and 10"),
+        ("100,4,3000\n", "", "4 or more rows"),
+        ("1.01,30", "0.9,30", "dma.csv: rubbery_modulus 1e.06 Pa is above the first storage"),
+        (TEXT, "", "first row must name"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_its_line(old, new, message, tmp_path):
+    assert old in TEXT
+    with pytest.raises(ValueError, match=message) as caught:
+        modulus_file.read_modulus(written(tmp_path, TEXT.replace(old, new)), rubbery_modulus=1e6)
+    assert "dma.csv" in str(caught.value)
