@@ -78,3 +78,9 @@ def test_a_positive_number_is_asked_for_by_name(value):
 def test_text_in_place_of_a_number_is_told_how_to_be_read():
     with pytest.raises(ValueError, match=r"viscotack.parse\('5.19 mm', 'm'\)"):
         positive("radius", "5.19 mm", "m")
+
+
+@pytest.mark.parametrize("text", ["5 ?m", "5 @m", "5 m!", "5 'm'"])
+def test_marks_that_are_no_part_of_a_unit_are_refused(text):
+    with pytest.raises(ValueError, match="is not known"):
+        parse(text, "m")

@@ -11,6 +11,8 @@ from typing import Any
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 # "J/m2" and "J/m^2" are how people write it; the unit library wants "J/m**2".
+# The unit library passes over other marks, and would read "5 ?m" as metres.
+_UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
 
 
@@ -72,6 +74,8 @@ def _converted(text: str, number: float, words: str, unit: str) -> float:
     import pint
 
     registry = _registry()
+    if _UNIT_MARKS.fullmatch(words) is None:
+        raise ValueError(f"{text!r}: the unit {words!r} is not known; expected something in {unit}")
     try:
         quantity = registry.Quantity(number, registry.parse_units(_EXPONENT.sub(r"**\1", words)))
         target = registry.parse_units("" if unit == "1" else _EXPONENT.sub(r"**\1", unit))

@@ -1,0 +1,245 @@
+r"""Time-temperature superposition: how much slower a solid is at another temperature.
+
+log10 a_T is positive where the solid is slower than at the reference temperature, that is below
+it: relaxation times at T are a_T times those at the reference, and a modulus measured at omega and
+T is the one that the reference temperature has at omega a_T.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+import numpy.typing as npt
+from scipy.constants import gas_constant
+from scipy.interpolate import PchipInterpolator
+
+from viscotack.materials.checks import like_input, positive, store
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WLF:
+    r"""The shift of Williams, Landel and Ferry, for polymers above their glass transition.
+
+    .. math:: \log_{10} a_T = -\frac{c_1 (T - T_0)}{c_2 + T - T_0}
+
+    Parameters
+    ----------
+    reference_temperature : float
+        T0 [K].
+    c1 : float
+        Decades [-], positive.
+    c2 : float
+        Temperature above the pole [K], positive: at T0 - c2 the solid would be infinitely slow.
+
+    Notes
+    -----
+    The law is used from the glass transition to about 100 K above it. Between the pole and the
+    transition it still gives a number, which a glass out of equilibrium does not follow; at the
+    pole and below it there is none, and asking for it is an error.
+
+    References
+    ----------
+    Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008. Maghami, PhD thesis (2025), Eq. 4.25.
+
+    Examples
+    --------
+    PDMS at -100 C, seen from a room at 20 C (Sec. 4.6.1 of the thesis):
+
+    >>> wlf = WLF.from_glass_transition(158.15).at_reference(293.15)
+    >>> round(wlf.log10_shift(173.15), 3)
+    8.689
+    """
+
+    reference_temperature: float
+    c1: float
+    c2: float
+
+    def __post_init__(self):
+        store(
+            self,
+            reference_temperature=positive(
+                "reference_temperature", self.reference_temperature, "K"
+            ),
+            c1=positive("c1", self.c1, "-"),
+            c2=positive("c2", self.c2, "K"),
+        )
+
+    @classmethod
+    def from_glass_transition(cls, temperature: float) -> Self:
+        """Return the law with c1 = 17.44 and c2 = 51.6 K at the glass transition (Eq. 4.25).
+
+        Parameters
+        ----------
+        temperature : float
+            Glass transition temperature [K]. The constants are averages over many polymers.
+        """
+        return cls(positive("glass transition temperature", temperature, "K"), 17.44, 51.6)
+
+    @property
+    def pole(self) -> float:
+        """Temperature below which there is no shift, T0 - c2 [K]; the same for every reference."""
+        return self.reference_temperature - self.c2
+
+    def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
+        """Return log10 a_T at temperatures [K] above the pole, in the shape given."""
+        above = _temperatures(temperature) - self.reference_temperature
+        if np.any(above <= -self.c2):
+            raise ValueError(
+                f"the WLF shift has its pole at {_in_celsius(self.pole)} and no value below, got "
+                f"{_in_celsius(float(np.min(above)) + self.reference_temperature)}; "
+                "leave these temperatures out, or use a measured table of shifts"
+            )
+        return like_input(-self.c1 * above / (self.c2 + above))
+
+    def at_reference(self, temperature: float) -> "WLF":
+        """Return the same law seen from another reference temperature [K], above the pole."""
+        temperature = positive("reference_temperature", temperature, "K")
+        c2 = self.c2 + temperature - self.reference_temperature
+        if c2 <= 0:
+            raise ValueError(
+                f"the reference temperature must lie above the pole of the WLF shift at "
+                f"{_in_celsius(self.pole)}, got {_in_celsius(temperature)}"
+            )
+        return WLF(temperature, self.c1 * self.c2 / c2, c2)
+
+
+@dataclass(frozen=True)
+class Arrhenius:
+    r"""The shift of a thermally activated process, for example below the glass transition.
+
+    .. math:: \log_{10} a_T = \frac{E_a}{R \ln 10} \left(\frac{1}{T} - \frac{1}{T_0}\right)
+
+    with the gas constant R = 8.314 J/(mol K).
+
+    Parameters
+    ----------
+    reference_temperature : float
+        T0 [K].
+    activation_energy : float
+        Ea [J/mol], positive.
+
+    References
+    ----------
+    Ferry, Viscoelastic Properties of Polymers, 3rd ed., Wiley (1980), ch. 11.
+
+    Examples
+    --------
+    >>> round(Arrhenius(298.15, 100e3).log10_shift(288.15), 3)
+    0.608
+    """
+
+    reference_temperature: float
+    activation_energy: float
+
+    def __post_init__(self):
+        store(
+            self,
+            reference_temperature=positive(
+                "reference_temperature", self.reference_temperature, "K"
+            ),
+            activation_energy=positive("activation_energy", self.activation_energy, "J/mol"),
+        )
+
+    def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
+        """Return log10 a_T at temperatures [K], in the shape given."""
+        inverse = 1 / _temperatures(temperature) - 1 / self.reference_temperature
+        return like_input(self.activation_energy / (gas_constant * math.log(10)) * inverse)
+
+    def at_reference(self, temperature: float) -> "Arrhenius":
+        """Return the same law seen from another reference temperature [K]."""
+        return replace(self, reference_temperature=temperature)
+
+
+@dataclass(frozen=True)
+class TabulatedShift:
+    """A measured shift: passes through a table, smoothly, and is refused outside it.
+
+    Parameters
+    ----------
+    reference_temperature : float
+        T0 [K], inside the table. The shift is zero there, whatever the table says.
+    temperature : tuple of float
+        Temperatures of the table [K], ascending, two or more.
+    values : tuple of float
+        log10 a_T at these temperatures, relative to any one temperature.
+
+    Notes
+    -----
+    Between the rows runs the monotone cubic of Fritsch & Carlson (1980), doi:10.1137/0717021: it
+    adds no bump that the table does not have.
+
+    Examples
+    --------
+    >>> table = TabulatedShift(293.15, (253.15, 273.15, 293.15), (5.0, 2.0, 0.0))
+    >>> table.log10_shift(273.15)
+    2.0
+    >>> table.at_reference(273.15).log10_shift([253.15, 293.15]).tolist()
+    [3.0, -2.0]
+    """
+
+    reference_temperature: float
+    temperature: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __post_init__(self):
+        temperature = _temperatures(self.temperature)
+        values = np.asarray(self.values, dtype=float)
+        if temperature.ndim != 1 or temperature.size < 2 or temperature.shape != values.shape:
+            raise ValueError(
+                "a table of shifts needs two or more temperatures and one value for each, got "
+                f"shapes {temperature.shape} and {values.shape}"
+            )
+        if np.any(np.diff(temperature) <= 0):
+            raise ValueError("the temperatures of a table of shifts must ascend, each once")
+        if not np.all(np.isfinite(values)):
+            raise ValueError("the values of a table of shifts must be finite")
+        store(
+            self,
+            reference_temperature=positive(
+                "reference_temperature", self.reference_temperature, "K"
+            ),
+            temperature=tuple(temperature.tolist()),
+            values=tuple(values.tolist()),
+        )
+        self._refuse_outside(np.asarray(self.reference_temperature))
+
+    def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
+        """Return log10 a_T at temperatures [K] inside the table, in the shape given."""
+        asked = _temperatures(temperature)
+        self._refuse_outside(asked)
+        curve = PchipInterpolator(self.temperature, self.values)
+        return like_input(curve(asked) - curve(self.reference_temperature))
+
+    def at_reference(self, temperature: float) -> "TabulatedShift":
+        """Return the same table seen from another reference temperature [K] inside it."""
+        return replace(self, reference_temperature=temperature)
+
+    def _refuse_outside(self, temperature: Array) -> None:
+        low, high = self.temperature[0], self.temperature[-1]
+        outside = temperature[(temperature < low) | (temperature > high)]
+        if outside.size:
+            raise ValueError(
+                f"the table of shifts runs from {_in_celsius(low)} to {_in_celsius(high)}, "
+                f"got {_in_celsius(float(outside[0]))}; a table is not extrapolated: "
+                "fit a WLF or Arrhenius law to it"
+            )
+
+
+Shift = WLF | Arrhenius | TabulatedShift
+
+
+def _temperatures(values: npt.ArrayLike) -> Array:
+    array = np.asarray(values, dtype=float)
+    wrong = array[~((array > 0) & (array < np.inf))]
+    if wrong.size:
+        raise ValueError(
+            f"temperatures must be positive and finite [K], got {wrong[0]:g}; give Celsius + 273.15"
+        )
+    return array
+
+
+def _in_celsius(temperature: float) -> str:
+    return f"{temperature:.6g} K ({temperature - 273.15:.4g} C)"

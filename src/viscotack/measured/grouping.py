@@ -1,0 +1,78 @@
+"""Which points belong to one frequency sweep, where a file does not number them."""
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+GAP = 1.0  # K between two sweeps; a chamber holds its temperature within a few tenths
+
+
+def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[np.int64], str]:
+    """Return the number of the sweep of each point, counted from 0, and how it was found.
+
+    Parameters
+    ----------
+    temperature, angular_frequency : ndarray, shape (N,)
+        Of the points, in the order of the file; temperatures may be nan.
+
+    Returns
+    -------
+    numbers : ndarray of int, shape (N,)
+    how : str
+        A note; empty where there was nothing to decide.
+
+    Notes
+    -----
+    Points of one temperature, within 1 K, are one sweep if no frequency occurs twice among them,
+    in whatever order they are written. Otherwise a sweep ends where the frequency turns back. One
+    frequency at many temperatures is one sweep.
+
+    Examples
+    --------
+    >>> numbers, how = grouped(np.array([300.0, 290.1, 300.2, 290.0]), np.array([1.0, 1, 10, 10]))
+    >>> numbers.tolist(), how
+    ([0, 1, 0, 1], '2 sweeps told apart by temperature')
+    """
+    one = np.zeros(temperature.size, dtype=np.int64)
+    if np.ptp(angular_frequency) <= 1e-3 * angular_frequency[0]:
+        return one, ""
+    clusters = _clusters(temperature)
+    if clusters is not None and _each_frequency_once(clusters, angular_frequency):
+        how = "temperature"
+    else:
+        clusters, how = _runs(angular_frequency), "where the frequency turns back"
+    # numbered in the order of the file
+    _, first, numbers = np.unique(clusters, return_index=True, return_inverse=True)
+    numbers = np.argsort(np.argsort(first))[numbers]
+    count = first.size
+    return numbers, f"{count} sweeps told apart by {how}" if count > 1 else ""
+
+
+def _clusters(temperature: Array) -> npt.NDArray[np.int64] | None:
+    if np.any(np.isnan(temperature)):
+        return None
+    order = np.argsort(temperature)
+    clusters = np.empty(temperature.size, dtype=np.int64)
+    clusters[order] = np.concatenate(([0], np.cumsum(np.diff(temperature[order]) > GAP)))
+    return clusters
+
+
+def _each_frequency_once(clusters: npt.NDArray[np.int64], angular_frequency: Array) -> bool:
+    pairs = np.stack((clusters, np.round(1000 * np.log(angular_frequency))))
+    return np.unique(pairs, axis=1).shape[1] == clusters.size
+
+
+def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
+    """Return the number of the run of rising or of falling frequencies of each point."""
+    numbers = np.zeros(angular_frequency.size, dtype=np.int64)
+    direction = 0.0
+    for i in range(1, numbers.size):
+        step = np.sign(angular_frequency[i] - angular_frequency[i - 1])
+        numbers[i] = numbers[i - 1]
+        if step * direction < 0:
+            numbers[i] += 1
+            direction = 0.0
+        elif step:
+            direction = step
+    return numbers

@@ -1,0 +1,93 @@
+"""A laboratory file as bytes, as text and as lines, with its hash and what was noticed about it."""
+
+import hashlib
+import re
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+
+LARGEST = 50_000_000  # bytes; a sweep is thousands of times smaller
+
+_MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+# `str.splitlines` would also break lines at a dozen characters that no export uses.
+_LINE_END = re.compile(r"\r\n|\n|\r")
+
+
+@dataclass(frozen=True)
+class LabFile:
+    """The content of one file; `lines` is empty for a workbook."""
+
+    path: str
+    content: bytes
+    lines: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the bytes, in hexadecimal."""
+        return hashlib.sha256(self.content).hexdigest()
+
+    @property
+    def is_workbook(self) -> bool:
+        """Whether the bytes begin like an Excel file, old (OLE) or new (zip)."""
+        return self.content.startswith((b"\xd0\xcf\x11\xe0", b"PK\x03\x04"))
+
+    def error(self, what: str, line: int | None = None) -> ValueError:
+        """Return an error that names the file and, where there is one, the line or row."""
+        place = "" if line is None else f", {'row' if self.is_workbook else 'line'} {line}"
+        return ValueError(f"{self.path}{place}: {what}")
+
+
+def load(path: str | PathLike[str]) -> LabFile:
+    """Return a file's bytes and lines.
+
+    Raises
+    ------
+    ValueError
+        If the file is empty, larger than 50 MB, or neither text nor a workbook.
+    OSError
+        If it cannot be opened.
+
+    Notes
+    -----
+    A last line without a line end may have been cut in the middle of a number, which nothing in
+    it would show. It is left out, and a note says so.
+    """
+    name = fspath(path)
+    with Path(path).open("rb") as stream:
+        content = stream.read(LARGEST + 1)
+    empty = LabFile(name, content, (), ())
+    if len(content) > LARGEST:
+        raise empty.error(f"the file is larger than {LARGEST // 10**6} MB; export the points only")
+    if not content.strip():
+        raise empty.error("the file is empty")
+    if empty.is_workbook:
+        return empty
+    text, encoding = _decoded(empty)
+    if "\0" in text:
+        raise empty.error("the file is neither text nor an Excel workbook; export it as text")
+    lines = _LINE_END.split(text)
+    notes = () if encoding == "utf-8" else (f"text in {encoding}",)
+    if last := lines.pop():
+        notes += (
+            f"line {len(lines) + 1}, the last, has no line end and may be cut in the middle of a "
+            f"number: left out ({last.strip()[:40]!r}); end the file with a new line to keep it",
+        )
+    return LabFile(name, content, tuple(lines), notes)
+
+
+def _decoded(file: LabFile) -> tuple[str, str]:
+    content = file.content
+    encoding = next((name for mark, name in _MARKS if content.startswith(mark)), None)
+    if encoding is None and b"\0" in content[:200]:
+        # text in two bytes per character, without its mark: Latin letters leave every other byte 0
+        encoding = "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
+    try:
+        return content.decode(encoding or "utf-8"), encoding or "utf-8"
+    except UnicodeDecodeError as error:
+        if encoding is None:
+            # old exports write the degree sign in one byte
+            return content.decode("latin-1"), "latin-1"
+        raise file.error(
+            f"the bytes after {error.start} are not {encoding} text: the file is cut or damaged"
+        ) from None

@@ -1,0 +1,84 @@
+"""Numbers as laboratories write them: decimal commas, gaps, and no half-read ones."""
+
+import math
+import re
+from collections.abc import Iterable
+
+_NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
+_GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,][0-9]{3})+")
+_MISSING = {"", "-", "--", "---", "----", "*", "***", "nan", "na", "n/a", "#n/a", "none", "null"}
+
+
+def number(text: str, mark: str) -> float:
+    """Return the number that a cell holds, nan for a gap.
+
+    Parameters
+    ----------
+    text : str
+        A cell; ``---`` and the like are gaps.
+    mark : {".", ","}
+        Decimal mark. The other one may not occur.
+
+    Raises
+    ------
+    ValueError
+        If the cell holds anything else, or a number beyond all floats.
+
+    Examples
+    --------
+    >>> number("8,5e3", ","), number("---", ",")
+    (8500.0, nan)
+    """
+    plain = text.strip().strip('"').replace("\u2212", "-").replace("\u00a0", "")
+    if plain.casefold() in _MISSING:
+        return math.nan
+    other = "," if mark == "." else "."
+    if _NUMBER.fullmatch(plain) is None or other in plain:
+        raise ValueError(f"expected a number, got {text[:40]!r}")
+    value = float(plain.replace(mark, "."))
+    if math.isinf(value):
+        raise ValueError(f"the number {text[:40]!r} is too large")
+    return value
+
+
+def decimal_mark(cells: Iterable[str]) -> str:
+    """Return the decimal mark of a table from its numbers.
+
+    Raises
+    ------
+    ValueError
+        If points and commas are mixed, or every comma may as well part the thousands.
+
+    Examples
+    --------
+    >>> decimal_mark(["0,1", "1,234"])
+    ','
+    """
+    found = [cell.strip() for cell in cells if _NUMBER.fullmatch(cell.strip())]
+    with_comma = [cell for cell in found if "," in cell]
+    if not with_comma:
+        return "."
+    if any("." in cell for cell in found):
+        raise ValueError(
+            "some numbers have a decimal point and some a comma; give decimal=',' or '.'"
+        )
+    if all(_GROUPED.fullmatch(cell) for cell in with_comma):
+        raise ValueError(
+            f"{with_comma[0]!r} may be a decimal number or one of thousands; "
+            "give decimal=',' or decimal='.'"
+        )
+    return ","
+
+
+def half_digit(text: str) -> float:
+    """Return half a unit of the last digit of a number as written.
+
+    Examples
+    --------
+    >>> half_digit("0.150"), half_digit("12"), half_digit("1.5E3")
+    (0.0005, 0.5, 50.0)
+    """
+    mantissa, _, exponent = text.strip().lower().replace(",", ".").partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    power = int(exponent) if re.fullmatch(r"[+-]?[0-9]{1,3}", exponent) else 0
+    return 0.5 * 10.0 ** (power - decimals)

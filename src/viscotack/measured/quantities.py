@@ -1,0 +1,237 @@
+"""Headings and units of laboratory tables, in the words and languages that instruments write.
+
+A heading is recognised or it is not; a unit is read from the file or asked for. Two traps are
+told apart on purpose: hertz from radians per second, and tensile (E) from shear (G) moduli.
+"""
+
+import math
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from viscotack.units import parse
+
+# quantity -> words; a word in capitals and small letters alike, without spaces, marks and accents
+_WORDS = {
+    "frequency": "freq frequency frequenz frequence frecuencia frequenza",
+    "angular_frequency": "ω omega angularfrequency angfrequency angfreq kreisfrequenz "
+    "winkelfrequenz frequenceangulaire pulsation frecuenciaangular",
+    "temperature": "temp temperature temperatur temperatura",
+    "storage": "storagemodulus speichermodul modulestockage moduledestockage "
+    "moduledeconservation moduloalmacenamiento modulodealmacenamiento",
+    "loss": "lossmodulus verlustmodul moduledeperte moduleperte moduloperdida modulodeperdida",
+    "tan_delta": "tandelta tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
+    "facteurdeperte factordeperdida",
+    "magnitude": "complexmodulus komplexermodul",
+    "time": "time zeit temps tiempo testtime testzeit",
+    "step_time": "steptime intervaltime segmenttime abschnittszeit tempsdintervalle",
+    "modulus": "relaxationmodulus stressrelaxationmodulus relaxationsmodul modulederelaxation",
+    "compliance": "creepcompliance compliance kriechnachgiebigkeit complaisance",
+    "stress": "stress",
+    "strain": "strain",
+    "sweep": "set sweep sweepnumber setnumber",
+    "log10_shift": "logat log(at) logshift logshiftfactor",
+    "shift": "at shiftfactor",
+    "vertical_shift": "bt verticalshiftfactor",
+}
+_BY_WORD = {word: name for name, words in _WORDS.items() for word in words.split()}
+# where one letter stands for a quantity, its case tells which: T is a temperature, t a time
+_BY_LETTER = {
+    "f": "frequency",
+    "w": "angular_frequency",
+    "T": "temperature",
+    "t": "time",
+}
+# symbols that also say tension or shear
+_BY_SYMBOL = {
+    f"{letter}{mark}": (name, kind)
+    for kind, letter in (("E", "e"), ("G", "g"))
+    for name, marks in {
+        "storage": ("'", "stor", "storage"),
+        "loss": ("''", "loss"),
+        "magnitude": ("*", "complex"),
+        "modulus": ("(t)", "relax"),
+    }.items()
+    for mark in marks
+} | {
+    "|e*|": ("magnitude", "E"),
+    "|g*|": ("magnitude", "G"),
+    "j(t)": ("compliance", "G"),
+    "jcreep": ("compliance", "G"),
+    "d(t)": ("compliance", "E"),
+    "dcreep": ("compliance", "E"),
+}
+_KIND_WORDS = {
+    "E": ("tensile", "tension", "extensional", "youngs", "zug", "traction", "flexural", "axial"),
+    "G": ("shear", "schub", "scher", "cisaillement", "cizalla"),
+}
+# what a line about the geometry of the test, or a column beside the moduli, tells about them
+_GEOMETRIES = {
+    "E": ("tension", "tensile", "zug", "cantilever", "bending", "biegung", "compression", "druck"),
+    "G": (
+        "shear", "scher", "schub", "torsion", "parallelplate", "platteplatte", "plateplate",
+        "coneplate", "conicalplate", "kegelplatte", "concentric", "couette", "torque", "drehmoment",
+    ),
+}  # fmt: skip
+_QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
+_BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
+_SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
+
+_CELSIUS = {"°C", "ºC", "C", "degC", "deg C", "Celsius", "℃"}
+_FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
+_NO_UNIT = {"", "-", "[-]", "1", "–"}
+_PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What a heading means: the quantity, the kind of modulus if it says so, and its unit."""
+
+    quantity: str
+    kind: str | None
+    unit: str
+
+
+def recognise(text: str) -> Heading | None:
+    """Return what a heading means, or None for a column that is not needed.
+
+    Examples
+    --------
+    >>> recognise("E' [MPa]")
+    Heading(quantity='storage', kind='E', unit='MPa')
+    >>> recognise("Kreisfrequenz")
+    Heading(quantity='angular_frequency', kind=None, unit='')
+    >>> recognise("Normal force (N)") is None
+    True
+    """
+    text = text.strip()
+    if len(text) > 1 and text[0] == text[-1] == '"':
+        text = text[1:-1].strip()
+    whole = _named(text)
+    if whole is not None:
+        return Heading(*whole, "")
+    for pattern in (_BRACKET, _SLASH):
+        if match := pattern.fullmatch(text):
+            name, rest = _named(match[1]), _named(match[2])
+            if name is None:
+                continue
+            # "Storage modulus (E')": the bracket holds the symbol, not a unit
+            if rest is not None and rest[0] == name[0]:
+                return Heading(name[0], name[1] or rest[1], "")
+            return Heading(*name, match[2].strip())
+    return None
+
+
+def kind_of_geometry(text: str) -> str | None:
+    """Return "E" or "G" where words speak of tension or of shear, None for neither or both.
+
+    Examples
+    --------
+    >>> kind_of_geometry("Geometry name: Dual cantilever"), kind_of_geometry("Torque")
+    ('E', 'G')
+    """
+    plain = _plain(text)
+    kinds = [k for k, words in _GEOMETRIES.items() if any(word in plain for word in words)]
+    return kinds[0] if len(kinds) == 1 else None
+
+
+def _named(text: str) -> tuple[str, str | None] | None:
+    text = text.strip()
+    if len(text) == 1 and text in _BY_LETTER:
+        return _BY_LETTER[text], None
+    plain = _plain(text)
+    if plain in _BY_SYMBOL:
+        return _BY_SYMBOL[plain]
+    if plain in _BY_WORD and len(text) > 1 or plain == "ω":
+        return _BY_WORD[plain], None
+    # "Tensile storage modulus", "Storage modulus E'", "Shear stress"
+    for kind, words in _KIND_WORDS.items():
+        for word in words:
+            if plain.startswith(word) and plain.removeprefix(word) in _BY_WORD:
+                return _BY_WORD[plain.removeprefix(word)], kind
+    for symbol, (name, kind) in _BY_SYMBOL.items():
+        if plain.endswith(symbol) and _BY_WORD.get(plain.removesuffix(symbol)) == name:
+            return name, kind
+    return None
+
+
+def _plain(text: str) -> str:
+    """Return a heading in small letters without spaces, underscores, hyphens, dots and accents."""
+    text = unicodedata.normalize("NFKD", text.translate(_QUOTES)).casefold()
+    return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")
+
+
+def no_unit(unit: str) -> bool:
+    """Return whether a cell of the units row says that there is none."""
+    return bare(unit) in _NO_UNIT
+
+
+def bare(unit: str) -> str:
+    """Return a unit without spaces and brackets around it."""
+    unit = unit.strip()
+    if len(unit) > 1 and unit[0] + unit[-1] in ("[]", "()"):
+        unit = unit[1:-1].strip()
+    return unit
+
+
+def scale(unit: str, target: str) -> float:
+    """Return the factor that takes numbers in a unit to the target unit in SI.
+
+    Examples
+    --------
+    >>> scale("[MPa]", "Pa"), scale("1/MPa", "1/Pa"), scale("%", "1")
+    (1000000.0, 1e-06, 0.01)
+    """
+    unit = bare(unit)
+    if target == "1" and no_unit(unit):
+        return 1.0
+    if unit == "%" and target == "1":
+        return 0.01
+    return parse(f"1 {unit}", target)
+
+
+def kelvin(unit: str) -> tuple[float, float]:
+    """Return the factor and the offset that take a temperature to kelvin."""
+    unit = bare(unit)
+    if unit in _CELSIUS:
+        return 1.0, 273.15
+    if unit in _FAHRENHEIT:
+        return 5 / 9, 273.15 - 32 * 5 / 9
+    if unit == "K":
+        return 1.0, 0.0
+    raise ValueError(f"{unit!r} is not a unit of temperature; expected C, K or F")
+
+
+def radians_per_second(unit: str, *, angular: bool) -> float:
+    """Return the factor that takes a frequency to rad/s.
+
+    Parameters
+    ----------
+    unit : str
+        Such as ``"Hz"`` or ``"rad/s"``.
+    angular : bool
+        Whether the heading speaks of an angular frequency. A frequency in 1/s may be either, so
+        it is refused; an angular frequency in hertz contradicts itself.
+
+    Examples
+    --------
+    >>> round(radians_per_second("Hz", angular=False), 3), radians_per_second("1/s", angular=True)
+    (6.283, 1.0)
+    """
+    unit = bare(unit)
+    if "rad" in unit:
+        return scale(unit, "rad/s")
+    if unit in _PER_SECOND:
+        if angular:
+            return 1.0
+        raise ValueError("a frequency in 1/s may be in Hz or in rad/s; say frequency_unit=")
+    # to the unit library hertz and radians per second are the same: tell them apart by name
+    if unit.endswith("Hz"):
+        if angular:
+            raise ValueError(
+                "the heading says angular frequency, the unit says Hz; correct one of them"
+            )
+        return 2 * math.pi * scale(unit, "Hz")
+    if unit in ("rpm", "1/min", "min^-1"):
+        raise ValueError(f"{unit!r} is a speed of rotation; expected Hz or rad/s")
+    raise ValueError(f"{unit!r} is not a unit of frequency; expected Hz or rad/s")

@@ -1,0 +1,158 @@
+"""The verification ladder of time-temperature shifts and of the Kramers-Kronig relation."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from scipy.constants import gas_constant
+
+from viscotack.materials import Prony, RetardationPowerLaw, StandardSolid
+from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.measured import loss_from_storage
+
+GLASS = 158.15  # PDMS, -115 C
+ROOM = 293.15
+warm = st.floats(150.0, 400.0)
+LAWS = {
+    "wlf": WLF.from_glass_transition(GLASS),
+    "arrhenius": Arrhenius(ROOM, 90e3),
+    "table": TabulatedShift(300.0, (120.0, 180.0, 300.0, 450.0), (14.0, 9.0, 0.5, -2.0)),
+}
+every_law = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+
+
+# ---- rung 1: identities ------------------------------------------------------------------------
+
+
+def test_wlf_gives_the_verified_values():
+    path = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
+    if not path.exists():
+        pytest.skip("the table of verified values is not beside this checkout")
+    found = [v for v in json.loads(path.read_text())["values"] if v["equation"] == "4.25"]
+    valid = [v for v in found if v["inputs"]["T_C"] >= -130]
+    assert len(valid) > 5
+    for value in valid:
+        inputs = value["inputs"]
+        law = WLF.from_glass_transition(GLASS)
+        if "Tref_C" in inputs:
+            law = law.at_reference(inputs["Tref_C"] + 273.15)
+        # 293.15 - 20 and the like cost some digits
+        assert law.log10_shift(inputs["T_C"] + 273.15) == pytest.approx(
+            value["value"], rel=1e-12, abs=1e-12
+        )
+
+
+@every_law
+@given(temperature=warm, reference=warm)
+def test_a_law_seen_from_elsewhere_differs_by_its_value_there(law, temperature, reference):
+    there = law.at_reference(reference)
+    assert there.reference_temperature == reference
+    # cancels, so absolute: shifts reach 30 decades near the pole
+    assert there.log10_shift(temperature) == pytest.approx(
+        law.log10_shift(temperature) - law.log10_shift(reference), rel=1e-10, abs=1e-10
+    )
+
+
+@every_law
+@given(temperature=warm)
+def test_there_is_no_shift_at_the_reference(law, temperature):
+    assert law.at_reference(temperature).log10_shift(temperature) == pytest.approx(0, abs=1e-13)
+
+
+@every_law
+def test_a_colder_solid_is_slower(law):
+    temperature = np.linspace(130.0, 440.0, 500)
+    assert np.all(np.diff(law.log10_shift(temperature)) < 0)
+
+
+def test_the_pole_and_the_product_of_the_constants_belong_to_no_reference():
+    here = WLF.from_glass_transition(GLASS)
+    there = here.at_reference(ROOM)
+    assert there.pole == pytest.approx(here.pole, rel=1e-14, abs=0)
+    assert there.c1 * there.c2 == pytest.approx(here.c1 * here.c2, rel=1e-14, abs=0)
+
+
+def test_arrhenius_is_the_boltzmann_factor():
+    law = Arrhenius(ROOM, 90e3)
+    factor = np.exp(90e3 / gas_constant / 260.0) / np.exp(90e3 / gas_constant / ROOM)
+    assert 10 ** law.log10_shift(260.0) == pytest.approx(factor, rel=1e-12, abs=0)
+
+
+def test_a_table_passes_through_its_rows():
+    law = LAWS["table"]
+    values = np.array(law.values) - law.values[2]
+    assert_allclose(law.log10_shift(np.array(law.temperature)), values, rtol=1e-14, atol=1e-14)
+
+
+# ---- rung 2: limits ----------------------------------------------------------------------------
+
+
+def test_wlf_ends_at_minus_c1_in_the_heat():
+    law = WLF(ROOM, 8.9, 102.0)
+    hot = np.array([1e5, 1e6, 1e7])
+    rest = law.log10_shift(hot) + law.c1
+    slope = np.polyfit(np.log(hot), np.log(rest), 1)[0]
+    assert slope == pytest.approx(-1, abs=3e-3)
+
+
+def test_wlf_tends_to_arrhenius_near_its_reference():
+    law = WLF(ROOM, 8.9, 102.0)
+    # the same slope at the reference: c1/c2 = Ea/(R T0^2 ln 10)
+    energy = law.c1 / law.c2 * gas_constant * ROOM**2 * np.log(10)
+    step = np.array([0.1, 0.2, 0.4])
+    gap = law.log10_shift(ROOM + step) - Arrhenius(ROOM, energy).log10_shift(ROOM + step)
+    assert np.polyfit(np.log(step), np.log(np.abs(gap)), 1)[0] == pytest.approx(2, abs=0.02)
+
+
+# ---- the relation of Kramers and Kronig (Eq. 4.26) ---------------------------------------------
+
+SOLIDS = {
+    "standard": StandardSolid(
+        rubbery_modulus=1e6, glassy_modulus=3e8, tau0=2e-3, poisson_ratio=0.5
+    ),
+    "prony": Prony(
+        rubbery_modulus=1e6, branches=[(3e7, 1e-4), (4e6, 5e-2), (8e5, 3.0)], poisson_ratio=0.5
+    ),
+    "power law": RetardationPowerLaw(
+        rubbery_modulus=1.458e6,
+        glassy_modulus=3.089e9,
+        exponent=0.2207,
+        tau0=0.01876,
+        poisson_ratio=0.5,
+    ),
+}
+
+
+@pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
+def test_the_loss_of_a_solid_follows_from_its_storage_at_second_order(solid):
+    error, spacing = [], np.array([0.2, 0.1, 0.05])
+    for step in spacing:
+        # 60 decades, so that what is cut off at the ends is small
+        omega = np.exp(np.arange(-69, 69, step))
+        modulus = solid.complex_modulus(omega)
+        inside = (omega > 1e-2) & (omega < 1e4)
+        found = loss_from_storage(omega, modulus.real)
+        error.append(np.max(np.abs(found / modulus.imag - 1)[inside]))
+    slope = np.polyfit(np.log(spacing), np.log(error), 1)[0]
+    assert slope == pytest.approx(2, abs=0.1)
+    assert error[-1] < 1e-3
+
+
+def test_a_step_of_storage_has_the_loss_of_the_closed_form():
+    # E' rises by 1 MPa within a narrow step at 1 rad/s: E'' = (1 MPa/pi) ln coth|ln(omega)/2|
+    omega = np.array([1e-3, 1e-2, 0.3, 1 - 1e-4, 1 + 1e-4, 5.0, 1e2])
+    storage = np.where(omega < 1, 1e6, 2e6)
+    expected = 1e6 / np.pi * np.log(1 / np.tanh(np.abs(np.log(omega)) / 2))
+    far = [0, 1, 2, 5, 6]
+    assert_allclose(loss_from_storage(omega, storage)[far], expected[far], rtol=1e-6)
+
+
+def test_the_loss_scales_with_the_storage_and_not_with_a_constant():
+    omega = np.geomspace(1e-3, 1e3, 31)
+    storage = 1e6 * omega**0.2
+    loss = loss_from_storage(omega, storage)
+    assert_allclose(loss_from_storage(60 * omega, 3 * storage + 5e6), 3 * loss, rtol=1e-10)

@@ -1,0 +1,227 @@
+"""Damaged files: an error that names the file, or right numbers, never anything else.
+
+What no reader can see is a digit changed into another digit in a number that stands in the file
+once; so the bytes that are put in here are not digits where the numbers themselves are compared.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lab_files
+from viscotack.measured import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
+
+PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
+TEXTS = {**lab_files.TEXTS, "reptate": lab_files.reptate()}
+every_text = pytest.mark.parametrize("name", TEXTS)
+STRANGE = b"~@$!?&|"
+ANY = bytes(range(256))
+
+
+def read(path, content):
+    """Return the sweeps of a damaged file, or None; anything but a ValueError is a failure."""
+    path.write_bytes(content)
+    try:
+        return read_dma(path)
+    except ValueError as error:
+        assert str(path) in str(error)
+        return None
+
+
+def points(sweeps):
+    """Return what identifies each point: frequency and storage, to eleven digits."""
+    columns = zip(sweeps.angular_frequency, sweeps.storage, strict=True)
+    return [tuple(f"{x:.10e}" for x in row) for row in columns]
+
+
+def assert_right(sweeps, whole):
+    """Every point is one of the whole file's, at its temperature or at an unknown one."""
+    known = dict(zip(points(whole), zip(whole.temperature, whole.loss, strict=True), strict=True))
+    found = zip(points(sweeps), sweeps.temperature, sweeps.loss, strict=True)
+    for point, temperature, loss in found:
+        assert point in known
+        assert np.isnan(temperature) or temperature == pytest.approx(known[point][0], rel=1e-12)
+        # where the loss modulus is lost it is found from tan(delta), which has four digits
+        assert loss == pytest.approx(known[point][1], rel=1e-3)
+
+
+QUICK, LONG = 25, pytest.param(1500, marks=pytest.mark.slow)
+
+
+@every_text
+@pytest.mark.parametrize("cuts", [QUICK, LONG])
+def test_a_file_cut_anywhere_gives_right_points_or_an_error(name, cuts, tmp_path):
+    path = tmp_path / "film.osc"
+    content = TEXTS[name]
+    whole = read(path, content)
+    found = 0
+    within_the_last_row = np.arange(len(content) - 12, len(content))
+    for length in (*np.linspace(0, len(content) - 13, cuts, dtype=int), *within_the_last_row):
+        sweeps = read(path, content[:length])
+        if sweeps is not None:
+            assert_right(sweeps, whole)
+            found += 1
+    assert found < cuts + 12
+
+
+@every_text
+@pytest.mark.parametrize("tries", [QUICK, LONG])
+def test_strange_characters_give_right_points_or_an_error(name, tries, tmp_path):
+    path, rng = tmp_path / "film.osc", np.random.default_rng(1)
+    whole = read(path, TEXTS[name])
+    for _ in range(tries):
+        content = bytearray(TEXTS[name])
+        for place in rng.integers(0, len(content), rng.integers(1, 4)):
+            content[place] = rng.choice(list(STRANGE))
+        sweeps = read(path, bytes(content))
+        if sweeps is not None:
+            assert_right(sweeps, whole)
+
+
+@every_text
+@pytest.mark.parametrize("tries", [QUICK, LONG])
+def test_any_bytes_give_sweeps_or_an_error(name, tries, tmp_path):
+    path, rng = tmp_path / "film.osc", np.random.default_rng(2)
+    for _ in range(tries):
+        content = bytearray(TEXTS[name])
+        start = rng.integers(0, len(content))
+        for place in range(start, min(start + rng.integers(1, 40), len(content))):
+            content[place] = rng.choice(list(ANY))
+        sweeps = read(path, bytes(content))
+        if sweeps is not None:
+            assert np.all(np.isfinite(sweeps.storage) & (sweeps.storage > 0))
+            assert np.all(np.isfinite(sweeps.angular_frequency))
+
+
+def decoded(content):
+    encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"
+    text = content.decode(encoding)
+    return text.replace("\r\n", "\n").split("\n"), encoding
+
+
+@every_text
+def test_a_lost_line_or_a_line_too_many_gives_right_points_or_an_error(name, tmp_path):
+    path = tmp_path / "film.osc"
+    whole = read(path, TEXTS[name])
+    lines, encoding = decoded(TEXTS[name])
+    for at in range(0, len(lines) - 1, 2):
+        for changed in (lines[:at] + lines[at + 1 :], lines[: at + 1] + lines[at:]):
+            sweeps = read(path, "\n".join(changed).encode(encoding))
+            if sweeps is not None:
+                assert_right(sweeps, whole)
+
+
+@every_text
+@pytest.mark.parametrize("which", ["everywhere", "rows only", "one row"])
+def test_a_lost_column_gives_right_points_or_an_error(name, which, tmp_path):
+    path = tmp_path / "film.osc"
+    whole = read(path, TEXTS[name])
+    lines, encoding = decoded(TEXTS[name])
+    separator = max("\t;,", key=TEXTS[name].decode("latin-1").count)
+    width = max(line.count(separator) for line in lines) + 1
+    numeric = [i for i, line in enumerate(lines) if any(c.isdigit() for c in line)
+               and line.count(separator) >= 2]  # fmt: skip
+    chosen = {"everywhere": range(len(lines)), "rows only": numeric, "one row": numeric[-1:]}[which]
+    refused = 0
+    for column in range(width):
+        changed = [
+            separator.join(c for j, c in enumerate(line.split(separator)) if j != column)
+            if i in chosen and line.count(separator) >= 2
+            else line
+            for i, line in enumerate(lines)
+        ]
+        sweeps = read(path, "\n".join(changed).encode(encoding))
+        refused += sweeps is None
+        if sweeps is not None:
+            assert_right(sweeps, whole)
+    assert refused > 0
+
+
+@every_text
+def test_two_rows_run_together_give_right_points_or_an_error(name, tmp_path):
+    path = tmp_path / "film.osc"
+    whole = read(path, TEXTS[name])
+    lines, encoding = decoded(TEXTS[name])
+    for at in range(len(lines) - 1):
+        changed = [*lines[:at], lines[at] + lines[at + 1], *lines[at + 2 :]]
+        sweeps = read(path, "\n".join(changed).encode(encoding))
+        if sweeps is not None:
+            assert_right(sweeps, whole)
+
+
+def test_the_other_readers_and_formats_fail_in_the_same_way(tmp_path):
+    path, rng = tmp_path / "film.gt", np.random.default_rng(3)
+    texts = (
+        b"t,E_relax,T\ns,MPa,C\n1,900,20\n10,500,20\n",
+        b"T=20;Mw=1;\n0.1 5e5\n1 3e5\n",
+        b"T,log_aT\nC,-\n20,0\n-40,5\n",
+        b"t;D(t)\ns;1/Pa\n1,5;3e-6\n10,5;6e-6\n",
+    )
+    for _ in range(100):
+        content = bytearray(texts[rng.integers(len(texts))])
+        for place in rng.integers(0, len(content), rng.integers(0, 4)):
+            content[place] = rng.choice(list(ANY))
+        path.write_bytes(bytes(content[: rng.integers(1, len(content) + 1)]))
+        for reader in (read_relaxation, read_creep, read_shifts):
+            try:
+                reader(path, format=rng.choice([None, *FORMATS]))
+            except ValueError as error:
+                assert str(path) in str(error)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("format", FORMATS)
+def test_a_file_read_as_another_format_gives_right_points_or_an_error(name, format, tmp_path):
+    path = tmp_path / "film.osc"
+    whole = read(path, TEXTS[name])
+    try:
+        sweeps = read_dma(path, format=format)
+    except ValueError as error:
+        assert str(path) in str(error)
+    else:
+        assert_right(sweeps, whole)
+
+
+@pytest.mark.parametrize("damage", ["cut", "scrambled"])
+def test_a_damaged_new_workbook_gives_right_points_or_an_error(damage, tmp_path):
+    pytest.importorskip("openpyxl")
+    path, rng = tmp_path / "film.xlsx", np.random.default_rng(4)
+    lab_files.workbook(path)
+    content, whole = path.read_bytes(), read_dma(path)
+    for _ in range(20):
+        changed = bytearray(content)
+        if damage == "cut":
+            changed = changed[: rng.integers(5, len(content))]
+        else:
+            for place in rng.integers(4, len(content), rng.integers(1, 30)):
+                changed[place] = rng.integers(256)
+        sweeps = read(path, bytes(changed))
+        if sweeps is not None:
+            assert_right(sweeps, whole)
+
+
+@pytest.mark.skipif(not PUBLISHED.exists(), reason="the published measurements are not here")
+@pytest.mark.parametrize("damage", ["cut", "scrambled"])
+def test_a_damaged_old_workbook_gives_sweeps_or_an_error(damage, tmp_path):
+    pytest.importorskip("xlrd")
+    path, rng = tmp_path / "film.xls", np.random.default_rng(5)
+    content = (PUBLISHED / "freq_Eplexor_raw.xls").read_bytes()
+    whole = read(path, content)
+    for _ in range(12):
+        changed = bytearray(content)
+        if damage == "cut":
+            changed = changed[: rng.integers(5, len(content))]
+        else:
+            for place in rng.integers(4, len(content), rng.integers(1, 100)):
+                changed[place] = rng.integers(256)
+        sweeps = read(path, bytes(changed))
+        if sweeps is None:
+            continue
+        if damage == "cut":
+            assert_right(sweeps, whole)
+        else:
+            # the moduli are checked against tan(delta) and |E*|; temperature and frequency
+            # stand in the file once
+            known = {storage for _, storage in points(whole)}
+            assert sum(storage not in known for _, storage in points(sweeps)) < 5

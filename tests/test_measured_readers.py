@@ -1,0 +1,652 @@
+"""Readers of laboratory files: formats, units, words, and what is refused."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import lab_files
+from viscotack.measured import (
+    FORMATS,
+    FrequencySweeps,
+    MasterCurve,
+    RelaxationTest,
+    ShiftTable,
+    read_creep,
+    read_dma,
+    read_relaxation,
+    read_shifts,
+)
+from viscotack.measured.grouping import grouped
+from viscotack.measured.lab_file import LARGEST
+from viscotack.measured.quantities import kelvin, radians_per_second, recognise, scale
+
+PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
+published = pytest.mark.skipif(
+    not PUBLISHED.exists(), reason="the published measurements are not beside this checkout"
+)
+
+
+@pytest.fixture
+def file(tmp_path):
+    """Write a file and return its path."""
+
+    def write(content, name="film.txt"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write
+
+
+def table(*rows, names="f, E', E'', T", units="Hz, MPa, MPa, C"):
+    return "\n".join([names, units, *rows]) + "\n"
+
+
+def notes(read):
+    return "; ".join(read.source.notes)
+
+
+# ---- every format ------------------------------------------------------------------------------
+
+
+def assert_the_invented_film(sweeps, kind="E"):
+    assert sweeps.kind == kind
+    assert_allclose(sweeps.temperature, lab_files.TEMPERATURE, rtol=1e-14)
+    assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-11)
+    assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=1e-14)
+    assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=1e-14)
+    assert sweeps.sweep.tolist() == [0] * 4 + [1] * 4 + [2] * 4
+
+
+@pytest.mark.parametrize("name", lab_files.TEXTS)
+def test_every_text_format_gives_the_same_numbers(file, name):
+    sweeps = read_dma(file(lab_files.TEXTS[name]))
+    assert_the_invented_film(sweeps)
+    assert sweeps.source.format == name.split(";")[0].split()[0]
+    assert f"format found out: {sweeps.source.format}" in sweeps.source.notes
+    assert len(sweeps.source.sha256) == 64
+
+
+@pytest.mark.parametrize("name", lab_files.TEXTS)
+def test_a_format_that_is_named_is_not_found_out(file, name):
+    found = read_dma(file(lab_files.TEXTS[name]))
+    named = read_dma(file(lab_files.TEXTS[name]), format=found.source.format)
+    assert_allclose(named.storage, found.storage, rtol=0)
+    assert "found out" not in notes(named)
+
+
+def test_a_workbook_gives_the_same_numbers(tmp_path):
+    pytest.importorskip("openpyxl")
+    lab_files.workbook(tmp_path / "film.xlsx")
+    sweeps = read_dma(tmp_path / "film.xlsx")
+    assert_the_invented_film(sweeps)
+    assert sweeps.source.format == "workbook"
+
+
+@pytest.mark.parametrize("headings", [True, False])
+@pytest.mark.parametrize("name", ["film.osc", "film.tts"])
+def test_reptate_is_read_in_its_own_units(file, name, headings):
+    sweeps = read_dma(file(lab_files.reptate(headings=headings), name))
+    assert sweeps.kind == "G"
+    assert sweeps.source.format == "reptate"
+    assert_allclose(sweeps.temperature, 253.15)
+    assert_allclose(sweeps.storage, lab_files.PASCAL[0][8:])
+    assert_allclose(sweeps.angular_frequency, lab_files.OMEGA[8:])
+
+
+def test_the_units_that_reptate_fixes_are_noted(file):
+    for headings in ("", "Freq G' G''\n", "w G' G''\n"):
+        sweeps = read_dma(file(f"T=20;\n{headings}10 3e5 4e4\n", "film.osc"))
+        assert sweeps.angular_frequency[0] == 10
+        assert sweeps.temperature[0] == 293.15
+        assert "units fixed by the format: rad/s, Pa" in notes(sweeps)
+    assert "fixed" not in notes(read_dma(file(lab_files.reptate(), "film.osc")))
+
+
+def test_reptate_without_parameters_is_told_what_was_expected(file):
+    with pytest.raises(ValueError, match=r"line 1: expected parameters such as 'Mw=94.9"):
+        read_dma(file("w G' G''\n1 2 3\n"), format="reptate")
+
+
+def test_an_unknown_format_is_refused(file):
+    with pytest.raises(ValueError, match="format must be one of eplexor, workbook, reptate"):
+        read_dma(file(lab_files.plain()), format="excel")
+    assert set(FORMATS) >= {"csv", "pyvisco", "trios", "rheocompass", "eplexor", "reptate"}
+
+
+# ---- real files --------------------------------------------------------------------------------
+
+
+@published
+def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
+    pytest.importorskip("xlrd")
+    text = read_dma(PUBLISHED / "freq_user_raw.csv")
+    book = read_dma(PUBLISHED / "freq_Eplexor_raw.xls")
+    assert (text.source.format, book.source.format) == ("pyvisco", "eplexor")
+    assert len(text) == len(book) == 210
+    assert text.kind == book.kind == "E"
+    assert text.ids == book.ids == tuple(range(21))
+    assert np.array_equal(text.sweep, book.sweep)
+    # the text has ten digits
+    assert_allclose(text.storage, book.storage, rtol=1e-9)
+    assert_allclose(text.loss, book.loss, rtol=1e-9)
+    assert_allclose(text.temperature, book.temperature, rtol=1e-12)
+    assert_allclose(text.storage[0], 8097.175545e6, rtol=1e-12)
+    assert_allclose(text.angular_frequency[0], 0.2 * np.pi, rtol=1e-12)
+
+
+@published
+def test_the_published_master_curves_are_read():
+    master = read_dma(PUBLISHED / "freq_user_master.csv")
+    assert len(master) == 206
+    assert master.ids == (0,)
+    assert np.all(np.isnan(master.temperature))
+    relaxation = read_relaxation(PUBLISHED / "time_user_master.csv")
+    assert len(relaxation) == 481
+    assert relaxation.kind == "E"
+    assert relaxation.modulus[0] == pytest.approx(1714.266e6, rel=1e-12)
+    shifts = read_shifts(PUBLISHED / "freq_user_master__shift_factors.csv")
+    assert len(shifts) == 21
+    assert shifts.temperature[0] == pytest.approx(223.15, rel=1e-12)
+    assert shifts.log10_shift[[0, 6, -1]].tolist() == [12.75, 0.0, -11.7]
+    assert shifts.uncertainty is None
+
+
+# ---- units and words ---------------------------------------------------------------------------
+
+
+def test_hertz_and_radians_are_told_apart(file):
+    rows = ("1, 3, 0.4, 20", "10, 4, 0.7, 20")
+    hertz = read_dma(file(table(*rows)))
+    radians = read_dma(file(table(*rows, units="rad/s, MPa, MPa, C")))
+    assert_allclose(hertz.angular_frequency, 2 * np.pi * radians.angular_frequency)
+
+
+def test_a_frequency_in_one_over_seconds_is_refused_until_the_unit_is_given(file):
+    path = file(table("1, 3, 0.4, 20", units="1/s, MPa, MPa, C"))
+    with pytest.raises(ValueError, match=r"line 3: column .f.: .*Hz or in rad/s.*frequency_unit="):
+        read_dma(path)
+    assert read_dma(path, frequency_unit="rad/s").angular_frequency[0] == 1
+    assert read_dma(path, frequency_unit="Hz").angular_frequency[0] == 2 * np.pi
+
+
+def test_a_given_unit_that_contradicts_the_file_is_refused(file):
+    with pytest.raises(ValueError, match="the file says Hz, frequency_unit says rad/s"):
+        read_dma(file(lab_files.plain()), frequency_unit="rad/s")
+    with pytest.raises(ValueError, match="heading says angular frequency, the unit says Hz"):
+        read_dma(file(table("1, 3, 0.4, 20", names="omega, E', E'', T")))
+
+
+def test_two_columns_of_frequency_must_agree(file):
+    names, units = "f, omega, E', E''", "Hz, rad/s, MPa, MPa"
+    good = read_dma(file(table("1, 6.2832, 3, 0.4", names=names, units=units)))
+    assert good.angular_frequency[0] == pytest.approx(6.2832)
+    with pytest.raises(ValueError, match=r"line 3: .omega. is 1 rad/s but .f. makes 6.28"):
+        read_dma(file(table("1, 1, 3, 0.4", names=names, units=units)))
+
+
+def test_units_beside_the_headings_are_read(file):
+    text = "Frequency (Hz);Storage modulus E' [kPa];Loss modulus (E'') / kPa;Temp [K]\n"
+    sweeps = read_dma(file(text.replace(" (E'')", " E''") + "1;3000;400;293\n"))
+    assert sweeps.storage[0] == 3e6
+    assert sweeps.loss[0] == 4e5
+    assert sweeps.temperature[0] == 293
+    assert sweeps.kind == "E"
+
+
+def test_a_modulus_without_a_unit_is_refused_until_it_is_given(file):
+    path = file(table("1, 3, 0.4, 20", units="Hz, -, -, C"))
+    with pytest.raises(ValueError, match=".E'. has no unit; give modulus_unit="):
+        read_dma(path)
+    assert read_dma(path, modulus_unit="MPa").storage[0] == 3e6
+
+
+@pytest.mark.parametrize(
+    ("unit", "wrong"), [("Mpa", "not known"), ("N", "does not measure"), ("xyz", "not known")]
+)
+def test_a_wrong_unit_names_its_column(file, unit, wrong):
+    with pytest.raises(ValueError, match=rf"line 3: column .E'..*{wrong}"):
+        read_dma(file(table("1, 3, 0.4, 20", units=f"Hz, {unit}, MPa, C")))
+
+
+def test_a_modulus_above_diamond_is_refused(file):
+    with pytest.raises(ValueError, match=r"line 4: .*diamond; is the unit right"):
+        read_dma(file(table("1, 3, 1, 20", "1, 3000, 2, 20", units="Hz, GPa, MPa, C")))
+
+
+def test_moduli_whose_units_cannot_both_be_right_are_refused(file):
+    with pytest.raises(ValueError, match=r"line 3: loss over storage modulus is 1.3e-07 in"):
+        read_dma(file(table("1, 3, 0.4, 20", units="Hz, MPa, Pa, C")))
+
+
+def test_temperatures_are_read_in_their_unit():
+    for text, unit in ((-40.0, "C"), (-40.0, "°F"), (233.15, "K")):
+        factor, offset = kelvin(unit)
+        assert factor * text + offset == pytest.approx(233.15)
+    with pytest.raises(ValueError, match="'R' is not a unit of temperature"):
+        kelvin("R")
+
+
+def test_units_of_frequency_are_read_by_name():
+    assert radians_per_second("[kHz]", angular=False) == pytest.approx(2000 * np.pi)
+    assert radians_per_second("rad s^-1", angular=True) == 1
+    for unit in ("rpm", "m", "1/s"):
+        with pytest.raises(ValueError, match=r"Hz|rotation"):
+            radians_per_second(unit, angular=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "quantity", "kind"),
+    [
+        ("E_stor", "storage", "E"),
+        ("G″", "loss", "G"),
+        ('G"', "loss", "G"),
+        ("Storage modulus (E’)", "storage", "E"),
+        ("Speichermodul", "storage", None),
+        ("Module de perte", "loss", None),
+        ("Shear Stress [Pa]", "stress", "G"),
+        ("Kreisfrequenz", "angular_frequency", None),
+        ("ω", "angular_frequency", None),
+        ("T", "temperature", None),
+        ("t", "time", None),
+        ("Tan(δ)", "tan_delta", None),
+        ("log_aT", "log10_shift", None),
+    ],
+)
+def test_headings_are_recognised(text, quantity, kind):
+    heading = recognise(text)
+    assert (heading.quantity, heading.kind) == (quantity, kind)
+
+
+@pytest.mark.parametrize("text", ["F", "T2", "Normal force", "E", "Status", "", "Strain stat", "a"])
+def test_other_columns_are_not(text):
+    assert recognise(text) is None
+
+
+def test_units_go_through_the_unit_library():
+    assert scale("N/mm²", "Pa") == 1e6
+    assert scale("psi", "Pa") == pytest.approx(6894.757, rel=1e-6)
+    assert scale("%", "1") == 0.01
+    # and a mark that it would pass over is refused
+    with pytest.raises(ValueError, match=r"the unit '\?Pa' is not known"):
+        scale("?Pa", "Pa")
+
+
+# ---- tension and shear -------------------------------------------------------------------------
+
+OPEN = "Frequency\tStorage modulus\tLoss modulus\nHz\tPa\tPa\n1\t3e6\t4e5\n"
+
+
+def test_a_modulus_of_unknown_kind_is_refused_until_it_is_given(file):
+    with pytest.raises(ValueError, match=r"tensile \(E\) or shear \(G\); give kind='E'"):
+        read_dma(file(OPEN))
+    assert read_dma(file(OPEN), kind="G").kind == "G"
+    with pytest.raises(ValueError, match="kind must be 'E'"):
+        read_dma(file(OPEN), kind="shear")
+
+
+def test_a_kind_that_contradicts_the_file_is_refused(file):
+    with pytest.raises(ValueError, match="no table with a frequency, a storage modulus"):
+        read_dma(file(lab_files.plain()), kind="G")
+
+
+def test_words_around_the_moduli_say_their_kind(file):
+    beside = OPEN.replace("Loss modulus\n", "Loss modulus\tTorque\n").replace(
+        "\tPa\n", "\tPa\tuNm\n"
+    )
+    sweeps = read_dma(file(beside.replace("4e5", "4e5\t12")))
+    assert sweeps.kind == "G"
+    assert "speak of shear" in notes(sweeps)
+
+
+def test_of_two_kinds_in_one_table_one_is_chosen(file):
+    path = file(table("1, 3, 0.4, 1, 0.1", names="f, E', E'', G', G''", units="Hz" + ", MPa" * 4))
+    with pytest.raises(ValueError, match=r"two columns of one quantity.*give kind='E' or 'G'"):
+        read_dma(path)
+    assert read_dma(path, kind="E").storage[0] == 3e6
+    assert read_dma(path, kind="G").storage[0] == 1e6
+
+
+def test_shear_becomes_tension_with_a_poisson_ratio(file):
+    shear = read_dma(file(lab_files.reptate(), "film.osc"))
+    tension = shear.in_tension(0.45)
+    assert tension.kind == "E"
+    assert_allclose(tension.loss, 2.9 * shear.loss)
+    assert "Poisson ratio 0.45" in notes(tension)
+    assert tension.in_tension(0.3) is tension
+    with pytest.raises(ValueError, match="between 0 and 0.5"):
+        shear.in_tension(0.6)
+
+
+# ---- numbers -----------------------------------------------------------------------------------
+
+
+def test_a_number_that_may_be_thousands_is_refused_until_the_mark_is_given(file):
+    path = file(table("1\t1,234\t0\t20", names="f\tE'\tE''\tT", units="Hz\tMPa\tMPa\tC"))
+    with pytest.raises(ValueError, match=r"'1,234' may be a decimal number or one of thousands"):
+        read_dma(path)
+    other = file(table("1\t1,234\t0,5\t20", names="f\tE'\tE''\tT", units="Hz\tMPa\tMPa\tC"))
+    assert read_dma(other).storage[0] == 1.234e6  # 0,5 can only be a decimal comma
+
+
+def test_points_and_commas_together_are_refused(file):
+    path = file(table("1\t1,5\t0.5\t20", names="f\tE'\tE''\tT", units="Hz\tMPa\tMPa\tC"))
+    with pytest.raises(ValueError, match="some numbers have a decimal point and some a comma"):
+        read_dma(path)
+
+
+@pytest.mark.parametrize("cell", ["abc", "1_000", "0x10", "1e", "1.2.3", "inf", "--3", "٣"])
+def test_what_is_no_number_is_refused_with_its_line(file, cell):
+    with pytest.raises(ValueError, match=r"line 4: column .E'.: expected a number"):
+        read_dma(file(table("1, 3, 0.4, 20", f"10, {cell}, 0.4, 20")))
+
+
+def test_a_number_beyond_all_numbers_is_refused(file):
+    with pytest.raises(ValueError, match="line 3: column .E'.: the number '1e999' is too large"):
+        read_dma(file(table("1, 1e999, 0.4, 20")))
+
+
+def test_points_without_a_number_or_not_positive_are_left_out_with_a_note(file):
+    sweeps = read_dma(
+        file(
+            table("1, 3, 0.4, 20", "2, ---, 0.4, 20", "3, 3, -0.1, 20", "4, 3, , 20", "5, 3, 1, 20")
+        )
+    )
+    assert_allclose(sweeps.angular_frequency, 2 * np.pi * np.array([1, 5]))
+    assert "a number is missing: line 4, 6" in notes(sweeps)
+    assert "a value is not positive: line 5" in notes(sweeps)
+
+
+def test_a_file_without_any_whole_point_is_refused(file):
+    with pytest.raises(ValueError, match="no row has all the numbers that are needed"):
+        read_dma(file(table("1, ---, 0.4, 20")))
+
+
+@pytest.mark.parametrize("row", ["0, 3, 0.4, 20", "-1, 3, 0.4, 20"])
+def test_a_frequency_that_is_not_positive_is_refused(file, row):
+    with pytest.raises(ValueError, match="line 3: a frequency must be positive"):
+        read_dma(file(table(row)))
+
+
+def test_a_temperature_below_zero_kelvin_is_refused(file):
+    with pytest.raises(ValueError, match="line 3: a temperature of -26.85 K is not possible"):
+        read_dma(file(table("1, 3, 0.4, -300")))
+
+
+def test_tan_delta_stands_for_a_missing_loss_modulus(file):
+    sweeps = read_dma(
+        file(table("1, 3, 0.1, 20", names="f, E', tan delta, T", units="Hz, MPa, -, C"))
+    )
+    assert_allclose(sweeps.loss, 0.3e6)
+    assert "loss modulus from tan(delta)" in notes(sweeps)
+
+
+@pytest.mark.parametrize(("name", "unit"), [("tan delta", "-"), ("|E*|", "MPa")])
+def test_a_number_that_contradicts_its_row_is_found(file, name, unit):
+    value = 0.1333 if unit == "-" else 3.0265
+    names, units = f"f, E', E'', {name}", f"Hz, MPa, MPa, {unit}"
+    path = file(table(f"1, 3, 0.4, {value}", f"2, 3.00, 0.40, {value}", names=names, units=units))
+    assert len(read_dma(path)) == 2
+    path = file(table(f"1, 3, 0.4, {value}", f"2, 8.00, 0.40, {value}", names=names, units=units))
+    with pytest.raises(ValueError, match=r"line 4: .*a number is damaged"):
+        read_dma(path)
+
+
+# ---- rows, sweeps and damage -------------------------------------------------------------------
+
+
+def test_a_missing_or_added_cell_is_refused(file):
+    for row in ("10, 4, 0.7", "10, 4, 0.7, 20, 5"):
+        with pytest.raises(ValueError, match=r"line 4: .* cells where the headings have 4"):
+            read_dma(file(table("1, 3, 0.4, 20", row)))
+
+
+def test_a_last_line_without_an_end_is_left_out(file):
+    whole = lab_files.plain()
+    cut = read_dma(file(whole[:-1]))
+    assert len(cut) == 11
+    assert "line 14, the last, has no line end" in notes(cut)
+
+
+@pytest.mark.parametrize("name", ["trios text", "rheocompass", "rheocompass csv"])
+def test_a_lost_row_is_found_where_the_file_counts_them(file, name):
+    encoding = "utf-16" if name == "rheocompass" else "utf-8"
+    lines = lab_files.TEXTS[name].decode(encoding).split("\r\n")
+    kept = [line for line in lines if "100\t" not in line and ",100," not in line]
+    assert len(kept) == len(lines) - 3
+    with pytest.raises(ValueError, match="says 4 points and has 3: the file is cut or edited"):
+        read_dma(file("\r\n".join(kept).encode(encoding)))
+
+
+def test_unsorted_rows_give_the_same_sweeps(file):
+    head, *rest = lab_files.plain().decode().splitlines()[1:]
+    lines = ["f,E',E'',T", head, *np.random.default_rng(0).permutation(rest)]
+    sweeps = read_dma(file("\n".join(lines) + "\n"))
+    assert sweeps.ids == (0, 1, 2)
+    for number in sweeps.ids:
+        one = sweeps.at(number)
+        assert np.all(np.diff(one.angular_frequency) > 0)
+        same = lab_files.TEMPERATURE == one.temperature[0]
+        assert_allclose(one.storage, lab_files.PASCAL[0][same])
+
+
+def test_a_repeated_row_is_used_once(file):
+    sweeps = read_dma(file(table("1, 3, 0.4, 20", "10, 4, 0.7, 20", "1, 3, 0.4, 20")))
+    assert len(sweeps) == 2
+    assert "1 repeated rows left out" in notes(sweeps)
+
+
+def test_sweeps_up_and_down_at_one_temperature_are_two():
+    up_and_down = np.array([1.0, 10, 100, 10, 1])
+    numbers, how = grouped(np.full(5, 300.0), up_and_down)
+    assert numbers.tolist() == [0, 0, 0, 1, 1]
+    assert "turns back" in how
+
+
+def test_a_ramp_at_one_frequency_is_one_sweep(file):
+    rows = [f"1, {1000 / (i + 1)}, 10, {10 * i - 130}" for i in range(16)]
+    sweeps = read_dma(file(table(*rows)))
+    assert len(sweeps) == 16
+    assert sweeps.ids == (0,)
+
+
+def test_a_ramp_at_three_frequencies_is_a_sweep_for_each_turn():
+    temperature = np.linspace(250, 260, 30)
+    numbers, _ = grouped(temperature, np.tile([1.0, 3, 10], 10))
+    assert numbers.tolist() == list(np.repeat(np.arange(10), 3))
+
+
+def test_an_amplitude_sweep_is_not_taken_for_a_frequency_sweep(file):
+    amplitude = [f"1, {3 - i / 10}, 0.4, 20" for i in range(5)]
+    with pytest.raises(ValueError, match="line 3: one temperature and one frequency"):
+        read_dma(file(table(*amplitude)))
+    names = "Angular frequency,Step time,Temperature,Storage modulus,Loss modulus,Tan(delta)"
+    extra = ["[step]", "Amplitude sweep - 1", names, "rad/s,s,°C,MPa,MPa,"]
+    extra += [f"6.28,{60 * i},20,{3 - i / 10},0.4,{0.4 / (3 - i / 10):.4f}" for i in range(4)]
+    begin, steps = lab_files.trios_csv().decode("latin-1").split("\n\n", 1)
+    text = "\n".join([begin, "", *extra, "", steps])
+    sweeps = read_dma(file(text.encode("latin-1")))
+    assert_the_invented_film(sweeps)
+    assert "perhaps an amplitude or time sweep" in notes(sweeps)
+
+
+def test_the_temperature_is_asked_for_where_the_file_has_none(file):
+    path = file(table("1, 3, 0.4", names="f, E', E''", units="Hz, MPa, MPa"))
+    assert np.isnan(read_dma(path).temperature[0])
+    assert read_dma(path, temperature=293.15).temperature[0] == 293.15
+    with pytest.raises(ValueError, match=r"temperature must be positive \[K\]"):
+        read_dma(path, temperature=-20)
+    with pytest.raises(ValueError, match="the file says its temperatures"):
+        read_dma(file(lab_files.plain()), temperature=293.15)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "the file is empty"),
+        (b"  \n \n", "the file is empty"),
+        (b"hello\nworld\n", "none of the first 200 lines looks like headings.*begins 'hello'"),
+        (b"a\x00b\x01\x02" * 50, "neither text nor an Excel|not utf-16|looks like headings"),
+        (b"\xd0\xcf\x11\xe0" + b"x" * 600, "the workbook cannot be read"),
+        (b"PK\x03\x04" + b"x" * 600, "the workbook cannot be read"),
+        (b"f,T\nHz,C\n1,20\n", "no table with a frequency, a storage modulus.*found .f., .T."),
+        (b"f,E',E''\nHz,MPa,MPa\n", "no table with a frequency.*found .f., .E'."),
+    ],
+)
+def test_what_is_no_measurement_is_refused(file, content, words):
+    with pytest.raises(ValueError, match=words):
+        read_dma(file(content))
+
+
+def test_a_huge_file_is_not_read(tmp_path):
+    path = tmp_path / "huge.csv"
+    with path.open("wb") as stream:
+        stream.truncate(LARGEST + 1)
+    with pytest.raises(ValueError, match="larger than 50 MB"):
+        read_dma(path)
+
+
+def test_a_file_that_is_not_there_is_an_error_of_the_system(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        read_dma(tmp_path / "none.csv")
+
+
+# ---- tests in time, and shift factors ----------------------------------------------------------
+
+
+def test_a_relaxation_test_is_read(file):
+    text = "t, G_relax, T\ns, kPa, C\n0, 900, 20\n10, 500, 20.4\n1, 700, 19.6\n"
+    test = read_relaxation(file(text))
+    assert test.kind == "G"
+    assert test.time.tolist() == [1, 10]
+    assert test.modulus.tolist() == [7e5, 5e5]
+    assert test.temperature == pytest.approx(293.15)
+    assert "not positive: line 3" in notes(test)
+    assert_allclose(test.in_tension(0.5).modulus, [2.1e6, 1.5e6])
+
+
+def test_a_modulus_is_found_as_stress_over_strain_in_the_time_of_the_step(file):
+    names = ("Interval data:", "Point No.", "Time", "Interval Time", "Shear Strain", "Shear Stress")
+    rows = [
+        ("Interval and data points:", "1", "3"),
+        names,
+        (),
+        ("", "", "[s]", "[s]", "[%]", "[Pa]"),
+        ("", "1", "100", "1", "2.0", "3000"),
+        ("", "2", "110", "11", "2.0", "2000"),
+        ("", "3", "200", "101", "2.0", "1500"),
+    ]
+    text = "\n".join("\t".join(row) for row in rows) + "\n"
+    test = read_relaxation(file(text.encode("utf-16")))
+    assert test.source.format == "rheocompass"
+    assert test.kind == "G"
+    assert test.time.tolist() == [1, 11, 101]
+    assert_allclose(test.modulus, [150e3, 100e3, 75e3])
+    assert test.strain == pytest.approx(0.02)
+    creep = read_creep(file(text.encode("utf-16")))
+    assert_allclose(creep.compliance, 1 / test.modulus)
+    assert creep.stress == 2000
+
+
+def test_reptate_relaxation_and_shift_factors_are_read(file):
+    test = read_relaxation(file("T=20;gamma=0.1;\n0.1 5e5\n1 3e5\n", "film.gt"))
+    assert (test.kind, test.temperature) == ("G", 293.15)
+    assert test.modulus.tolist() == [5e5, 3e5]
+    shifts = read_shifts(
+        file("Mw=1;chem=PI;\nT aT bT\n[°C] [-] [-]\n-40 1000 1.1\n20 1 1\n", "a.ttsf")
+    )
+    assert_allclose(shifts.log10_shift, [3, 0], atol=1e-15)
+    assert_allclose(shifts.log10_vertical, [np.log10(1.1), 0], atol=1e-15)
+
+
+def test_a_creep_test_is_read_and_becomes_tensile(file):
+    test = read_creep(file("t\tJ(t)\ns\t1/MPa\n1\t3\n10\t6\n"))
+    assert_allclose(test.in_tension(0.5).compliance, [1e-6, 2e-6])
+
+
+def test_wrong_tests_in_time_say_what_was_expected(file):
+    with pytest.raises(ValueError, match=r"expected one table with a time and a modulus.*.f., "):
+        read_relaxation(file(lab_files.plain()))
+    with pytest.raises(ValueError, match="temperature runs over 40 K"):
+        read_relaxation(file("t, G_relax, T\ns, Pa, C\n1, 900, 20\n10, 500, 60\n"))
+    with pytest.raises(ValueError, match="no table with columns T and log_aT"):
+        read_shifts(file(lab_files.plain()))
+    with pytest.raises(ValueError, match="line 3: a shift factor must be positive.*a logarithm"):
+        read_shifts(file("T, aT\nC, -\n20, -3\n"))
+    with pytest.raises(ValueError, match="one row per temperature"):
+        read_shifts(file("T, aT\nC, -\n20, 3\n20, 4\n"))
+
+
+# ---- the objects -------------------------------------------------------------------------------
+
+
+def test_sweeps_are_chosen_and_left_out(file):
+    sweeps = read_dma(file(lab_files.plain()))
+    assert len(sweeps.at(1)) == 4
+    assert sweeps.without(0, 2).ids == (1,)
+    with pytest.raises(ValueError, match=r"no sweep 7; there are \[0, 1, 2\]"):
+        sweeps.at(7)
+    with pytest.raises(ValueError, match="no sweep 7"):
+        sweeps.without(7)
+    assert_allclose(sweeps.complex_modulus.imag, sweeps.loss)
+
+
+def test_the_objects_are_frozen_and_their_arrays_read_only(file):
+    sweeps = read_dma(file(lab_files.plain()))
+    with pytest.raises(AttributeError):
+        sweeps.kind = "G"
+    with pytest.raises(ValueError, match="read-only"):
+        sweeps.storage[0] = 1
+    source = np.array([1.0, 2.0])
+    test = RelaxationTest(source, source, "E")
+    source[0] = 9
+    assert test.time[0] == 1
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"kind": "shear"}, "kind must be 'E'"),
+        ({"loss": [1.0]}, "loss has 1 values where the others have 2"),
+        ({"storage": [1.0, -1.0]}, r"storage must be positive and finite \[Pa\], got -1"),
+        ({"storage": [1.0, np.nan]}, "storage must be positive"),
+        ({"temperature": [293.0, -20.0]}, "temperature must be positive.*Celsius"),
+        ({"sweep": [0, 0.5]}, "sweep must be whole numbers"),
+        ({"storage": []}, "storage must be a row of numbers"),
+    ],
+)
+def test_impossible_sweeps_are_refused(change, words):
+    good = FrequencySweeps([293.0, np.nan], [1, 2], [3e6, 4e6], [1e5, 2e5], "E", [0, 1])
+    with pytest.raises(ValueError, match=words):
+        replace(good, **change)
+
+
+def test_impossible_curves_and_tables_are_refused():
+    with pytest.raises(ValueError, match="reference_temperature must be positive"):
+        MasterCurve(-20.0, [1, 2], [3, 4], [1, 2], "E")
+    with pytest.raises(ValueError, match="uncertainty must not be negative"):
+        ShiftTable([280, 290], [1, 0], [0.1, -0.1])
+    with pytest.raises(ValueError, match="temperature must be positive"):
+        ShiftTable([-20, 20], [1, 0], None)
+    with pytest.raises(ValueError, match="log10_shift must be finite"):
+        ShiftTable([280, 290], [1, np.inf], None)
+
+
+def test_a_curve_is_sorted_with_all_its_columns():
+    curve = MasterCurve(
+        293.15,
+        [9, 1, 5],
+        [3, 1, 2],
+        [30, 10, 20],
+        "G",
+        temperature=[300, 310, 305],
+        sweep=[0, 2, 1],
+    )
+    assert curve.storage.tolist() == [1, 2, 3]
+    assert curve.temperature.tolist() == [310, 305, 300]
+    assert curve.sweep.tolist() == [2, 1, 0]
+    assert curve.in_tension(0.5).storage.tolist() == [3, 6, 9]
+    assert len(curve.chosen([0, 1])) == 2
