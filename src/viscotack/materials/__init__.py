@@ -1,16 +1,27 @@
 """Linear viscoelastic solids, and their memory as exponential modes."""
 
+from viscotack.materials.library import published
 from viscotack.materials.material import Material
 from viscotack.materials.modes import Modes
+from viscotack.materials.passport import Passport
+from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
+from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
 
 __all__ = [
+    "WLF",
+    "Arrhenius",
     "Elastic",
     "Material",
     "Modes",
+    "Passport",
     "Prony",
     "RelaxationPowerLaw",
     "RetardationPowerLaw",
     "StandardSolid",
+    "TabulatedShift",
+    "published",
+    "read_passport",
+    "write_passport",
 ]

@@ -1,5 +1,9 @@
 """What laboratories have, and what it says: sweeps, master curves, relaxation and creep tests."""
 
+from viscotack.measured.draw import draw_fit
+from viscotack.measured.fit import fit
+from viscotack.measured.fit_passport import issued
+from viscotack.measured.fit_report import FitReport
 from viscotack.measured.kramers_kronig import Consistency, consistency, loss_from_storage
 from viscotack.measured.master_curve import master_curve
 from viscotack.measured.reading import (
@@ -24,6 +28,7 @@ __all__ = [
     "FORMATS",
     "Consistency",
     "CreepTest",
+    "FitReport",
     "FrequencySweeps",
     "MasterCurve",
     "RelaxationTest",
@@ -31,8 +36,11 @@ __all__ = [
     "ShiftTable",
     "Source",
     "consistency",
+    "draw_fit",
+    "fit",
     "fit_arrhenius",
     "fit_wlf",
+    "issued",
     "loss_from_storage",
     "master_curve",
     "read_creep",

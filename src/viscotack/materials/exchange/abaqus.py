@@ -1,0 +1,70 @@
+"""Abaqus: ``*VISCOELASTIC, TIME=PRONY``, ratios to the instantaneous modulus.
+
+Time domain viscoelasticity of the Abaqus Analysis User's Guide: g(t) = 1 - sum g_i (1 -
+exp(-t/tau_i)), data lines g_i, k_i, tau_i; ``*ELASTIC`` states the modulus, long-term or
+instantaneous.
+"""
+
+from viscotack.materials.exchange.units import (
+    Units,
+    from_ratios,
+    head,
+    number,
+    other_bulk,
+    units_of,
+)
+from viscotack.materials.solids import Prony
+
+
+def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+    """Return the material as input lines; the long-term modulus is stated and hence exact."""
+    glassy = material.glassy_modulus
+    lines = head("**", units, notes)
+    lines += ["*MATERIAL, NAME=VISCOTACK", "*ELASTIC, MODULI=LONG TERM"]
+    lines += [f"{material.rubbery_modulus / units.pascal!r}, {material.poisson_ratio!r}"]
+    lines += ["*VISCOELASTIC, TIME=PRONY"]
+    lines += [f"{E / glassy!r}, {E / glassy!r}, {t / units.second!r}" for E, t in material.branches]
+    return "\n".join(lines) + "\n"
+
+
+def read(text: str, units: Units | None) -> Prony:
+    """Return the series of the first ``*VISCOELASTIC`` with its ``*ELASTIC``."""
+    unit = units_of(text, units)
+    keyword, instantaneous = "", False
+    elastic: tuple[float, float] | None = None
+    rows: list[tuple[int, float, float, float]] = []
+    for line, raw in enumerate(text.splitlines(), 1):
+        words = raw.strip()
+        if not words or words.startswith("**"):
+            continue
+        if words.startswith("*"):
+            command = words.upper().replace(" ", "")
+            if command.startswith("*MATERIAL"):
+                if rows:
+                    break
+                elastic = None  # that was of another material
+            keyword = command.split(",")[0]
+            if keyword == "*ELASTIC":
+                instantaneous = "MODULI=INSTANTANEOUS" in command
+            if keyword == "*VISCOELASTIC" and "TIME=PRONY" not in command:
+                raise ValueError(
+                    f"line {line}: only TIME=PRONY states a Prony series, got {words!r}"
+                )
+            continue
+        if keyword not in ("*ELASTIC", "*VISCOELASTIC"):
+            continue
+        values = [number(w, line, "a value") if w.strip() else 0.0 for w in words.split(",")]
+        if keyword == "*ELASTIC" and elastic is None and len(values) >= 2:
+            elastic = (values[0], values[1])
+        elif keyword == "*VISCOELASTIC":
+            if len(values) < 3:
+                raise ValueError(f"line {line}: expected g_i, k_i, tau_i, got {words!r}")
+            rows.append((line, values[0], values[1], values[2]))
+    if elastic is None:
+        raise ValueError("there is no *ELASTIC with Young's modulus and Poisson ratio")
+    modulus, nu = elastic
+    for line, g, k, _ in rows:
+        if nu != 0.5 and abs(g - k) > 1e-6 * max(g, k):
+            other_bulk(line, g, k)
+    ratios = [(g, time * unit.second) for _, g, _, time in rows]
+    return from_ratios(modulus * unit.pascal, ratios, nu, instantaneous=instantaneous)

@@ -1,0 +1,144 @@
+"""Units of other programs' numbers, comments that state them, and what all formats share."""
+
+import math
+import re
+from dataclasses import dataclass
+from typing import NoReturn
+
+from viscotack.materials.checks import positive
+from viscotack.materials.solids import Prony
+from viscotack.units import parse
+
+_COMMENT = re.compile(r"units:\s*pressure\s+(\S+?),\s*time\s+(\S+)")
+
+
+@dataclass(frozen=True)
+class Units:
+    """The units of the numbers in a file.
+
+    Parameters
+    ----------
+    pressure : str
+        Such as "Pa" or "MPa".
+    time : str
+        Such as "s" or "ms".
+
+    Examples
+    --------
+    >>> Units("MPa", "ms").pascal, Units("MPa", "ms").second
+    (1000000.0, 0.001)
+    """
+
+    pressure: str
+    time: str
+
+    def __post_init__(self):
+        positive("a unit of pressure", self.pascal, "Pa")
+        positive("a unit of time", self.second, "s")
+
+    @property
+    def pascal(self) -> float:
+        """The unit of pressure in Pa."""
+        # the library of units need not be imported for SI
+        return 1.0 if self.pressure == "Pa" else parse(f"1 {self.pressure}", "Pa")
+
+    @property
+    def second(self) -> float:
+        """The unit of time in s."""
+        return 1.0 if self.time == "s" else parse(f"1 {self.time}", "s")
+
+    def words(self) -> str:
+        """Return the comment that states them."""
+        return f"units: pressure {self.pressure}, time {self.time}"
+
+
+SI = Units("Pa", "s")
+
+
+def units_of(text: str, units: Units | None) -> Units:
+    """Return the units given, or those that a comment in the text states."""
+    if units is not None:
+        return units
+    found = _COMMENT.search(text)
+    if found is None:
+        raise ValueError(
+            "the text does not say its units; give them (units=Units('MPa', 's'), or on the "
+            "command line --pressure-unit and --time-unit)"
+        )
+    return Units(*found.groups())
+
+
+def head(mark: str, units: Units, notes: tuple[str, ...]) -> list[str]:
+    """Return notes and units as comment lines."""
+    lines = [line for note in notes for line in note.splitlines()]
+    return [f"{mark} {line}" for line in (*lines, units.words())]
+
+
+def shear_factor(poisson_ratio: float) -> float:
+    """Return G/E = 1/(2 (1 + nu))."""
+    return 1 / (2 * (1 + poisson_ratio))
+
+
+def bulk_factor(poisson_ratio: float) -> float:
+    """Return K/E = 1/(3 (1 - 2 nu)); 0 for an incompressible solid, which has no bulk series."""
+    return 0.0 if poisson_ratio == 0.5 else 1 / (3 * (1 - 2 * poisson_ratio))
+
+
+def number(word: str, line: int, what: str) -> float:
+    """Return a number of a text, or say in which line there is none."""
+    try:
+        value = float(word.lower().replace("d", "e"))  # Fortran writes 1.0D+00
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise ValueError(f"line {line}: {what} must be a number, got {word!r}")
+    return value
+
+
+def series(
+    rubbery_modulus: float, branches: list[tuple[float, float]], poisson_ratio: float
+) -> Prony:
+    """Return the solid, or say that no branch was found."""
+    if not branches:
+        raise ValueError("there is no branch of a Prony series in the text")
+    return Prony(
+        rubbery_modulus=rubbery_modulus,
+        branches=tuple(branches),
+        poisson_ratio=poisson_ratio,
+    )
+
+
+def from_ratios(
+    modulus: float, ratios: list[tuple[float, float]], poisson_ratio: float, *, instantaneous: bool
+) -> Prony:
+    """Return the solid whose branches are parts of the instantaneous modulus.
+
+    Parameters
+    ----------
+    modulus : float
+        Young's modulus [Pa], instantaneous or long-term.
+    ratios : list of (float, float)
+        Part g_i of the instantaneous modulus, and relaxation time [s].
+    poisson_ratio : float
+        Poisson ratio.
+    instantaneous : bool
+        Which modulus was given.
+    """
+    rest = 1 - sum(sorted(g for g, _ in ratios))
+    if rest <= 0:
+        raise ValueError(
+            f"the ratios to the instantaneous modulus sum to {1 - rest:.12g}: a solid needs less "
+            "than 1, or nothing is left of it after a long time"
+        )
+    glassy = modulus if instantaneous else modulus / rest
+    rubbery = modulus * rest if instantaneous else modulus
+    return series(rubbery, [(g * glassy, time) for g, time in ratios if g > 0], poisson_ratio)
+
+
+def other_bulk(line: int, shear: float, bulk: float) -> NoReturn:
+    """Refuse a bulk series that is not the shear series."""
+    raise ValueError(
+        f"line {line}: shear and bulk relax differently ({shear:g} and {bulk:g}), so that the "
+        "Poisson ratio changes in time; materials here have a constant one. Make the bulk series "
+        "equal to the shear series, or state an incompressible solid (Poisson ratio 0.5)"
+    )

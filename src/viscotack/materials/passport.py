@@ -1,0 +1,194 @@
+"""A material with its papers: what it is, how anybody knows, where it may be trusted."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from viscotack.materials.conversion import slowed
+from viscotack.materials.shift import Shift
+
+# A chamber is set to a whole degree and drifts: this much beyond the measured range is inside it.
+_DRIFT = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Origin:
+    """Where a material comes from.
+
+    Attributes
+    ----------
+    reference : str
+        Publication or laboratory, in words.
+    doi : str
+        Its DOI.
+    file, sha256, format : str
+        Name, hash and format of the file that was fitted.
+    made_by : str
+        Program and version that wrote the passport.
+    notes : tuple of str
+        What was decided on the way from the file to the numbers.
+    """
+
+    reference: str = ""
+    doi: str = ""
+    file: str = ""
+    sha256: str = ""
+    format: str = ""
+    made_by: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Evidence:
+    """How well a fit knows its material.
+
+    Attributes
+    ----------
+    numbers, constants : int
+        Measured numbers, and constants fitted to them.
+    scatter : float or None
+        Standard deviation of ln(measured/fitted); None where nobody says.
+    level : float
+        Confidence level of the intervals.
+    intervals : tuple of (str, float, float)
+        Name, lower and upper end [SI] of each; 0 and inf where there is no bound.
+    undetermined, cautions : tuple of str
+        What the measurement cannot say, and what to know of the fit.
+    """
+
+    numbers: int
+    constants: int
+    level: float
+    scatter: float | None = None
+    intervals: tuple[tuple[str, float, float], ...] = ()
+    undetermined: tuple[str, ...] = ()
+    cautions: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Passport:
+    """A material and its papers.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
+        The solid at `temperature`; tensile, with a constant Poisson ratio.
+    temperature : float or None
+        Temperature at which the material holds [K].
+    shift : WLF, Arrhenius, TabulatedShift or None
+        How its times change with temperature.
+    temperatures : (float, float) or None
+        Lowest and highest temperature at which it was measured [K].
+    frequencies : (float, float) or None
+        Lowest and highest angular frequency [rad/s], at `temperature`, that was measured.
+    measured : str or None
+        "E" or "G": which modulus was measured; None where nobody says.
+    origin : Origin
+        Where it comes from.
+    evidence : Evidence or None
+        How well the fit knows it.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.materials.shift import WLF
+    >>> rubber = Passport(
+    ...     name="rubber",
+    ...     material=StandardSolid(
+    ...         rubbery_modulus=1e6, glassy_modulus=1e9, tau0=0.1, poisson_ratio=0.5
+    ...     ),
+    ...     temperature=293.15,
+    ...     shift=WLF(293.15, 8.0, 100.0),
+    ... )
+    >>> f"{rubber.at_temperature(273.15).tau0:.3g} s"
+    '10 s'
+    """
+
+    name: str
+    material: Any
+    temperature: float | None = None
+    shift: Shift | None = None
+    temperatures: tuple[float, float] | None = None
+    frequencies: tuple[float, float] | None = None
+    measured: str | None = None
+    origin: Origin = Origin()
+    evidence: Evidence | None = None
+
+    def __post_init__(self):
+        if not hasattr(self.material, "retardation_modes"):
+            raise ValueError(
+                f"material must be one of viscotack.materials, got {type(self.material).__name__}"
+            )
+        if self.shift is not None and self.temperature is None:
+            raise ValueError("a shift needs the temperature [K] at which the material holds")
+        if self.measured not in ("E", "G", None):
+            raise ValueError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
+        for name in ("temperatures", "frequencies"):
+            pair = getattr(self, name)
+            if pair is not None and not 0 < pair[0] <= pair[1]:
+                raise ValueError(f"{name} must be positive and ascend, got {pair}")
+
+    def shift_factor(self, temperature: float) -> float:
+        """Return a_T: how many times slower the material is at another temperature [K].
+
+        Raises
+        ------
+        ValueError
+            Without a shift law; outside the temperatures that were measured, or outside the law.
+        """
+        if temperature == self.temperature:
+            return 1.0
+        if self.shift is None or self.temperature is None:
+            known = "" if self.temperature is None else f" from {_both(self.temperature)}"
+            raise ValueError(f"{self.name}: no law says how times change with temperature{known}")
+        if self.temperatures is not None:
+            low, high = self.temperatures
+            if not low - _DRIFT <= temperature <= high + _DRIFT:
+                raise ValueError(
+                    f"{self.name} was measured from {_both(low)} to {_both(high)}, got "
+                    f"{_both(temperature)}; superposition is not extrapolated"
+                )
+        law = self.shift
+        decades = float(law.log10_shift(temperature)) - float(law.log10_shift(self.temperature))
+        return 10.0**decades
+
+    def at_temperature(self, temperature: float) -> Any:
+        """Return the material at another temperature [K]: its times multiplied by a_T.
+
+        Moduli stay as they are: the small change of the rubbery modulus with temperature is not
+        counted.
+
+        Raises
+        ------
+        ValueError
+            As :meth:`shift_factor`.
+        """
+        return slowed(self.material, self.shift_factor(temperature))
+
+    def moved_to(self, temperature: float) -> "Passport":
+        """Return the passport of the same material at another temperature [K]."""
+        a = self.shift_factor(temperature)
+        frequencies = self.frequencies and (self.frequencies[0] / a, self.frequencies[1] / a)
+        note = f"moved from {_both(self.temperature)} to {_both(temperature)}, a_T = {a:.6g}"
+        if self.temperature is None or temperature == self.temperature:
+            return self
+        evidence = self.evidence
+        if evidence is not None:
+            moved = tuple(
+                (n, low * a, high * a) if n == "tau0" else (n, low, high)
+                for n, low, high in evidence.intervals
+            )
+            evidence = replace(evidence, intervals=moved)
+        return replace(
+            self,
+            material=slowed(self.material, a),
+            temperature=float(temperature),
+            frequencies=frequencies,
+            origin=replace(self.origin, notes=(*self.origin.notes, note)),
+            evidence=evidence,
+        )
+
+
+def _both(temperature: float | None) -> str:
+    return "" if temperature is None else f"{temperature - 273.15:.4g} C ({temperature:.5g} K)"

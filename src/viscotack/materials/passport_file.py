@@ -1,0 +1,180 @@
+"""Passports in TOML files: written and read back to the last digit.
+
+docs/materials.md shows one. Every quantity is text with its unit, as in the file of a problem. The
+tables [relaxation] and [retardation] are for other programs: they follow from [material], and
+reading refuses a file in which they no longer do.
+"""
+
+import os
+import tomllib
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscotack.materials.material import Material
+from viscotack.materials.modes import maxwell, voigt
+from viscotack.materials.passport import Evidence, Origin, Passport
+from viscotack.materials.passport_tables import LAWS, VERSION, passport_text
+from viscotack.materials.shift import Shift, TabulatedShift
+from viscotack.materials.words import MODELS, units_of
+from viscotack.units import parse
+
+_TABLES = (
+    "material", "convention", "temperature", "range", "origin", "evidence",
+    "relaxation", "retardation",
+)  # fmt: skip
+
+
+def write_passport(passport: Passport, path: str | os.PathLike[str]) -> None:
+    """Write a passport to a TOML file; :func:`read_passport` gives back an equal one."""
+    Path(path).write_text(passport_text(passport), encoding="utf-8")
+
+
+def read_passport(path: str | os.PathLike[str]) -> Passport:
+    """Return the passport in a file.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If it is no passport, a key is missing, unknown or impossible, or its relaxation or
+        retardation form is not that of its material.
+    """
+    path = Path(path)
+    try:
+        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} is not a TOML file: {error}") from None
+    if "passport" not in tables:
+        raise ValueError(
+            f"{path} is no material passport: it has no line 'passport = {VERSION}'; "
+            "`viscotack material fit` writes one, docs/materials.md shows one"
+        )
+    if tables["passport"] != VERSION:
+        raise ValueError(
+            f"{path}: passport version {tables['passport']!r} is not known, only {VERSION}; "
+            "a newer viscotack may read it"
+        )
+    try:
+        return _passport(tables)
+    except (ValueError, TypeError, KeyError, AttributeError) as error:
+        missing = isinstance(error, KeyError)
+        words = (
+            f"{error.args[0]} is missing; docs/materials.md shows a passport" if missing else error
+        )
+        raise ValueError(f"{path}: {words}") from None
+
+
+def _passport(tables: Mapping[str, Any]) -> Passport:
+    for name in tables:
+        if name not in ("passport", "name", *_TABLES):
+            raise ValueError(f"unknown table [{name}]; a passport has {', '.join(_TABLES)}")
+    convention = tables.get("convention", {})
+    if convention.get("modulus", "E") != "E":
+        raise ValueError(
+            f'[convention] modulus must be "E", got {convention["modulus"]!r}; a passport states '
+            "Young's moduli, E = 2 (1 + nu) G"
+        )
+    temperature = tables.get("temperature", {})
+    bounds = tables.get("range", {}).get("angular_frequency")
+    measured = convention.get("measured", "not stated")
+    passport = Passport(
+        name=str(tables.get("name", "")),
+        material=material_in(tables["material"]),
+        temperature=_read(temperature.get("reference"), "K"),
+        shift=_shift(temperature),
+        temperatures=_span(temperature.get("measured"), "K"),
+        frequencies=_span(bounds, "rad/s"),
+        measured=None if measured == "not stated" else measured,
+        origin=_made(Origin, tables.get("origin", {})),
+        evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
+    )
+    _check_forms(passport, tables)
+    return passport
+
+
+def material_in(table: Mapping[str, Any]) -> Material:
+    """Return the material of a table [material] that states a model."""
+    model = table["model"]
+    if model not in MODELS:
+        raise ValueError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
+    units = units_of(model)
+    values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
+    if model == "prony":
+        values["branches"] = [(parse(E, "Pa"), parse(t, "s")) for E, t in table["branches"]]
+    extra = table.keys() - {"model", "branches", *units}
+    if extra:
+        raise ValueError(f"[material] has the unknown key {min(extra)!r}")
+    return MODELS[model][0](**values)
+
+
+def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:
+    """Refuse series that are not those of the material: somebody changed one of them."""
+    forms = (
+        ("relaxation", "rubbery_modulus", "branches", "Pa", _modulus_of_branches),
+        ("retardation", "glassy_modulus", "elements", "1/Pa", _modulus_of_elements),
+    )
+    for name, plateau, pairs, unit, modulus in forms:
+        if name not in tables:
+            continue
+        table = tables[name]
+        sizes, times = np.array([(parse(E, unit), parse(t, "s")) for E, t in table[pairs]]).T
+        omega = np.geomspace(*(passport.frequencies or (0.1 / times[-1], 10 / times[0])), 60)
+        stated = modulus(omega, parse(table[plateau], "Pa"), sizes, times)
+        exact = np.asarray(passport.material.complex_modulus(omega))
+        allowed = min(1.5 * float(table["largest_error"]), 0.1) + 1e-9
+        if not np.max(np.abs(stated / exact - 1)) < allowed:
+            raise ValueError(
+                f"the table [{name}] is not that of [material]; it follows from it, so delete "
+                "[relaxation] and [retardation] after a change of [material]"
+            )
+
+
+def _modulus_of_branches(omega: Any, rubbery: float, E: Any, tau: Any) -> Any:
+    return rubbery + maxwell(omega[:, None] * tau) @ E
+
+
+def _modulus_of_elements(omega: Any, glassy: float, C: Any, tau: Any) -> Any:
+    return 1 / (1 / glassy + voigt(omega[:, None] * tau) @ C)
+
+
+def _shift(table: Mapping[str, Any]) -> Shift | None:
+    if "law" not in table:
+        return None
+    zero = parse(table["zero"], "K")
+    if table["law"] == "table":
+        rows = [(parse(T, "K"), float(value)) for T, value in table["shifts"]]
+        temperature, values = zip(*rows, strict=True)
+        return TabulatedShift(zero, temperature, values)
+    if table["law"] not in LAWS:
+        raise ValueError(
+            f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"
+        )
+    kind, units = LAWS[table["law"]]
+    return kind(zero, *(parse(table[key], unit) for key, unit in units.items()))
+
+
+def _made(kind: Any, table: Mapping[str, Any]) -> Any:
+    unknown = table.keys() - {field.name for field in fields(kind)}
+    if unknown:
+        raise ValueError(f"[{kind.__name__.lower()}] has the unknown key {min(unknown)!r}")
+    return kind(**{key: _frozen(value) for key, value in table.items()})
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(_frozen(v) for v in value) if isinstance(value, list) else value
+
+
+def _read(value: Any, unit: str) -> float | None:
+    return None if value is None else parse(value, unit)
+
+
+def _span(values: Any, unit: str) -> tuple[float, float] | None:
+    if values is None:
+        return None
+    low, high = values
+    return parse(low, unit), parse(high, unit)

@@ -1,0 +1,145 @@
+"""A passport as the text of its TOML file: the tables, and every number with all its digits."""
+
+import json
+from dataclasses import fields
+from typing import Any
+
+from viscotack.materials.conversion import prony_form, relaxation_form, retardation_series
+from viscotack.materials.passport import Passport
+from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
+from viscotack.materials.solids import Prony, StandardSolid
+from viscotack.materials.words import units_of, word_of
+
+VERSION = 1
+# Word in a file -> law of shift, and the SI unit of its constants.
+LAWS: dict[str, tuple[Any, dict[str, str]]] = {
+    "wlf": (WLF, {"c1": "1", "c2": "K"}),
+    "arrhenius": (Arrhenius, {"activation_energy": "J/mol"}),
+}
+_NOT_EXACT = 1e-3  # of the Prony series written for a power law
+_TIMES = {
+    "elastic": "none",
+    "sls": "tau0 is the retardation time",
+    "prony": "branches have relaxation times",
+    "power-law": "tau0 is the characteristic retardation time",
+    "relaxation-power-law": "tau0 is the characteristic relaxation time",
+}
+
+
+def passport_text(passport: Passport) -> str:
+    """Return a passport as the text of its file."""
+    lines = [
+        "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
+        f"passport = {VERSION}",
+        f"name = {_quoted(passport.name)}",
+    ]
+    for name, values in _tables(passport).items():
+        if values:
+            lines += ["", f"[{name}]", *(f"{key} = {_toml(v)}" for key, v in values.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
+    """Return the tables of the file; empty ones are not written."""
+    material = passport.material
+    model = word_of(material)
+    constants = {
+        name: _quantity(getattr(material, name), unit) for name, unit in units_of(model).items()
+    }
+    if isinstance(material, Prony):
+        constants["branches"] = _pairs(material.branches, "Pa", "s")
+    convention = {
+        "modulus": "E",
+        "measured": passport.measured or "not stated",
+        "times": _TIMES[model],
+    }
+    temperature: dict[str, Any] = {}
+    if passport.temperature is not None:
+        temperature["reference"] = _quantity(passport.temperature, "K")
+    if passport.temperatures is not None:
+        temperature["measured"] = [_quantity(T, "K") for T in passport.temperatures]
+    if passport.shift is not None:
+        temperature |= _shift_words(passport.shift)
+    bounds = passport.frequencies
+    return {
+        "material": {"model": model} | constants,
+        "convention": convention,
+        "temperature": temperature,
+        "range": {"angular_frequency": [_quantity(w, "rad/s") for w in bounds]} if bounds else {},
+        "origin": _plain(passport.origin),
+        "evidence": _plain(passport.evidence) if passport.evidence else {},
+        **_forms(passport),
+    }
+
+
+def _forms(passport: Passport) -> dict[str, dict[str, Any]]:
+    """Return the relaxation and the retardation form, in exponentials."""
+    material = passport.material
+    exact = isinstance(material, Prony | StandardSolid)
+    error = 0.0
+    if material.modulus_ratio == 1:
+        return {}
+    if exact:
+        series = relaxation_form(material)
+    elif passport.frequencies is not None:
+        form = prony_form(material, frequencies=passport.frequencies, tolerance=_NOT_EXACT)
+        series, error = form.material, form.error
+    else:
+        return {}
+    creep = retardation_series(series)
+    relaxation = {
+        "largest_error": error,
+        "rubbery_modulus": _quantity(series.rubbery_modulus, "Pa"),
+        "branches": _pairs(series.branches, "Pa", "s"),
+    }
+    return {
+        # a Prony series states its relaxation form in [material]
+        "relaxation": {} if isinstance(material, Prony) else relaxation,
+        "retardation": {
+            "largest_error": error,
+            "glassy_modulus": _quantity(creep.glassy_modulus, "Pa"),
+            "elements": _pairs(creep.elements, "1/Pa", "s"),
+        },
+    }
+
+
+def _shift_words(shift: Shift) -> dict[str, Any]:
+    if isinstance(shift, TabulatedShift):
+        rows = zip(shift.temperature, shift.values, strict=True)
+        return {
+            "law": "table",
+            "zero": _quantity(shift.reference_temperature, "K"),
+            "shifts": [[_quantity(T, "K"), value] for T, value in rows],
+        }
+    law = next(word for word, (kind, _) in LAWS.items() if isinstance(shift, kind))
+    constants = {key: _quantity(getattr(shift, key), unit) for key, unit in LAWS[law][1].items()}
+    return {"law": law, "zero": _quantity(shift.reference_temperature, "K")} | constants
+
+
+def _plain(record: Any) -> dict[str, Any]:
+    """Return the fields of a record that say something."""
+    values = {field.name: getattr(record, field.name) for field in fields(record)}
+    return {key: value for key, value in values.items() if value not in ("", (), None)}
+
+
+def _quantity(value: float, unit: str) -> Any:
+    """Return a number with its unit: repr keeps every digit."""
+    return float(value) if unit == "1" else f"{float(value)!r} {unit}"
+
+
+def _pairs(pairs: Any, first: str, second: str) -> list[list[str]]:
+    return [[_quantity(a, first), _quantity(b, second)] for a, b in pairs]
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, list | tuple) and value and isinstance(value[0], list | tuple):
+        return "[\n" + "".join(f"    {_toml(row)},\n" for row in value) + "]"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_toml(entry) for entry in value) + "]"
+    if isinstance(value, str):
+        return _quoted(value)
+    return repr(value)
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,39 @@
+"""A passport in words, for a person at a terminal."""
+
+import numpy as np
+
+from viscotack.materials.passport import Passport
+from viscotack.materials.words import units_of, word_of
+
+
+def in_words(passport: Passport) -> str:
+    """Return a passport as lines a person reads."""
+    solid = passport.material
+    model = word_of(solid)
+    lines = [f"{passport.name}: {model}"]
+    for name, unit in units_of(model).items():
+        lines.append(f"  {name:<18}{getattr(solid, name):>12.5g} {'' if unit == '1' else unit}")
+    lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>12.5g}")
+    if model == "prony":
+        lines.append(f"  {'branches':<18}{len(solid.branches):>12}")
+        lines += [f"    {E:>12.5g} Pa  {t:>12.5g} s" for E, t in solid.branches]
+    if passport.temperature is not None:
+        law = "no shift" if passport.shift is None else type(passport.shift).__name__
+        lines.append(f"  at {passport.temperature - 273.15:.4g} C; times shift by: {law}")
+    if passport.temperatures is not None:
+        low, high = (T - 273.15 for T in passport.temperatures)
+        lines.append(f"  measured from {low:.4g} to {high:.4g} C")
+    if passport.frequencies is not None:
+        low, high = (w / (2 * np.pi) for w in passport.frequencies)
+        lines.append(f"  known from {low:.3g} to {high:.3g} Hz")
+    origin = passport.origin
+    for words in (origin.reference, origin.doi and f"doi:{origin.doi}", origin.file):
+        if words:
+            lines.append(f"  source: {words}")
+    if passport.evidence is not None:
+        for name, low, high in passport.evidence.intervals:
+            level = 100 * passport.evidence.level
+            lines.append(f"  {level:.0f} % interval of {name}: {low:.5g} to {high:.5g}")
+        lines += [f"  Not determined: {words}" for words in passport.evidence.undetermined]
+        lines += [f"  Note: {words}" for words in passport.evidence.cautions]
+    return "\n".join(line.rstrip() for line in lines)

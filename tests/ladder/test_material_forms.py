@@ -1,0 +1,149 @@
+"""The verification ladder of the forms of a material: relaxation, retardation, temperature."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from viscotack.bem import solve
+from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.materials.conversion import (
+    PronyForm,
+    RetardationSeries,
+    prony_form,
+    relaxation_form,
+    relaxation_series,
+    retardation_series,
+    slowed,
+)
+from viscotack.materials.library import pdms_10_1, published
+from viscotack.materials.passport import Passport
+from viscotack.materials.shift import WLF
+from viscotack.observables import pull_off_force
+from viscotack.problem import Groups
+from viscotack.protocol import AtDepth
+
+E0 = 1.2e6
+PDMS = published("pdms-10-1").material
+
+
+# ---- rung 1: identities ------------------------------------------------------------------------
+
+
+BRANCHES = st.lists(
+    st.tuples(st.floats(3, 10), st.floats(-12, 4)),
+    min_size=1,
+    max_size=40,
+    unique_by=lambda pair: round(pair[1], 1),
+)
+
+
+@given(BRANCHES)
+@settings(max_examples=60, deadline=None)
+def test_the_two_forms_are_one_solid_to_round_off(pairs):
+    solid = Prony(
+        rubbery_modulus=E0, branches=[(10**E, 10**t) for E, t in pairs], poisson_ratio=0.45
+    )
+    series = retardation_series(solid)
+    back = relaxation_series(series)
+    # 1/E(w) in the retardation form
+    omega = np.geomspace(1e-5, 1e13, 200)
+    C, tau = np.array(series.elements).T
+    creep = 1 / series.glassy_modulus + (1 / (1 + 1j * omega[:, None] * tau)) @ C
+    assert np.max(np.abs(creep * solid.complex_modulus(omega) - 1)) < 1e-13
+    assert np.max(np.abs(back.complex_modulus(omega) / solid.complex_modulus(omega) - 1)) < 1e-14
+    assert len(back.branches) == len(solid.branches)
+
+
+def test_a_retardation_series_creeps_as_its_prony_series():
+    series = RetardationSeries(
+        glassy_modulus=2e9, elements=[(3e-7, 20.0), (1e-9, 1e-4)], poisson_ratio=0.5
+    )
+    t = np.geomspace(1e-6, 1e3, 50)
+    direct = 1 / 2e9 - 3e-7 * np.expm1(-t / 20) - 1e-9 * np.expm1(-t / 1e-4)
+    np.testing.assert_allclose(relaxation_series(series).creep(t), direct, rtol=1e-13)
+
+
+def test_a_standard_solid_is_one_branch():
+    solid = StandardSolid(rubbery_modulus=E0, glassy_modulus=9e6, tau0=0.3, poisson_ratio=0.4)
+    omega = np.geomspace(1e-2, 1e4, 40)
+    one = relaxation_form(solid)
+    np.testing.assert_allclose(one.complex_modulus(omega), solid.complex_modulus(omega), rtol=1e-14)
+
+
+@pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
+@pytest.mark.parametrize("n", [0.2, 0.8, 1.6])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
+def test_a_prony_form_is_as_close_as_it_says(kind, n, tolerance):
+    solid = kind(rubbery_modulus=E0, glassy_modulus=3e9, exponent=n, tau0=1e-3, poisson_ratio=0.5)
+    form = prony_form(solid, frequencies=(1.0, 1e7), tolerance=tolerance)
+    assert isinstance(form, PronyForm)
+    # on a grid of its own
+    omega = np.geomspace(1.0, 1e7, 1237)
+    error = np.max(np.abs(form.material.complex_modulus(omega) / solid.complex_modulus(omega) - 1))
+    assert error < 1.02 * form.error < 1.03 * tolerance
+    assert form.material.rubbery_modulus == E0
+
+
+def test_a_slower_solid_is_the_same_at_lower_frequencies():
+    a, omega = 37.0, np.geomspace(1e-3, 1e6, 30)
+    for solid in (PDMS, relaxation_form(slowed(_standard(), 2.0)), _standard()):
+        np.testing.assert_allclose(
+            slowed(solid, a).complex_modulus(omega), solid.complex_modulus(a * omega), rtol=1e-12
+        )
+
+
+def test_temperature_multiplies_times_by_the_shift_factor():
+    passport = pdms_10_1()
+    cold = passport.at_temperature(223.15)
+    a = 10 ** float(passport.shift.log10_shift(223.15))
+    assert passport.shift_factor(223.15) == pytest.approx(a, rel=1e-12, abs=0)
+    assert cold.tau0 == pytest.approx(a * PDMS.tau0, rel=1e-12, abs=0)
+    # there and back
+    moved = passport.moved_to(223.15)
+    assert moved.material == cold
+    assert moved.at_temperature(293.15).tau0 == pytest.approx(PDMS.tau0, rel=1e-12, abs=0)
+    assert moved.frequencies[0] == pytest.approx(passport.frequencies[0] / a, rel=1e-12, abs=0)
+
+
+def test_the_reference_of_the_law_does_not_matter():
+    at_room = Passport(
+        name="x", material=_standard(), temperature=293.15, shift=WLF(293.15, 8.0, 100.0)
+    )
+    seen_from_elsewhere = Passport(
+        name="x",
+        material=_standard(),
+        temperature=293.15,
+        shift=WLF(293.15, 8.0, 100.0).at_reference(330.0),
+    )
+    a, b = (p.at_temperature(260.0).tau0 for p in (at_room, seen_from_elsewhere))
+    assert a == pytest.approx(b, rel=1e-12, abs=0)
+
+
+# ---- rung 4: the simulation is the judge -------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("n", "k", "rate"), [(0.8, 0.1, 316.23), (0.2207, 1.458 / 3089, 1e3), (1.6, 0.01, 10.0)]
+)
+def test_a_prony_form_holds_as_hard_as_its_power_law(n, k, rate):
+    solid = RetardationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=1 / k, exponent=n, tau0=1.0, poisson_ratio=0.0
+    )
+    series = prony_form(solid, frequencies=(1e-3, 1e3 * rate)).material
+    # the same mesh and steps: what differs is the material
+    force = [
+        pull_off_force(
+            solve(
+                Groups(tabor=3.24, material=material, start=AtDepth(30), rate=rate),
+                until="pull-off",
+                accuracy=1e-2,
+            )
+        )
+        for material in (solid, series)
+    ]
+    assert force[1] == pytest.approx(force[0], rel=1e-4, abs=0)
+
+
+def _standard():
+    return StandardSolid(rubbery_modulus=E0, glassy_modulus=9e6, tau0=0.3, poisson_ratio=0.4)

@@ -1,0 +1,182 @@
+"""Material passports: written and read back, refused when they lie."""
+
+import re
+
+import numpy as np
+import pytest
+
+from viscotack.case_file import read_case
+from viscotack.flags import problem_from_flags
+from viscotack.materials import (
+    Elastic,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.materials.library import MATERIALS, published
+from viscotack.materials.passport import Evidence, Origin, Passport
+from viscotack.materials.passport_file import read_passport, write_passport
+from viscotack.materials.passport_tables import passport_text
+from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+
+LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
+MATERIAL = {
+    "elastic": Elastic(rubbery_modulus=1e6 / 3, poisson_ratio=0.4),
+    "sls": StandardSolid(**LAW),
+    "prony": Prony(
+        rubbery_modulus=1e6 / 3, branches=[(1e7 / 7, 1e-3 / 3), (2e6, 7.0)], poisson_ratio=0.5
+    ),
+    "power-law": RetardationPowerLaw(**LAW, exponent=0.7 / 3),
+    "relaxation-power-law": RelaxationPowerLaw(**LAW, exponent=0.7 / 3),
+}
+SHIFT = {
+    "none": None,
+    "wlf": WLF(300.1, 17.44 / 3, 51.6 / 0.7),
+    "arrhenius": Arrhenius(293.15, 1e5 / 3),
+    "table": TabulatedShift(293.15, (253.15, 273.15, 303.15), (5 / 3, 1.0, -1 / 7)),
+}
+
+
+def passport(material=MATERIAL["power-law"], shift=SHIFT["wlf"]):
+    return Passport(
+        name='a "rubber"\n with \\ and ü',
+        material=material,
+        temperature=293.15,
+        shift=shift,
+        temperatures=(143.15, 293.15),
+        frequencies=(2 * np.pi, 1e7 / 3),
+        measured="G",
+        origin=Origin(reference="a lab", file="dma.csv", sha256="12ab", notes=("one", "two")),
+        evidence=Evidence(
+            numbers=32,
+            constants=4,
+            scatter=0.02 / 3,
+            level=0.9,
+            intervals=(("tau0", 1 / 30, float("inf")),),
+            undetermined=("a plateau",),
+        ),
+    )
+
+
+@pytest.mark.parametrize("shift", SHIFT.values(), ids=SHIFT)
+@pytest.mark.parametrize("material", MATERIAL.values(), ids=MATERIAL)
+def test_a_passport_comes_back_to_the_last_digit(material, shift, tmp_path):
+    written = passport(material, shift)
+    write_passport(written, tmp_path / "x.toml")
+    assert read_passport(tmp_path / "x.toml") == written
+
+
+@pytest.mark.parametrize("name", MATERIALS)
+def test_a_published_material_has_a_source_and_comes_back(name, tmp_path):
+    known = published(name)
+    assert known.origin.reference and known.temperature
+    write_passport(known, tmp_path / "x.toml")
+    assert read_passport(tmp_path / "x.toml") == known
+
+
+def test_the_published_silicone_is_the_one_of_the_thesis():
+    pdms = published("pdms-10-1")
+    assert pdms.material == RetardationPowerLaw(
+        rubbery_modulus=1.458e6,
+        glassy_modulus=3.089e9,
+        exponent=0.2207,
+        tau0=0.01876,
+        poisson_ratio=0.5,
+    )
+    # -130 C at 1 Hz, by Eq. 4.25 to 20 C
+    decades = -17.44 * -15 / 36.6 + 17.44 * 135 / 186.6
+    assert pdms.frequencies[1] == pytest.approx(2 * np.pi * 10**decades, rel=1e-9)
+
+
+TEXT = passport_text(passport())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("passport = 1\n", "", "is no material passport"),
+        ("passport = 1", "passport = 2", "version 2 is not known"),
+        ('model = "power-law"', 'model = "rubber"', "model must be one of elastic, sls"),
+        ("exponent = ", "exponnent = ", "exponent is missing"),
+        ("exponent = ", 'colour = "red"\nexponent = ', "unknown key 'colour'"),
+        ("[range]", "[rnge]", r"unknown table \[rnge\]"),
+        ('modulus = "E"', 'modulus = "G"', "states Young's moduli"),
+        ('law = "wlf"', 'law = "wfl"', "law must be one of wlf"),
+        ("c2 = ", "c3 = ", "c2 is missing"),
+        ('Pa"\npoisson', '"\npoisson', "has no unit"),
+        ("exponent = 0.2333", "exponent = 0.3333", r"table \[relaxation\] is not that of"),
+    ],
+)
+def test_a_passport_that_is_wrong_is_refused(old, new, words, tmp_path):
+    assert old in TEXT
+    (tmp_path / "x.toml").write_text(TEXT.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(ValueError, match=words) as caught:
+        read_passport(tmp_path / "x.toml")
+    assert "x.toml" in str(caught.value)
+
+
+def test_the_forms_are_those_of_the_material(tmp_path):
+    changed = re.sub(r'(elements = \[\n    \[")[^ ]+', r"\g<1>1e-3", TEXT)
+    assert changed != TEXT
+    (tmp_path / "x.toml").write_text(changed, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"\[retardation\] is not that of"):
+        read_passport(tmp_path / "x.toml")
+
+
+def test_temperature_is_not_extrapolated():
+    with pytest.raises(ValueError, match=r"measured from -130 C .* got 60 C"):
+        published("pdms-10-1").at_temperature(333.15)
+    with pytest.raises(ValueError, match="no law says how times change"):
+        passport(shift=None).at_temperature(280.0)
+    table = Passport(name="x", material=MATERIAL["sls"], temperature=293.15, shift=SHIFT["table"])
+    with pytest.raises(ValueError, match="not extrapolated"):
+        table.at_temperature(320.0)
+
+
+CASE = """
+[material]
+passport = "x.toml"
+{temperature}
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.1523 J/m^2"
+equilibrium_gap = "1.55 um"
+[sphere]
+radius = "5.19 mm"
+[protocol]
+preload_force = "1.5 mN"
+speed = "100 um/s"
+"""
+
+
+def test_a_problem_may_name_a_passport(tmp_path):
+    pdms = published("pdms-10-1")
+    write_passport(pdms, tmp_path / "x.toml")
+    case = tmp_path / "case.toml"
+    case.write_text(CASE.format(temperature=""))
+    assert read_case(case).material == pdms.material
+    case.write_text(CASE.format(temperature='temperature = "-20 degC"'))
+    assert read_case(case).material == pdms.at_temperature(253.15)
+    case.write_text(CASE.format(temperature='temperature = "60 degC"'))
+    with pytest.raises(ValueError, match=r"case.toml, \[material\] .* was measured from"):
+        read_case(case)
+    case.write_text(CASE.format(temperature='rubbery_modulus = "1 MPa"'))
+    with pytest.raises(ValueError, match="unknown key 'rubbery_modulus'"):
+        read_case(case)
+
+
+def test_flags_may_name_a_passport(tmp_path):
+    pdms = published("pdms-10-1")
+    file = tmp_path / "x.toml"
+    write_passport(pdms, file)
+    flags = {"material": str(file), "tabor": 2.05, "preload": 30.0, "rate": 1.0}
+    assert problem_from_flags(flags).material == pdms.material.reduced()
+    scales = {"radius": "5.19 mm", "work-of-adhesion": "0.1523 J/m^2"}
+    solid = problem_from_flags(flags | scales).material
+    assert solid.glassy_modulus == pytest.approx(3.089e9, rel=1e-14, abs=0)
+    assert solid.tau0 == pdms.material.tau0
+    assert solid.poisson_ratio == 0.5
+    for flag, value in (("exponent", 0.3), ("tau0", "1 s"), ("modulus-ratio", 0.1)):
+        with pytest.raises(ValueError, match=f"states the whole material; leave out --{flag}"):
+            problem_from_flags(flags | scales | {flag: value})
