@@ -110,8 +110,8 @@ class Body:
         error = error if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released)
 
-    def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | None:
-        """Return the state on other nodes, None where it finds no balance there.
+    def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | Balance:
+        """Return the state on other nodes, or the balance that is none where it finds no other.
 
         Displacements are carried over, and the gaps are brought into balance again.
         """
@@ -128,7 +128,7 @@ class Body:
         guess = np.maximum(carried(state.gap), _LEAST_GAP)
         balance = descend(surface, law, free, c, guess, self._net(hold, state))
         if not balance.stable:
-            return None
+            return balance
         e = (balance.gap - free + balance.depth) / c
         old_rates = state.rates
         rates = Rates(carried(old_rates.relaxed), old_rates.edge, carried(old_rates.gap))

@@ -30,6 +30,8 @@ _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 _LAST_CHANGE = 1e-6
 # What is added to an unstable tangent, as parts of its most negative curvature.
 _STIFFER = (1e-3, 1e-2, 1e-1)
+# The least of that curvature, as part of the stiffness of a node.
+_SLIGHT = 1e-9
 # A dead load that has opened the smallest gap so far [h0] is held by nothing.
 _RELEASED = 30.0
 # A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
@@ -103,7 +105,8 @@ def _stiffened(stiffness: npt.NDArray, curvature: npt.NDArray):
     The first stiffness that serves is taken, because a step goes as far along the unstable
     direction as the stiffness lets it.
     """
-    softest = -float(np.min(curvature))
+    # out of the range of a law there is no curvature, and under a dead load nothing else either
+    softest = max(-float(np.min(curvature)), _SLIGHT * float(np.max(np.diag(stiffness))))
     for share in _STIFFER:
         factor = _factor(stiffness, curvature + share * softest)
         if factor is not None:

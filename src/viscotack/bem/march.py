@@ -18,6 +18,7 @@ import numpy as np
 from viscotack.bem.body import Body, State
 from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Profile, Snapshot
 from viscotack.bem.contact import Contact, Relaxed
+from viscotack.bem.equilibrium import Balance
 from viscotack.bem.machine import Hold, Leg
 from viscotack.bem.memory import Step, step
 from viscotack.bem.mesh import Grading
@@ -88,9 +89,15 @@ class _March:
 
     @property
     def travel(self) -> float:
-        """Largest travel [h0] in a step; once apart, tractions change over the gap."""
+        """Largest travel [h0] in a step.
+
+        Once apart, tractions change over the gap. Pressed deep, forces change over the depth, which
+        grows like F^(2/3) by Hertz; adhesion is a small matter there.
+        """
         apart = max(float(np.min(self.state.gap)) - 1, 0.0)
-        return self.looser * self.settings.travel * (self.body.contact.travel + apart)
+        pressed = max(self.state.seen.force, 0.0) ** (2 / 3)
+        reach = self.body.contact.travel * (1 + pressed) + apart
+        return self.looser * self.settings.travel * reach
 
     def run(self, until: str, progress: Callable[[float], None] | None) -> History:
         """Go through all legs."""
@@ -134,7 +141,7 @@ class _March:
         """Try a step and go where it leads, or make the next one shorter."""
         settings, leg, now = self.settings, self.leg, self.state.seen
         elapsed, ahead = now.time - self.began.time, leg.missing(now.depth, now.force, now.edge)
-        self._clip(elapsed, ahead)
+        self._clip(ahead)
         dt = self.dt
         s = step(self.body.modes, dt)
         stiffest = s.compliance < (
@@ -168,7 +175,7 @@ class _March:
             self.history.outcome = "lost"
             return True
         over = -leg.missing(after.depth, after.force, after.edge)
-        if over > _AT_END * (ahead + over) and strain <= 1.5 and not stiffest:
+        if 0 < ahead and over > _AT_END * (ahead + over) and strain <= 1.5 and not stiffest:
             self.dt *= ahead / (ahead + over)
             return False
         jumped = strain > 1.5
@@ -187,16 +194,22 @@ class _March:
             self.since_lowest += 1
         return True
 
-    def _clip(self, elapsed: float, ahead: float) -> None:
+    def _clip(self, ahead: float) -> None:
         """Shorten the next step to the travel it may have, and to the end of its leg."""
         leg = self.leg
-        if leg.rate and not leg.dead_load:
+        if leg.rate and np.isinf(leg.stiffness):  # a soft spring's drive may run ahead
             self.dt = min(self.dt, self.travel / abs(leg.rate))
         if np.isinf(leg.stiffness) and leg.depth == leg.depth and leg.rate and ahead > 0:
             self.dt = min(self.dt, ahead / abs(leg.rate))
-        left = leg.duration - elapsed
+        left = self._left()
         if self.dt > 0.999 * left > 0:
             self.dt = left
+
+    def _left(self) -> float:
+        """Return the time left of the leg, none where the clock can no longer tell it from none."""
+        now = self.state.seen.time
+        left = self.leg.duration - (now - self.began.time)
+        return left if left > 8 * np.spacing(now) else 0.0
 
     def _entry(self, s: Step, after: State) -> Books:
         """Return the books after a step, before anything is said of jumps."""
@@ -219,9 +232,7 @@ class _March:
             history.outcome = "pull-off"
         elif len(history.snapshots) > self.settings.most_steps:
             history.outcome = "steps"
-        elif leg.missing(
-            seen.depth, seen.force, seen.edge
-        ) <= 1e-9 or seen.time - self.began.time >= leg.duration * (1 - 1e-12):
+        elif leg.missing(seen.depth, seen.force, seen.edge) <= 1e-9 or self._left() <= 0:
             if last:
                 history.outcome = "end"
             else:
@@ -258,19 +269,23 @@ class _March:
             self.books = replace(self.books, transfer=self.books.transfer + lost)
 
     def _on_new_nodes(self) -> Snapshot | None:
-        """Move the state to nodes around its edge; None where it finds no balance there."""
+        """Move the state to nodes around its edge; None where it finds no balance there.
+
+        That happens on the brink of a jump: the march then goes on with the nodes it has.
+        """
         edge = self.state.seen.edge
         opened = _opening(self.state, self.body.contact)
-        self.grading = _fitting(self.finest, opened / self.opening, edge)
-        nodes = self.grading.nodes(edge, self.lattice)
+        grading = _fitting(self.finest, opened / self.opening, edge)
+        nodes = grading.nodes(edge, self.lattice)
         hold = self._hold(self.began, self.state.seen.time - self.began.time)
         state = self.body.remeshed(self.state, nodes, hold)
         self.meshed_at = edge
-        self.history.meshes += 1
-        if state is None:
-            self.history.outcome = "lost"
+        if isinstance(state, Balance):
+            if state.released:  # a dead load had nothing left that holds it
+                self._release(self.state.seen)
             return None
-        self.state = state
+        self.history.meshes += 1
+        self.state, self.grading = state, grading
         return state.seen
 
     def _chase(self, before: Snapshot, missing: float, tolerated: float) -> None:
@@ -282,7 +297,7 @@ class _March:
                 break
             moved = self._on_new_nodes()
             if moved is None:
-                return
+                break
             missing += now.stored - moved.stored
             self.books = replace(self.books, jumps=self.books.jumps + now.stored - moved.stored)
         now = self.state.seen

@@ -16,8 +16,6 @@ across it.
 Growth inside the contact is slower than outside: the pressure there is that of a crack, 1/sqrt(x)
 at a distance x from the edge, and every decade of x adds the same error, of second order in the
 growth, to the energy that the edge releases. Outside there is next to no pressure.
-
-A punch ends somewhere: there are no nodes beyond, and the last one is there.
 """
 
 from __future__ import annotations
@@ -45,8 +43,6 @@ class Grading:
     scar_spacing, scar_half_width : float
         Spacing and half width of the zone kept fine around the first edge; without a width
         there is none, for a solid that remembers nothing.
-    ends : bool
-        Whether the indenter ends at the outer radius; the last node is then exactly there.
     """
 
     spacing: float
@@ -56,7 +52,6 @@ class Grading:
     outer_radius: float
     scar_spacing: float
     scar_half_width: float
-    ends: bool = False
 
     def widened(self, factor: float) -> Grading:
         """Return the grading for a crack whose zone has grown by this factor, a power of two."""
@@ -64,10 +59,11 @@ class Grading:
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
-        h, outer = self.spacing, self.outer_radius
+        h = self.spacing
         edge = first_edge + h * round((edge - first_edge) / h)
         inward = int(min(self.half_width, edge) / h)
-        fine = self._within(edge + h * np.arange(-inward, int(self.half_width / h) + 1))
+        outward = int(min(self.half_width, self.outer_radius - edge + h / 4) / h)
+        fine = edge + h * np.arange(-inward, outward + 1)
         if fine[0] <= 2 * h:
             fine = np.linspace(0.0, fine[-1], max(round(fine[-1] / h), 8) + 1)
             inner = np.empty(0)
@@ -77,25 +73,14 @@ class Grading:
             inner[0] = 0.0
         parts, end, last_step = [inner, fine], fine[-1], h
         kept = int(self.scar_half_width / self.scar_spacing)
-        scar = self._within(first_edge + self.scar_spacing * np.arange(-kept, kept + 1))
-        if kept and len(scar) and scar[-1] > end + h / 2:
+        scar = first_edge + self.scar_spacing * np.arange(-kept, kept + 1)
+        if kept and scar[-1] > end + h / 2:
             if scar[0] > end + h / 2:
                 parts.append(self._bridge(end, scar[0]))
             parts.append(scar[scar > end + self.scar_spacing / 2])
             end, last_step = scar[-1], self.scar_spacing
-        if outer > end + h / 2:
-            outwards = self._growing(outer - end, self.growth_outside, first=last_step)
-            if self.ends:
-                outwards *= (outer - end) / outwards[-1]
-            parts.append(end + outwards)
-        nodes = np.concatenate(parts)
-        if self.ends:
-            nodes[-1] = outer
-        return nodes
-
-    def _within(self, nodes: npt.NDArray) -> npt.NDArray:
-        """Return the nodes on the indenter; the last, if near its end, stands for the end."""
-        return nodes[nodes < self.outer_radius + self.spacing / 4] if self.ends else nodes
+        outwards = self._growing(self.outer_radius - end, self.growth_outside, first=last_step)
+        return np.concatenate([*parts, end + outwards])
 
     def _growing(
         self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf

@@ -189,7 +189,7 @@ def plain_solve(
         depth=np.array(depths),
         force=np.array(forces),
         contact_radius=np.array(radii),
-        edge_speed=receding_speed(times, radii),
+        edge_speed=np.pi ** (1 / 3) * receding_speed(times, radii),
         status=status,
         statistics={
             "steps": len(times) - 1,

@@ -58,7 +58,7 @@ def triangle_matrix(triangles: int, size: float, thickness: float, base: Base) -
     first = -2 / z * (head + tail)
     j = np.arange(M + 1)
     # the panels follow the oscillation
-    beta, weight = _panels(0.0, _END, 60 + int(_END * z * M))
+    beta, weight = _panels(0.0, _END, 60 + int(_END * z * M / 5))
     decaying = weight * (1 - base.transfer(beta / 2)) * np.sin(beta * z) ** 2 / beta**3
     second = -4 / z * np.array([decaying @ np.sin(beta * z * n) ** 2 for n in j])
     half_plane = (

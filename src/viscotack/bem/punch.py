@@ -24,22 +24,37 @@ from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface, stiffness
 from viscotack.layer import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
-from viscotack.traction import Traction
+from viscotack.traction import LennardJones, Traction, softening
 
+# The law for which numbers of nodes are stated.
+_SOFTENING = softening(LennardJones(1.0, 1.0))
 # Lengths of the relaxed crack's zone that stay fine at the end of the punch, for what remembers.
 _SCAR_ZONES = 2.0
+# A glued layer with a foundation softer than this is squeezed sideways rather than compressed: its
+# nodes tell thicknesses apart everywhere, by default three of them to one.
+_INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 # A start by force is found to this part of the travel in depth.
 _DEPTH_TOLERANCE = 1e-8
 
 
 @dataclass(frozen=True)
 class _EndedGrading(Grading):
-    """A grading whose last node is at the end of the punch, and there once."""
+    """A grading whose last node is at the end of the punch, and there once.
+
+    No distance is longer than the `coarsest` [a0].
+    """
+
+    coarsest: float = np.inf
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         nodes = super().nodes(edge, first_edge)
         inside = nodes < self.outer_radius - self.scar_spacing / 4
-        return np.append(nodes[inside], self.outer_radius)
+        nodes = nodes[inside]
+        if self.outer_radius - nodes[-1] < 0.5 * (nodes[-1] - nodes[-2]):
+            nodes = nodes[:-1]  # a short panel after long ones would not be resolved
+        nodes = np.append(nodes, self.outer_radius)
+        parts = np.ceil(np.diff(nodes) / self.coarsest - 1e-9).clip(min=1).astype(int)
+        return np.interp(np.arange(parts.sum() + 1), np.append(0, np.cumsum(parts)), nodes)
 
 
 @dataclass(frozen=True)
@@ -87,7 +102,8 @@ class PunchContact:
         """Return the grading of the nodes; the depth does not matter to it."""
         zone = self.zone
         # Nodes lie on a lattice that begins at the end of the punch.
-        spacing = min(zone / settings.nodes_per_zone, self.size / 8)
+        nodes = settings.nodes_per_zone * max(1.0, softening(self.law) / _SOFTENING)
+        spacing = min(zone / nodes, self.size / 8)
         return _EndedGrading(
             spacing=spacing,
             half_width=zone * settings.fine_zones,
@@ -96,7 +112,9 @@ class PunchContact:
             growth_inside=settings.growth_inside,
             growth_outside=settings.growth_outside,
             outer_radius=self.size,
-            ends=True,
+            coarsest=_SQUEEZED * self.thickness / settings.nodes_per_zone
+            if self.base.foundation < _INCOMPRESSIBLE
+            else np.inf,
         )
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
@@ -138,8 +156,8 @@ class PunchContact:
         if isinstance(start, AtForce):
             give = np.pi / (2 * self.law.strength) * min(self.thickness, self.size)
             return give * start.force
-        assert isinstance(start, AtDepth)
-        return start.depth
+        # a ligament, where a move ends, tells nothing of depths
+        return start.depth if isinstance(start, AtDepth) else 0.0
 
     def _at_depth(self, depth: float, settings: Settings, *, apart: bool = False) -> Relaxed:
         surface = self.surface(self.grading(settings, depth).nodes(self.size, self.size))

@@ -17,7 +17,7 @@ class Settings:
     """Mesh, steps and modes of a simulation; dimensionless numbers for experts.
 
     All parts are second order, halving every length divides the error by four, but for the nodes
-    around the edge, which are of fourth order.
+    around the edge, which are of third order.
 
     Attributes
     ----------

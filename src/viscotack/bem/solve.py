@@ -48,6 +48,10 @@ class SimulationError(RuntimeError):
         super().__init__(result.status)
         self.result = result
 
+    def __reduce__(self) -> tuple[type[SimulationError], tuple[Result]]:
+        """Say how to make it again in another process: from its result, not from its words."""
+        return type(self), (self.result,)
+
 
 def solve(
     problem: Case,
@@ -191,7 +195,7 @@ def _result(
 ) -> Result:
     states, books = history.snapshots, history.books
     time = np.array([s.time for s in states])
-    contact_radius = np.array([s.edge for s in states]) / contact.edge_unit
+    edge = np.array([s.edge for s in states])
     heat = np.array([b.heat for b in books])
     residual = float(np.max(np.abs(history.imbalances())))
     return Result(
@@ -199,8 +203,8 @@ def _result(
         time=time,
         depth=np.array([s.depth for s in states]),
         force=np.array([s.force for s in states]),
-        contact_radius=contact_radius,
-        edge_speed=receding_speed(time, contact_radius),
+        contact_radius=edge / contact.edge_unit,
+        edge_speed=receding_speed(time, edge),
         status=_status(history, residual),
         events=tuple(history.events),
         statistics={
@@ -215,6 +219,7 @@ def _result(
             "drive": np.array([b.drive for b in books]),
             "elastic": np.array([s.elastic for s in states]),
             "interface": np.array([s.interface for s in states]),
+            "spring": np.array([s.spring for s in states]),
             "heat": heat.sum(axis=1),
             "jumps": np.array([b.jumps for b in books]),
             "transfer": np.array([b.transfer for b in books]),

@@ -26,12 +26,14 @@ from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import jkr
-from viscotack.traction import Traction
+from viscotack.traction import LennardJones, Traction, softening
 
 # In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
 _JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 _RADIUS_UNIT = np.pi ** (1 / 3)
+# The law for which lengths and nodes are stated.
+_STRENGTH, _SOFTENING = LennardJones(1.0, 1.0).strength, softening(LennardJones(1.0, 1.0))
 _MOST_MESHES = 200
 # A start by force or radius is found to this part of (mu + 1) h0 in depth.
 _DEPTH_TOLERANCE = 1e-6
@@ -80,13 +82,18 @@ class SphereContact:
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes for a largest depth [h0]."""
         tabor, zone = self.tabor, self.zone
+        # Nodes catch the edge with an energy that falls exponentially with their number, while
+        # that by which one place of the edge differs from the next falls like 1/mu^2.
+        catching = 1 + 0.4 * np.log10(max(tabor / 10, 1.0))
+        nodes = settings.nodes_per_zone * max(1.0, softening(self.law) / _SOFTENING) * catching
+        spacing = zone / nodes
         edge = jkr_radius(depth / tabor)
         # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
         squares = (settings.reach + max(depth, 0.0), settings.reach + tabor * edge**2 / 2)
         return Grading(
-            spacing=zone / settings.nodes_per_zone,
+            spacing=spacing,
             half_width=zone * settings.fine_zones,
-            scar_spacing=zone / settings.nodes_per_zone,
+            scar_spacing=spacing,
             scar_half_width=zone * _SCAR_ZONES,
             growth_inside=settings.growth_inside,
             growth_outside=settings.growth_outside,

@@ -1,34 +1,11 @@
-"""Forces across the gap: traction laws, and the surface energy they come from.
-
-Traction is positive in TENSION (the surfaces attract) and is a function of the gap alone. Pressure
-in a result is its negative. A law's energy vanishes at infinite gap, so contact has a negative one.
-"""
+"""The Lennard-Jones law between half-spaces."""
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from .units import positive
-
-
-class Traction(Protocol):
-    """What a traction law offers; for the type checker."""
-
-    @property
-    def work_of_adhesion(self) -> float: ...  # noqa: D102
-    @property
-    def equilibrium_gap(self) -> float: ...  # noqa: D102
-    @property
-    def strength(self) -> float: ...  # noqa: D102
-    @property
-    def edge_gap(self) -> float: ...  # noqa: D102
-    def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
-    def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
-    def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
-    def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
-    def reduced(self) -> "Traction": ...  # noqa: D102
+from viscotack.traction.law import check_scales, checked_gap
 
 
 @dataclass(frozen=True)
@@ -65,10 +42,7 @@ class LennardJones:
     equilibrium_gap: float
 
     def __post_init__(self) -> None:
-        work = positive("work_of_adhesion", self.work_of_adhesion, "J/m^2")
-        gap = positive("equilibrium_gap", self.equilibrium_gap, "m")
-        object.__setattr__(self, "work_of_adhesion", work)
-        object.__setattr__(self, "equilibrium_gap", gap)
+        check_scales(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""
@@ -114,7 +88,4 @@ class LennardJones:
         return LennardJones(1.0, 1.0)
 
     def _inverse_gap(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        h = np.asarray(gap, dtype=float)
-        if not (h > 0).all():
-            raise ValueError(f"gap must be positive, got a minimum of {h.min()} m")
-        return self.equilibrium_gap / h
+        return self.equilibrium_gap / checked_gap(gap)

@@ -1,0 +1,22 @@
+"""Forces across the gap: traction laws, and the surface energy they come from.
+
+Traction is positive in TENSION (the surfaces attract) and is a function of the gap alone. Pressure
+in a result is its negative. A law's energy vanishes at infinite gap, so contact has a negative one.
+docs/traction-laws.md shows how a law is added.
+"""
+
+from viscotack.traction.dugdale import Dugdale
+from viscotack.traction.exponential import Exponential
+from viscotack.traction.law import Traction, softening
+from viscotack.traction.lennard_jones import LennardJones
+from viscotack.traction.tabulated import Tabulated
+
+# Word in a file or a flag -> law. Every constant beside work and gap is a pure number.
+LAWS = {
+    "lennard-jones": LennardJones,
+    "dugdale": Dugdale,
+    "exponential": Exponential,
+    "table": Tabulated,
+}
+
+__all__ = ["LAWS", "Dugdale", "Exponential", "LennardJones", "Tabulated", "Traction", "softening"]

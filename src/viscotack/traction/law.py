@@ -1,0 +1,69 @@
+"""What a contact asks of a traction law."""
+
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.units import positive
+
+
+class Traction(Protocol):
+    """What a traction law offers, for the type checker; a dataclass with these names is a law.
+
+    Attributes
+    ----------
+    work_of_adhesion : float
+        Work to separate unit area from the equilibrium gap [J/m^2].
+    equilibrium_gap : float
+        The gap of zero traction [m]; repulsion is below it, attraction above.
+    strength : float
+        Largest tension [Pa].
+    edge_gap : float
+        Gap of the largest tension [m], where it is reached first; the contact edge is there.
+    """
+
+    @property
+    def work_of_adhesion(self) -> float: ...  # noqa: D102
+    @property
+    def equilibrium_gap(self) -> float: ...  # noqa: D102
+    @property
+    def strength(self) -> float: ...  # noqa: D102
+    @property
+    def edge_gap(self) -> float: ...  # noqa: D102
+    def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
+    def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
+    def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
+    def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]: ...  # noqa: D102
+    def reduced(self) -> "Traction": ...  # noqa: D102
+
+
+def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return gaps as an array, or refuse surfaces that touch or pass through each other."""
+    h = np.asarray(gap, dtype=float)
+    if not (h > 0).all():
+        raise ValueError(f"gap must be positive, got a minimum of {h.min()} m")
+    return h
+
+
+def check_scales(law: Traction) -> None:
+    """Make floats of the work of adhesion and the equilibrium gap, or refuse impossible ones."""
+    for name, unit in (("work_of_adhesion", "J/m^2"), ("equilibrium_gap", "m")):
+        object.__setattr__(law, name, positive(name, getattr(law, name), unit))
+
+
+@lru_cache(maxsize=64)
+def softening(law: Traction) -> float:
+    """Return the steepest fall of the tension with the gap, in strength squared over work.
+
+    A number that tells how fine nodes must be: 1.19 for Lennard-Jones, 2/f for Dugdale.
+
+    Examples
+    --------
+    >>> from viscotack.traction import LennardJones
+    >>> f"{softening(LennardJones(0.1523, 1.55e-6)):.2f}"
+    '1.19'
+    """
+    gap = np.linspace(law.edge_gap, 5 * law.edge_gap, 20_001)
+    return -float(np.min(law.stiffness(gap))) * law.work_of_adhesion / law.strength**2

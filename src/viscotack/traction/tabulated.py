@@ -1,0 +1,180 @@
+"""A law given as a table: measured, or computed by another code."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator, PPoly
+from scipy.optimize import brentq
+
+from viscotack.traction.law import check_scales, checked_gap
+
+# What the table says of its own work and zero may miss 1 by this.
+_ROUND_OFF = 1e-9
+
+
+@dataclass(frozen=True)
+class Tabulated:
+    r"""Law through points: monotone between them, so that it has no hump that the table has not.
+
+    The traction is the piecewise cubic of Fritsch and Carlson, its energy the exact integral. Above
+    the last gap there is nothing; below the first the traction goes on with the slope it has there.
+    A surface that is pressed harder than that repels at gap 0 has no equilibrium, so let the table
+    begin well inside the repulsion.
+
+    Parameters
+    ----------
+    work_of_adhesion : float
+        Delta-gamma_0, work to separate unit area from the equilibrium gap [J/m^2]; positive.
+    equilibrium_gap : float
+        h_0, the gap of zero traction [m]; positive.
+    points : tuple of (float, float)
+        Gaps over h_0, ascending, and tractions over Delta-gamma_0/h_0: repulsion (negative) first,
+        one zero at 1, zero at the end, and a work of 1. :meth:`of_points` makes them from a table
+        in SI.
+
+    Raises
+    ------
+    ValueError
+        If the points do not say such a law.
+
+    References
+    ----------
+    Fritsch & Carlson (1980), doi:10.1137/0717021.
+
+    Examples
+    --------
+    >>> gap = [0.8e-6, 1.0e-6, 1.2e-6, 1.5e-6, 2.5e-6, 4e-6]
+    >>> law = Tabulated.of_points(gap, [-400e3, 0.0, 100e3, 80e3, 10e3, 0.0])
+    >>> f"{law.work_of_adhesion * 1e3:.0f} mJ/m^2, {law.strength / 1e3:.0f} kPa"
+    '86 mJ/m^2, 100 kPa'
+    """
+
+    work_of_adhesion: float
+    equilibrium_gap: float
+    points: tuple[tuple[float, float], ...]
+
+    def __post_init__(self) -> None:
+        check_scales(self)
+        points = tuple((float(gap), float(traction)) for gap, traction in self.points)
+        object.__setattr__(self, "points", points)
+        _check(*np.array(points, dtype=float).reshape(-1, 2).T)
+        at_one = float(self._curves.traction(1.0))
+        work = float(self._curves.energy(points[-1][0]) - self._curves.energy(1.0))
+        size = max(abs(traction) for _, traction in points)
+        if abs(work - 1) > _ROUND_OFF or abs(at_one) > _ROUND_OFF * size:
+            raise ValueError(
+                "points must have zero traction at gap 1 and work 1 beyond it, got "
+                f"{at_one:g} and {work:g}; Tabulated.of_points makes them so"
+            )
+
+    @classmethod
+    def of_points(cls, gap: npt.ArrayLike, traction: npt.ArrayLike) -> "Tabulated":
+        """Return the law through a table of gaps [m] and tractions [Pa], tension positive.
+
+        Work of adhesion and equilibrium gap are those of the curve through the points.
+        """
+        h, t = np.asarray(gap, dtype=float), np.asarray(traction, dtype=float)
+        _check(h, t)
+        curve = PchipInterpolator(h, t)
+        after = int(np.argmax(t > 0))
+        low, high = float(h[after - 1]), float(h[after])
+        h0: float = brentq(curve, low, high, xtol=_ROUND_OFF**2 * low)  # type: ignore[assignment]
+        work = float(curve.integrate(h0, h[-1]))
+        scaled = np.column_stack([h / h0, t * h0 / work])
+        return cls(work, h0, tuple((float(x), float(y)) for x, y in scaled))
+
+    def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""
+        scale = self.work_of_adhesion / self.equilibrium_gap
+        return scale * self._curves.traction(self._within(gap))
+
+    def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the energy of unit area [J/m^2] at a gap [m]: 0 far apart, the lowest at h_0."""
+        return self.work_of_adhesion * self._curves.energy(self._within(gap))
+
+    def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the integral of the energy from a gap [m] to infinity [J/m]; 0 beyond the table.
+
+        Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
+        """
+        scale = self.work_of_adhesion * self.equilibrium_gap
+        return -scale * self._curves.energy_so_far(self._within(gap))
+
+    def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return the derivative of the traction by the gap [Pa/m]; negative where it softens."""
+        scale = self.work_of_adhesion / self.equilibrium_gap**2
+        return scale * self._curves.stiffness(self._within(gap))
+
+    @property
+    def strength(self) -> float:
+        """Largest tension of the law [Pa]; a monotone curve has it at one of its points."""
+        scale = self.work_of_adhesion / self.equilibrium_gap
+        return scale * max(traction for _, traction in self.points)
+
+    @property
+    def edge_gap(self) -> float:
+        """Gap of the largest tension [m]; the contact edge is there."""
+        gap, _ = max(self.points, key=lambda point: point[1])
+        return gap * self.equilibrium_gap
+
+    def reduced(self) -> "Tabulated":
+        """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
+        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
+
+    def _within(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return gaps over h_0, those beyond the table at its end, where all is zero."""
+        return np.minimum(checked_gap(gap) / self.equilibrium_gap, self.points[-1][0])
+
+    @cached_property
+    def _curves(self) -> "_Curves":
+        """The curve through the points, its derivative and its integrals, zero at the end."""
+        gap, traction = np.array(self.points).T
+        inner = PchipInterpolator(gap, traction)
+        # a first piece from gap 0, straight
+        slope = float(inner(gap[0], 1))
+        wall = np.array([0.0, 0.0, slope, traction[0] - slope * gap[0]])
+        curve = PPoly(np.column_stack([wall, inner.c]), np.concatenate([[0.0], gap]))
+        energy = _zero_at_end(curve.antiderivative())
+        return _Curves(curve, energy, _zero_at_end(energy.antiderivative()), curve.derivative())
+
+
+class _Curves(NamedTuple):
+    traction: PPoly
+    energy: PPoly
+    energy_so_far: PPoly
+    stiffness: PPoly
+
+
+def _zero_at_end(curve: PPoly) -> PPoly:
+    moved = curve.c.copy()
+    moved[-1] -= curve(curve.x[-1])
+    return PPoly(moved, curve.x)
+
+
+def _check(gap: npt.NDArray, traction: npt.NDArray) -> None:
+    """Refuse points through which no law goes."""
+    if gap.ndim != 1 or gap.shape != traction.shape or len(gap) < 4:
+        raise ValueError("a table has at least four gaps, and as many tractions")
+    if not (np.isfinite(gap).all() and np.isfinite(traction).all()):
+        raise ValueError("gaps and tractions must be finite numbers")
+    if gap[0] <= 0 or np.any(np.diff(gap) <= 0):
+        raise ValueError(f"gaps must be positive and ascend, got {gap}")
+    if not (traction[0] < 0 and traction[1] > traction[0]):
+        raise ValueError(
+            "the table must begin with repulsion (a negative traction) that falls with the gap, "
+            f"got {traction[0]:g} and {traction[1]:g} at its first gaps"
+        )
+    if traction[-1] != 0:
+        raise ValueError(
+            f"the traction must be zero at the last gap, got {traction[-1]:g}; add a row with the "
+            "gap beyond which there is none"
+        )
+    if traction.max() <= 0 or sum(a < 0 <= b or a >= 0 > b for a, b in pairwise(traction)) != 1:
+        raise ValueError(
+            "the traction must change its sign once, from repulsion to tension, got "
+            f"{traction}; smooth the table first"
+        )

@@ -1,0 +1,292 @@
+"""What the machine does, in words: in TOML, in a table, and on the command line."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from viscotack.case_file import read_case
+from viscotack.commands import application
+from viscotack.protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Dwell,
+    LoadTo,
+    MoveTo,
+    Retract,
+)
+from viscotack.protocol_words import (
+    PUNCH_UNITS,
+    PURE_NUMBERS,
+    SPHERE_UNITS,
+    history_from_file,
+    move_from_words,
+    start_from_words,
+)
+from viscotack.quantity_table import read_quantities
+from viscotack.traction import Dugdale, Exponential, Tabulated
+from viscotack.traction_file import law_from_words
+
+CASE = """
+[material]
+model = "elastic"
+rubbery_modulus = "1.5 MPa"
+poisson_ratio = 0.5
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1.5 um"
+
+[sphere]
+radius = "5 mm"
+
+[protocol]
+"""
+
+
+def case(folder, protocol, interface=None):
+    path = folder / "case.toml"
+    text = CASE + protocol
+    if interface is not None:
+        begin, end = text.index("law ="), text.index("[sphere]")
+        text = text[:begin] + interface + "\n" + text[end:]
+    path.write_text(text)
+    return read_case(path)
+
+
+@pytest.mark.parametrize(
+    ("words", "move"),
+    [
+        ("approach 10 um/s to 1.5 mN", Approach(1e-5, AtForce(1.5e-3))),
+        ("approach 10 um/s to 2 um", Approach(1e-5, AtDepth(2e-6))),
+        ("approach 10 um/s to radius 0.2 mm", Approach(1e-5, AtRadius(2e-4))),
+        ("retract  10 um/s to  force -1 mN", Retract(1e-5, AtForce(-1e-3))),
+        ("retract 10 um/s to 0 um", Retract(1e-5, AtDepth(0.0))),
+        ("move to -2 um in 3 s", MoveTo(-2e-6, 3.0)),
+        ("move to depth 2 um in 3 ms", MoveTo(2e-6, 3e-3)),
+        ("load to -1 mN in 1 s", LoadTo(-1e-3, 1.0)),
+        ("dwell 60 s", Dwell(60.0)),
+        ("dwell for 2 min", Dwell(120.0)),
+        ("hold force 60 s", Dwell(60.0, "force")),
+        ("hold depth for 1 h", Dwell(3600.0, "depth")),
+        ({"approach": "10 um/s", "to": "1.5 mN"}, Approach(1e-5, AtForce(1.5e-3))),
+        ({"load_to": "-1 mN", "in": "1 s"}, LoadTo(-1e-3, 1.0)),
+        ({"hold": "drive", "for": "2 s"}, Dwell(2.0)),
+    ],
+)
+def test_words_are_moves(words, move):
+    assert move_from_words(words, SPHERE_UNITS) == move
+
+
+def test_numbers_alone_are_dimensionless_and_a_punch_bears_a_stress():
+    assert move_from_words("approach 10 to force 2", PURE_NUMBERS) == Approach(10, AtForce(2))
+    assert move_from_words("load to 50 kPa in 1 s", PUNCH_UNITS) == LoadTo(5e4, 1.0)
+    assert start_from_words("force 1.5 mN", SPHERE_UNITS) == AtForce(1.5e-3)
+    assert start_from_words("apart 20", PURE_NUMBERS) == Apart(20)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("go home", "'go home' is no move; write approach SPEED to .*, or hold drive"),
+        ("approach 10 um/s", "is not understood; write approach SPEED to depth|force|radius VALUE"),
+        ("hold breath 2 s", "is not understood; write hold drive|depth|force TIME"),
+        ("dwell 60", "'dwell 60': '60' has no unit"),
+        ("dwell -60 s", "'dwell -60 s': duration must be positive"),
+        ("approach 10 um to 1 mN", "'10 um' does not measure the right thing"),
+        ("approach 10 um/s to 5 s", "'5 s' does not measure the right thing; expected .* in m"),
+    ],
+)
+def test_words_that_are_no_move_are_refused_with_the_cure(words, said):
+    with pytest.raises(ValueError, match=said.replace("|", r"\|")):
+        move_from_words(words, SPHERE_UNITS)
+
+
+def test_a_number_without_a_word_may_be_anything():
+    with pytest.raises(ValueError, match="say whether 20 is a depth, a force or a radius"):
+        move_from_words("approach 10 to 20", PURE_NUMBERS)
+    with pytest.raises(ValueError, match="'near 20' is no start; write apart, depth"):
+        start_from_words("near 20", PURE_NUMBERS)
+
+
+def test_a_case_states_start_moves_spring_and_retraction(tmp_path):
+    protocol = case(
+        tmp_path,
+        """
+start = "apart 20 um"
+moves = ["approach 10 um/s to 1.5 mN", {hold = "force", for = "60 s"}]
+stiffness = "500 N/m"
+speed = "100 um/s"
+""",
+    ).protocol
+    assert protocol.start == Apart(2e-5)
+    assert protocol.moves == (Approach(1e-5, AtForce(1.5e-3)), Dwell(60.0, "force"))
+    assert (protocol.stiffness, protocol.speed) == (500.0, 1e-4)
+
+
+def test_a_test_may_end_with_its_moves_and_repeat_them(tmp_path):
+    cycle = 'moves = ["approach 1 um/s to 2 um", "retract 1 um/s to 0 um"]\ncycles = 3'
+    protocol = case(tmp_path, 'preload_depth = "0 um"\n' + cycle).protocol
+    assert protocol.speed is None
+    assert len(protocol.moves) == 6
+    assert protocol.moves[:2] == protocol.moves[4:]
+
+
+@pytest.mark.parametrize(
+    ("protocol", "said"),
+    [
+        ('speed = "1 um/s"', r"needs exactly one of preload_depth, .*, start, got none"),
+        ('start = "apart 2 um"\npreload_depth = "1 um"', "got preload_depth and start"),
+        ('start = "apart 2 um"', r"\[protocol\] speed is missing"),
+        ('start = "apart 2 um"\nmoves = "dwell 1 s"', r"\[protocol\] moves must be a list"),
+        ('start = "apart 2 um"\nmoves = ["wait"]', r"\[protocol\] 'wait' is no move"),
+        ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\ncycles = 0', "cycles must be a whole"),
+        ('start = "apart 2 um"\nhistory = "h.csv"', "history states the start .*; leave out start"),
+        ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\nstiffness = "1 N"', "stiffness: '1 N'"),
+    ],
+)
+def test_a_wrong_protocol_is_refused_with_its_key(protocol, said, tmp_path):
+    with pytest.raises(ValueError, match=said):
+        case(tmp_path, protocol)
+
+
+def test_a_history_is_a_table_of_time_and_displacement(tmp_path):
+    (tmp_path / "h.csv").write_text("time_s,displacement_um\n0,-20\n2,1\n12,1\n12.5,-20\n")
+    protocol = case(tmp_path, 'history = "h.csv"').protocol
+    assert protocol.start.gap == pytest.approx(21.5e-6, rel=1e-12, abs=0)
+    assert protocol.moves == (MoveTo(1e-6, 2.0), MoveTo(1e-6, 10.0), MoveTo(-20e-6, 0.5))
+    start, moves = history_from_file(tmp_path / "h.csv", 0.0)
+    assert start == Apart(2e-5) and len(moves) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time_s,depth_um\n0,1\n1,2\n", "one column must be displacement with its unit"),
+        ("time_s,displacement_N\n0,1\n1,2\n", "the name of the column displacement: '1 N' does"),
+        ("time_s,displacement_um\n0,1\n", "a history has at least two rows"),
+        ("time_s,displacement_um\n0,1\n0,2\n", "its times ascend"),
+        ("time_s,displacement_um\n0,1\n1,two\n", "line 3: displacement must be a number in um"),
+        ("time_s,displacement_um\n0,1\n1\n", "line 3: 1 entries, and the header has 2"),
+        ("time_s,displacement_um\n", "there are no rows below the header"),
+    ],
+)
+def test_a_wrong_history_is_refused_with_file_and_line(text, said, tmp_path):
+    (tmp_path / "h.csv").write_text(text)
+    with pytest.raises(ValueError, match=said):
+        history_from_file(tmp_path / "h.csv", 1e-6)
+
+
+def test_columns_are_found_by_name_and_put_into_si(tmp_path):
+    path = tmp_path / "law.csv"
+    path.write_text("# from afar\ntraction_kPa,note,gap_nm\n-3,a,1.5\n4,b,2\n")
+    columns = read_quantities(path, {"gap": "m", "traction": "Pa"})
+    assert columns == {"gap": (1.5e-9, 2e-9), "traction": (-3e3, 4e3)}
+
+
+@pytest.mark.parametrize(
+    ("interface", "law"),
+    [
+        (
+            'law = "dugdale"\nwork_of_adhesion = "0.15 J/m^2"\nstrength = "100 kPa"',
+            Dugdale(0.15, 1.5e-6),
+        ),
+        (
+            'law = "dugdale"\nwork_of_adhesion = "0.15 J/m^2"\nequilibrium_gap = "1 um"\n'
+            "fall = 1.0",
+            Dugdale(0.15, 1e-6, fall=1.0),
+        ),
+        (
+            'law = "exponential"\nwork_of_adhesion = "0.15 J/m^2"\nequilibrium_gap = "1 um"\n'
+            "decay = 0.25",
+            Exponential(0.15, 1e-6, 0.25),
+        ),
+    ],
+)
+def test_every_law_can_be_written(interface, law, tmp_path):
+    found = case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', interface).traction
+    assert type(found) is type(law)
+    for name in ("work_of_adhesion", "equilibrium_gap", "strength", "edge_gap"):
+        assert getattr(found, name) == pytest.approx(getattr(law, name), rel=1e-12, abs=0)
+
+
+def test_a_law_may_be_a_table(tmp_path):
+    rows = "gap_um,traction_kPa\n0.8,-400\n1,0\n1.2,100\n1.5,80\n2.5,10\n4,0\n"
+    (tmp_path / "law.csv").write_text(rows)
+    interface = 'law = "table"\nfile = "law.csv"'
+    law = case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', interface).traction
+    assert isinstance(law, Tabulated)
+    assert law.strength == pytest.approx(1e5, rel=1e-12, abs=0)
+    small = law_from_words(f"table:{tmp_path / 'law.csv'}")
+    assert small == law.reduced()
+
+
+@pytest.mark.parametrize(
+    ("interface", "said"),
+    [
+        ('law = "exponential"\nwork_of_adhesion = "1 J/m^2"', r"decay is missing; .* decay = 0.25"),
+        ('law = "table"', r"file is missing; write for example file = \"table.csv\""),
+        (
+            'law = "dugdale"\nwork_of_adhesion = "1 J/m^2"\nstrength = "1 MPa"\n'
+            'equilibrium_gap = "1 um"',
+            "strength and equilibrium_gap say the same; leave out one",
+        ),
+    ],
+)
+def test_a_wrong_law_is_refused_with_its_key(interface, said, tmp_path):
+    with pytest.raises(ValueError, match=said):
+        case(tmp_path, 'preload_depth = "1 um"\nspeed = "1 um/s"', interface)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("glue", "the law must be one of lennard-jones, dugdale"),
+        ("exponential", "write exponential:DECAY, got 'exponential'"),
+        ("lennard-jones:3", "write lennard-jones, got"),
+        ("exponential:soft", "decay must be a pure number"),
+        ("table", "needs its file: table:FILE.csv"),
+    ],
+)
+def test_a_wrong_law_in_a_flag_is_refused(words, said):
+    with pytest.raises(ValueError, match=said):
+        law_from_words(words)
+
+
+def simulated(*flags):
+    arguments = ["simulate", "sphere", "--tabor", "1", "--material", "elastic", *flags, "--json"]
+    return CliRunner().invoke(application, arguments)
+
+
+def test_moves_on_the_command_line():
+    done = simulated(
+        "--apart", "15", "--move", "approach 10 to depth 2", "--move", "dwell 1",
+        "--stiffness", "5", "--rate", "1", "--law", "exponential:0.4",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    record = json.loads(done.stdout)["problem"]
+    assert record["start"] == {"type": "Apart", "gap": 15.0}
+    assert [move["type"] for move in record["moves"]] == ["Approach", "Dwell"]
+    assert record["stiffness"] == 5.0
+    assert record["traction"]["decay"] == 0.4
+
+
+@pytest.mark.parametrize(
+    ("flags", "said"),
+    [
+        (("--apart", "5", "--preload", "1"), "exactly one of .*--apart, got --preload and --apart"),
+        (("--apart", "-5"), "--apart must be positive"),
+        (("--preload", "1", "--move", "jump"), "'jump' is no move"),
+        (("--preload", "1", "--stiffness", "0"), "--stiffness must be positive"),
+    ],
+)
+def test_wrong_moves_on_the_command_line_are_refused(flags, said):
+    import re
+
+    done = simulated(*flags)
+    assert done.exit_code == 2
+    assert re.search(said, " ".join(done.output.split()))
