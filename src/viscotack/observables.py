@@ -1,11 +1,11 @@
-"""Numbers of a result: what a tack test would report. All dimensionless, as in `Result`.
+"""Numbers of a result: what a tack test would report. All dimensionless.
 
 The curve between two steps is a cubic; where it breaks, at a jump, it is not drawn across. So the
 force minimum and the zero crossing are located between steps, and a jump adds no work.
 """
 
-from collections.abc import Mapping
-from contextlib import suppress
+import warnings
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,9 +14,11 @@ import numpy.typing as npt
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
-from .problem import Problem
+from .outputs import kind_of, si_scales
+from .punch_problem import PunchGroups
 from .record import run_id, to_dict
 from .result import Outcome, Result
+from .theory.punch_curve import thin_layer_surface_energy
 
 Array = npt.NDArray[np.float64]
 
@@ -84,7 +86,10 @@ def pull_off(result: Result) -> PullOff:
 
 
 def pull_off_force(result: Result) -> float:
-    """Return the pull-off force, the positive number -min(force) [1.5 pi R Delta-gamma_0]."""
+    """Return the pull-off force, the positive number -min(force) [1.5 pi R Delta-gamma_0].
+
+    For a punch it is the pull-off stress.
+    """
     return pull_off(result).force
 
 
@@ -94,16 +99,21 @@ def pull_off_depth(result: Result) -> float:
 
 
 def contact_radius_at_pull_off(result: Result) -> float:
-    """Return the contact radius at the force minimum [(pi R^2 Delta-gamma_0/E_0*)^(1/3)]."""
+    """Return the contact radius at the force minimum [(pi R^2 Delta-gamma_0/E_0*)^(1/3)].
+
+    For a punch it is the half length of the contact [a_0].
+    """
     return pull_off(result).contact_radius
 
 
 def crack_speed_at_pull_off(result: Result) -> float:
     """Return the speed of the receding edge at the force minimum, positive.
 
-    Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit.
+    Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit; for
+    a punch h_0 per time unit.
     """
-    return pull_off(result).crack_speed
+    factor = kind_of(result.problem).of("edge_speed").factor(result.problem.groups())
+    return pull_off(result).crack_speed * factor
 
 
 def work_to_pull_off(result: Result) -> float:
@@ -111,15 +121,15 @@ def work_to_pull_off(result: Result) -> float:
 
     The integral of -force over the depth that is left, from the last zero crossing of the force in
     retraction, or from the start where that is in tension already, to the minimum
-    [1.5 pi R Delta-gamma_0 h_0]. Jumps add nothing. The minimum is flat, so this number is less
-    certain than the pull-off force.
+    [1.5 pi R Delta-gamma_0 h_0; for a punch Delta-gamma_0, of unit area]. Jumps add nothing. The
+    minimum is flat, so this number is less certain than the pull-off force.
     """
     found = pull_off(result)
-    return _work(result, found, until=-found.depth)
+    return _given(result, _work(result, found, until=-found.depth))
 
 
 def work_of_separation(result: Result) -> float:
-    """Return the work of the drive from zero force to full separation [1.5 pi R Delta-gamma_0 h_0].
+    """Return the work of the drive from zero force to full separation, in that unit.
 
     Like `work_to_pull_off`, to the end of the run and beyond: the drive must still pay the energy
     of the interface that is left at the end. It is added when the result has the interface energy
@@ -138,39 +148,85 @@ def work_of_separation(result: Result) -> float:
         )
     interface = (result.energy or {}).get("interface", np.zeros(1))
     left = -float(interface[-1]) if interface[0] < 0 else 0.0
-    return _work(result, pull_off(result), until=-float(result.depth[-1])) + left
+    return _given(result, _work(result, pull_off(result), until=-float(result.depth[-1])) + left)
+
+
+def pull_off_stress(result: Result) -> float:
+    """Return the pull-off stress of a punch, the largest mean tension over its area [sigma_0].
+
+    Raises
+    ------
+    ValueError
+        If the result is not that of a punch; a sphere has a pull-off force.
+    """
+    _punch(result)
+    return pull_off(result).force
+
+
+def ligament_at_pull_off(result: Result) -> float:
+    """Return the part of the half width of a punch that is in contact at pull-off, a_c/a.
+
+    Where the contact opens all at once it is the ligament just before; nan where there never was
+    one.
+    """
+    size, found = _punch(result).size, pull_off(result)
+    half_length = found.contact_radius
+    if np.isnan(half_length):
+        before = result.contact_radius[result.time <= found.time]
+        known = before[np.isfinite(before)]
+        half_length = float(known[-1]) if known.size else np.nan
+    return half_length / size
+
+
+def effective_surface_energy(result: Result) -> float:
+    r"""Return the surface energy that the pull-off stress of a punch stands for [Delta-gamma_0].
+
+    .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = \frac{\pi}{4 \zeta}
+              \hat\sigma_{po}^2 \frac{b}{a_0} \left(\frac{a}{a_c}\right)^2
+
+    Eq. 3.30 of Maghami, PhD thesis (2025). For layers thinner than :math:`b_1 = 4 \zeta a/\pi`;
+    with a thicker one it gives a ``UserWarning``, and
+    :func:`viscotack.theory.punch_curve.surface_energy` has what holds there.
+    """
+    groups = _punch(result)
+    if groups.base.foundation == 0:
+        raise ValueError(
+            "a bonded layer with a Poisson ratio of 0.5 cannot be stretched without flowing "
+            "sideways, and the thin-layer formula has no answer for it"
+        )
+    # with sigma_0 and a_0 for units, E_0* times Delta-gamma_0 is 2/pi
+    energy = thin_layer_surface_energy(
+        pull_off(result).force,
+        thickness=groups.thickness,
+        half_width=groups.size,
+        ligament=min(ligament_at_pull_off(result), 1.0) * groups.size,
+        contact_modulus=2 / np.pi,
+        base=groups.base,
+    )
+    return float(energy)
 
 
 def summary(result: Result) -> dict[str, Any]:
     """Return the observables and how the run went, ready for JSON.
 
-    Dimensionless; for a problem in SI the same names with a unit in addition. A number that the
-    result does not contain is None. Every key is there in every summary of the same kind.
+    Dimensionless, with the names and units of :mod:`viscotack.outputs`; for a problem in SI the
+    same names with a unit in addition. A number that the result does not contain is None. Every key
+    is there in every summary of the same kind.
     """
+    kind, scales = kind_of(result.problem), si_scales(result.problem)
     answer: dict[str, Any] = {"status": result.status, "outcome": str(result.outcome)}
-    answer |= {name: None for name in _NAMES}
-    # A number that was not reached stays None; the status says why.
-    with suppress(ValueError):
-        found = pull_off(result)
-        answer |= {
-            "pull_off_force": found.force,
-            "work_to_pull_off": work_to_pull_off(result),
-            "pull_off_depth": found.depth,
-            "contact_radius_at_pull_off": _number(found.contact_radius),
-            "crack_speed_at_pull_off": _number(found.crack_speed),
-        }
-    with suppress(ValueError):
-        answer["work_of_separation"] = work_of_separation(result)
-    if isinstance(result.problem, Problem):
-        scales = result.problem.scales()
-        for name, (scale, unit) in _NAMES.items():
-            value = answer[name]
-            answer[f"{name}_{unit}"] = None if value is None else value * getattr(scales, scale)
+    for name, observable in kind.observables.items():
+        answer[name], note = _number(_OBSERVABLES[name], result)
+        if observable.noted:
+            answer[f"{name}_note"] = note
+    if scales is not None:
+        for name, observable in kind.observables.items():
+            value, unit = answer[name], observable.unit
+            scale = getattr(scales, unit.scale)
+            answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
     groups = result.problem.groups()
     return answer | {
-        "tabor": groups.tabor,
-        "modulus_ratio": groups.modulus_ratio,
-        "rate": groups.rate,
+        **{name: getattr(groups, name) for name in kind.inputs},
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
         "events": [_plain(vars(event)) for event in result.events],
@@ -182,15 +238,46 @@ def summary(result: Result) -> dict[str, Any]:
     }
 
 
-# Dimensionless name -> the scale that turns it into SI, and the unit at the end of the SI name.
-_NAMES = {
-    "pull_off_force": ("force", "N"),
-    "work_to_pull_off": ("work", "J"),
-    "pull_off_depth": ("length", "m"),
-    "contact_radius_at_pull_off": ("radius", "m"),
-    "crack_speed_at_pull_off": ("edge_speed", "m_per_s"),
-    "work_of_separation": ("work", "J"),
+_OBSERVABLES: dict[str, Callable[[Result], float]] = {
+    function.__name__: function
+    for function in (
+        pull_off_force,
+        pull_off_depth,
+        pull_off_stress,
+        contact_radius_at_pull_off,
+        ligament_at_pull_off,
+        crack_speed_at_pull_off,
+        effective_surface_energy,
+        work_to_pull_off,
+        work_of_separation,
+    )
 }
+
+
+def _number(
+    observable: Callable[[Result], float], result: Result
+) -> tuple[float | None, str | None]:
+    """Return an observable and what is to be said of it; None where it was not reached."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", UserWarning)
+        try:
+            value = observable(result)
+        except ValueError as error:
+            return None, str(error)
+    note = "; ".join(str(warning.message) for warning in said) or None
+    return (float(value) if np.isfinite(value) else None), note
+
+
+def _punch(result: Result) -> PunchGroups:
+    groups = result.problem.groups()
+    if not isinstance(groups, PunchGroups):
+        raise ValueError("the result is that of a sphere, and the observable one of a punch")
+    return groups
+
+
+def _given(result: Result, work: float) -> float:
+    """Return a work in the unit of its kind of problem."""
+    return work * kind_of(result.problem).energy_factor(result.problem.groups())
 
 
 def _pieces(result: Result) -> list[npt.NDArray[np.intp]]:
@@ -279,10 +366,6 @@ def _curve(x: Array, y: Array) -> CubicHermiteSpline:
 
 def _root(curve: CubicHermiteSpline, low: float, high: float) -> float:
     return float(brentq(curve, low, high))  # type: ignore[arg-type]
-
-
-def _number(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 def _plain(values: Mapping[str, Any] | None) -> dict[str, Any] | None:

@@ -13,36 +13,24 @@ import numpy as np
 import numpy.typing as npt
 
 from .observables import pull_off
-from .problem import Problem
+from .outputs import Unit, kind_of, si_scales
 from .result import Result
+from .theory.punch import REGIMES
+from .theory.punch_map import RegimeMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
-# Name of a series -> words, dimensionless unit, name of the scale to SI, SI unit.
-_AXES = {
-    "depth": ("depth", "$h_0$", "length", "m"),
-    "force": ("force", r"$1.5\,\pi R\,\Delta\gamma_0$", "force", "N"),
-    "contact_radius": (
-        "contact radius",
-        r"$(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}$",
-        "radius",
-        "m",
-    ),
-    "time": ("time", "time unit", "time", "s"),
-    "edge_speed": (
-        "crack speed",
-        r"$(R^2 \Delta\gamma_0/E_0^*)^{1/3}$ per time unit",
-        "edge_speed",
-        "m/s",
-    ),
-}
+# Of a regime map: cohesive, thin layer, half-plane; and how many lines of equal stress.
+_REGIME_COLOURS = ("#f2c9a0", "#cfe3f2", "#dddddd")
+_STRESS_LINES = 10
 # Series of Result.energy beside the work of the drive -> words.
 _ENERGIES = {
     "interface": "interface",
     "elastic": "elastic energy",
+    "spring": "spring of the machine",
     "heat": "heat in the solid",
     "jumps": "lost in jumps",
     "transfer": "lost in mesh moves",
@@ -96,6 +84,8 @@ def draw_energy(result: Result) -> "Figure":
         left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
         left.plot(depth, energy["drive"] * factor, color="k", label="work of the drive")
         for name, words in _ENERGIES.items():
+            if name not in energy:
+                continue
             series = (energy[name] - energy[name][0]) * factor
             if np.any(series != 0):
                 left.plot(depth, series, label=words)
@@ -103,8 +93,8 @@ def draw_energy(result: Result) -> "Figure":
         left.set_xlabel(depth_label)
         left.set_ylabel(f"energy {unit}")
         left.legend()
-        factor_time = result.problem.scales().time if isinstance(result.problem, Problem) else 1.0
-        unit_time = "[s]" if isinstance(result.problem, Problem) else "/ time unit"
+        scales = si_scales(result.problem)
+        factor_time, unit_time = (1.0, "/ time unit") if scales is None else (scales.time, "[s]")
         times, heat = energy["mode_time"] * factor_time, energy["mode_heat"] * factor
         right.vlines(times, 0, heat, color="C2", lw=6)
         right.set_xscale("log")
@@ -155,6 +145,38 @@ def draw_rates(
         axes.legend(loc="upper left")
         if note:
             axes.text(0.03, 0.76, note, transform=axes.transAxes, va="top", size=12)
+    return figure
+
+
+def draw_regimes(found: RegimeMap) -> "Figure":
+    """Return how a pad comes off over retraction speed and thickness, with lines of equal stress.
+
+    Parameters
+    ----------
+    found : RegimeMap
+        As :func:`viscotack.theory.punch_map.regime_map` returns it.
+    """
+    from matplotlib.patches import Patch
+
+    number = np.argmax(found.regime[..., None] == np.array(REGIMES), axis=-1)
+    speed, thickness = found.speed * 1e6, found.thickness * 1e6
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        colours = {"levels": (-0.5, 0.5, 1.5, 2.5), "colors": _REGIME_COLOURS}
+        axes.contourf(speed, thickness, number, **colours)
+        stress = found.stress / 1e3
+        lines = axes.contour(
+            speed, thickness, stress, levels=_STRESS_LINES, colors="0.3", linewidths=1.2
+        )
+        axes.clabel(lines, fmt="%.3g kPa", fontsize=10)
+        axes.set_xlabel("retraction speed [µm/s]")
+        axes.set_ylabel("thickness [µm]")
+        patches = zip(REGIMES, _REGIME_COLOURS, strict=True)
+        handles = [Patch(fc=colour, ec="0.3", label=words) for words, colour in patches]
+        axes.legend(handles=handles[::-1], loc="lower right", frameon=True)
     return figure
 
 
@@ -226,33 +248,40 @@ def _mark_pull_off(
         found = pull_off(result)
     except ValueError:
         return  # nothing to mark
-    force = found.force * yfactor
+    force = -found.force * yfactor
     unit = ylabel.rpartition(" [")[2].rstrip("]")
     words = (
-        f"pull-off, {force:.3g} {unit}"
-        if isinstance(result.problem, Problem)
-        else f"pull-off, {force:.4g}"
+        f"pull-off, {abs(force):.4g}"
+        if si_scales(result.problem) is None
+        else f"pull-off, {abs(force):.3g} {unit}"
     )
-    axes.plot(getattr(found, x) * xfactor, -force, "s", color="C1", ms=9, label=words, zorder=3)
+    axes.plot(getattr(found, x) * xfactor, force, "s", color="C1", ms=9, label=words, zorder=3)
 
 
 def _work_unit(result: Result) -> tuple[float, str]:
     """Return the factor and the unit in which energies are drawn."""
-    if not isinstance(result.problem, Problem):
-        return 1.0, r"/ $1.5\,\pi R\,\Delta\gamma_0 h_0$"
-    joule = result.problem.scales().work
-    size = float(np.max(np.abs((result.energy or {})["drive"]))) * joule
-    prefix = next(((p, w) for p, w in reversed(_PREFIXES) if size >= p), _PREFIXES[0])
-    return joule / prefix[0], f"[{prefix[1]}J]"
+    kind = kind_of(result.problem)
+    work = (result.energy or {})["drive"]
+    factor = kind.energy_factor(result.problem.groups())
+    return _drawn(result, work, factor, kind.energy)
 
 
 def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
     """Return a series as drawn, the factor that made it so, and the label of its axis."""
-    values = getattr(result, name)
-    words, unit, scale, si_unit = _AXES[name]
-    if not isinstance(result.problem, Problem):
-        return values, 1.0, f"{words} / {unit}"
-    factor = getattr(result.problem.scales(), scale)
-    largest = np.nanmax(np.abs(values), initial=0.0) * factor
+    values, column = getattr(result, name), kind_of(result.problem).of(name)
+    factor = column.factor(result.problem.groups())
+    factor, unit = _drawn(result, values, factor, column.unit)
+    return values * factor, factor, f"{column.words} {unit}"
+
+
+def _drawn(
+    result: Result, values: npt.NDArray[np.float64], factor: float, unit: Unit
+) -> tuple[float, str]:
+    """Return the factor with which numbers of a result are drawn, and the unit that they have."""
+    scales = si_scales(result.problem)
+    if scales is None:
+        return factor, f"/ {unit.drawn}"
+    factor *= getattr(scales, unit.scale)
+    largest = np.nanmax(np.abs(values), initial=0.0) * abs(factor)
     prefix = next(((p, w) for p, w in reversed(_PREFIXES) if largest >= p), _PREFIXES[0])
-    return values * factor / prefix[0], factor / prefix[0], f"{words} [{prefix[1]}{si_unit}]"
+    return factor / prefix[0], f"[{prefix[1]}{unit.si}]"

@@ -42,8 +42,10 @@ class PunchScales:
         h_0 [m], for depths and gaps.
     width : float
         a_0 [m], for lengths along the surface.
+    half_width : float
+        a [m], for the ligament.
     work : float
-        Delta-gamma_0 [J/m^2], for the work of separation of unit area.
+        Delta-gamma_0 [J/m^2], for works and energies of unit area.
     time : float
         The material's time unit [s].
     crack_speed : float
@@ -53,6 +55,7 @@ class PunchScales:
     stress: float
     length: float
     width: float
+    half_width: float
     work: float
     time: float
     crack_speed: float
@@ -136,6 +139,7 @@ class PunchProblem:
             stress=law.strength,
             length=law.equilibrium_gap,
             width=self.fracture_length,
+            half_width=self.punch.half_width,
             work=law.work_of_adhesion,
             time=time,
             crack_speed=law.equilibrium_gap / time,
@@ -229,6 +233,14 @@ class PunchGroups:
     def modulus_ratio(self) -> float:
         """Rubbery over glassy modulus, k, in (0, 1]; no unit."""
         return self.material.modulus_ratio
+
+    @property
+    def fracture_length(self) -> float:
+        r"""Length a_0 over h_0, Eq. 3.5.
+
+        .. math:: \frac{a_0}{h_0} = \frac{\pi}{2} \frac{\Delta\gamma_0}{\sigma_0 h_0 \Sigma_0}
+        """
+        return np.pi / (2 * self.traction.strength * self.cohesion)
 
     def groups(self) -> "PunchGroups":
         """Return itself, so that a problem in SI and one in groups can be treated alike."""

@@ -186,27 +186,27 @@ def _frozen(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return array
 
 
-def receding_speed(time: npt.ArrayLike, contact_radius: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    r"""Return the speed at which the edge recedes, from its radius at uneven times.
+def receding_speed(time: npt.ArrayLike, edge: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    r"""Return the speed at which the edge recedes, from its place at uneven times.
 
-    .. math:: \hat v = -\pi^{1/3} \, d\hat a / d\hat t
+    .. math:: v = -da / dt
 
-    Second order in the steps. The factor turns the unit of radii,
-    (pi R^2 Delta-gamma_0/E_0*)^(1/3), into that of edge speeds, which has no pi.
+    Second order in the steps, in the unit of the edge over that of the time. A sphere's radii are
+    given in (pi R^2 Delta-gamma_0/E_0*)^(1/3) and its speeds without the pi: multiply by pi^(1/3).
 
     Parameters
     ----------
     time : array_like, shape (n,)
         Times, not decreasing; two equal ones mark a jump, over which there is no speed.
-    contact_radius : array_like, shape (n,)
-        Contact radii; nan without an edge.
+    edge : array_like, shape (n,)
+        Contact radii, or halves of the width of a contact; nan without an edge.
 
     Returns
     -------
     ndarray, shape (n,)
         Speed, positive while the contact shrinks; nan where it is not known.
     """
-    t, a = np.asarray(time, dtype=float), np.asarray(contact_radius, dtype=float)
+    t, a = np.asarray(time, dtype=float), np.asarray(edge, dtype=float)
     speed = np.full_like(a, np.nan)
     # A piece ends where the time stands still or the edge comes or goes.
     known = np.isfinite(a)
@@ -215,7 +215,7 @@ def receding_speed(time: npt.ArrayLike, contact_radius: npt.ArrayLike) -> npt.ND
         if piece.size > 1 and known[piece[0]]:
             order = 2 if piece.size > 2 else 1
             way = a[piece] - a[piece[0]]  # so that an edge at rest has no speed at all
-            speed[piece] = -(np.pi ** (1 / 3)) * np.gradient(way, t[piece], edge_order=order)
+            speed[piece] = -np.gradient(way, t[piece], edge_order=order)
     return speed
 
 
