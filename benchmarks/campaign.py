@@ -1,0 +1,283 @@
+"""Campaigns put to the test: `python benchmarks/campaign.py [speed overhead kill cluster disk]`.
+
+speed: 1,000 cases like those of the thesis on two cores. overhead: stand-ins for cases that take no
+time, up to 1e5. kill: the same 1,000 cases through 50 kills at random instants. cluster: the same
+on a Dask cluster of two processes, one of which is killed half way. disk: a full disk. All compare
+their tables with that of an undisturbed run, wall times aside.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import resource
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter, sleep
+from typing import Any
+
+import numpy as np
+
+from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, run
+
+PLAN = Path(__file__).parent / "plans/thesis_like.toml"
+WORKERS = 2
+PUBLISHED_SIZE = 8505
+# What a child says before the number of its stored cases.
+STORED = "stored"
+
+
+def stand_in(problem: Any, settings: CaseSettings) -> dict[str, Any]:
+    """Return a row as long as that of a solved case, at once."""
+    curve = np.linspace(problem.rate, -1.0, 24).tolist()
+    row: dict[str, Any] = {"status": "detached", "outcome": "detached", "versions": "none"}
+    row |= {f"number_{i}": float(i) for i in range(24)}
+    return row | {f"trajectory_{name}": curve for name in ("depth", "force", "contact_radius")}
+
+
+def table(folder: Path) -> Any:
+    """Return the results without what differs between two runs."""
+    return Store(folder).results().drop(["wall_time_s"])
+
+
+def same(folder: Path, reference: Path) -> str:
+    """Return whether two campaigns hold the same table, in words."""
+    ours, theirs = table(folder), table(reference)
+    names = ours.column("name").to_pylist()
+    assert len(set(names)) == len(names), "a case is stored twice"
+    if ours.equals(theirs):
+        return f"the same {len(names)} rows as undisturbed"
+    raise AssertionError(f"{folder} and {reference} differ: {len(names)}, {theirs.num_rows} rows")
+
+
+def speed(root: Path) -> Path:
+    """Run the plan on two cores; return its folder."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    plan, folder = read_plan(PLAN), root / "undisturbed"
+    end = run(plan, folder, workers=WORKERS, store_every=2.0)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    busy = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    factor = PUBLISHED_SIZE / len(plan.cases) / 60
+    print(
+        f"cases                       {end.done} done, {end.failed} failed, {end.elapsed_s:.1f} s"
+    )
+    print(f"workers busy                {100 * end.worker_use:.1f} % of the time")
+    print(f"processor time a case       {busy / len(plan.cases):.3f} s")
+    print(f"{PUBLISHED_SIZE} cases, extrapolated  {end.elapsed_s * factor:.1f} min")
+    print(f"  on two cores of their own {busy / WORKERS * factor:.1f} min of processor time")
+    print(f"memory of a worker          {end.peak_memory / 1e6:.0f} MB at most")
+    failures = Store(folder).failures()
+    reasons = failures.select(["failure", "reason"]).to_pylist() if failures.num_rows else []
+    for reason, count in Counter(": ".join(row.values()) for row in reasons).most_common():
+        print(f"  {count} failed, {reason}")
+    size = sum(path.stat().st_size for path in folder.rglob("*.parquet"))
+    print(f"stored                      {size / len(plan.cases) / 1e3:.2f} kB a case")
+    return folder
+
+
+def many(cases: int) -> Plan:
+    """Return a plan of so many cases."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "many.toml"
+        path.write_text(
+            f"[[fill]]\ncases = {cases}\ntabor = {{ log = [0.01, 10] }}\nmodulus_ratio = 0.1\n"
+            "exponent = { linear = [0.2, 2] }\npreload = { log = [0.1, 100] }\n"
+            "rate = { log = [0.1, 1e8] }\n"
+        )
+        return read_plan(path)
+
+
+def overhead(root: Path) -> None:
+    """Run cases that take no time: all that is left is what a case costs beside its solution."""
+    for count in (1_000, 10_000, 100_000):
+        began = perf_counter()
+        plan, folder = many(count), root / f"many-{count}"
+        planned = perf_counter()
+        end = run(plan, folder, workers=WORKERS, work=stand_in)
+        ended = perf_counter()
+        again = run(plan, folder, workers=WORKERS, work=stand_in)
+        reopened = perf_counter()
+        assert end.done == again.done == count
+        files = sum(1 for _ in folder.rglob("*.parquet"))
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+        print(
+            f"{count:7d} cases: {1e3 * (ended - began) / count:.3f} ms a case "
+            f"(plan {planned - began:.1f} s, run {ended - planned:.1f} s), "
+            f"opened again in {reopened - ended:.1f} s, {files} files, this process {peak:.0f} MB"
+        )
+
+
+def harassed(fast: bool) -> tuple[Plan, dict[str, Any]]:
+    """Return what is run under kills: the real thing, or stand-ins that are stored one by one."""
+    if fast:
+        return many(4_000), {"work": stand_in, "store_every": 0.0}
+    return read_plan(PLAN), {"store_every": 0.2}
+
+
+def child(folder: Path, fast: bool) -> None:
+    """Run a plan and say what was stored, until somebody kills this process."""
+
+    def say(now: Progress) -> None:
+        print(STORED, now.done, flush=True)
+
+    plan, options = harassed(fast)
+    run(plan, folder, workers=WORKERS, report=say, **options)
+
+
+def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 2026) -> None:
+    """Kill a run at random instants; then let it finish."""
+    folder, chance = root / f"killed-{fast}", random.Random(seed)
+    command = [sys.executable, __file__, "child", "--folder", str(folder)]
+    told = met = 0
+    for number in range(kills):
+        started = subprocess.Popen(
+            [*command, *(["--fast"] if fast else [])],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        # one in five in the start, the others in the middle of things
+        assert started.stdout is not None
+        lines = (line for line in started.stdout if int(line.split()[1]) > told)
+        first = next(lines, "") if number % 5 else ""
+        sleep(chance.uniform(0.0, 1.0 if fast else 4.0))
+        met += started.poll() is None
+        started.kill()
+        words = (first + (started.communicate()[0] or "")).split()
+        told = max([told, *map(int, words[1::2])])
+        if (folder / "provenance.json").exists():
+            done, _ = Store(folder).finished()
+            assert len(done) >= told, f"kill {number}: {told} were reported, {len(done)} are stored"
+            assert len(done) == Store(folder).results().num_rows, "a case is stored twice"
+    sleep(1.0)
+    assert not orphans(), "a worker has outlived its run"
+    before = len(Store(folder).finished()[0])
+    plan, options = harassed(fast)
+    end = run(plan, folder, workers=WORKERS, **options)
+    runs = Store(folder).provenance["runs"]
+    assert before == end.cases or runs[-1]["to_run"] == end.cases - before
+    print(
+        f"{kills} kills, {met} of them met a run; {before} cases were stored by then, none lost "
+        f"that was reported; {same(folder, reference)}"
+    )
+
+
+def orphans() -> list[int]:
+    """Return workers whose parent, a run, has gone."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            command = (path / "cmdline").read_bytes()
+            parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
+        except (OSError, IndexError):
+            continue
+        if b"multiprocessing.spawn" in command and parent == 1:
+            found.append(int(path.name))
+    return found
+
+
+@contextmanager
+def dask_cluster(root: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """Hold a scheduler and two workers, each a process of its own, over TCP."""
+    quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    dask, file = [sys.executable, "-m", "dask"], root / "scheduler.json"
+    file.unlink(missing_ok=True)
+    options = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
+    began = [subprocess.Popen([*dask, "scheduler", *options], **quiet)]
+    try:
+        while not file.exists():
+            sleep(0.1)
+        worker = ["worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard"]
+        folder = ["--local-directory", str(root), "--no-nanny"]
+        for _ in range(WORKERS):
+            began.append(subprocess.Popen([*dask, *worker, *folder], **quiet))
+        import json
+
+        yield json.loads(file.read_text())["address"], began[1:]
+    finally:
+        for process in began:
+            process.kill()
+            process.wait()
+
+
+def cluster(root: Path, reference: Path) -> None:
+    """Run the plan on a cluster, once in peace and once with a worker killed half way."""
+    for title, killing in (("in peace", False), ("one worker killed", True)):
+        with dask_cluster(root) as (address, workers):
+            folder, plan = root / f"cluster-{killing}", read_plan(PLAN)
+
+            def murder(now: Progress, killing=killing, victim=workers[0]) -> None:
+                if killing and now.done > now.cases / 2 and victim.poll() is None:
+                    victim.kill()
+
+            end = run(plan, folder, scheduler=address, report=murder)
+            assert not killing or workers[0].poll() is not None
+            print(
+                f"Dask at {address}, {title}: {end.elapsed_s:.1f} s, memory of a worker "
+                f"{end.peak_memory / 1e6:.0f} MB; {same(folder, reference)}"
+            )
+
+
+def disk(root: Path) -> None:
+    """Run into a full disk: a small file system in memory, where the system lets us mount one."""
+    place = root / "small-disk"
+    place.mkdir()
+    options = ["-t", "tmpfs", "-o", "size=2m", "viscotack-benchmark", str(place)]
+    if subprocess.run(["mount", *options], capture_output=True).returncode:
+        print("skipped: this system does not let us mount a small disk")
+        return
+    try:
+        folder, plan = place / "full", many(20_000)
+        try:
+            run(plan, folder, workers=WORKERS, work=stand_in)
+            raise AssertionError("the disk was large enough")
+        except OSError as error:
+            message = str(error)
+        stored = Store(folder).results().num_rows
+        subprocess.run(["mount", "-o", "remount,size=200m", str(place)], check=True)
+        end = run(plan, folder, workers=WORKERS, work=stand_in)
+        assert end.done == 20_000 == Store(folder).results().num_rows
+        print(f"full after {stored} cases: {message}\nwith more room the rest was run: {end.done}")
+    finally:
+        subprocess.run(["umount", str(place)], check=True)
+
+
+PARTS = ("speed", "overhead", "kill", "cluster", "disk")
+
+
+def main() -> None:
+    """Run and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", help=", ".join(PARTS), default=[])
+    parser.add_argument("--kills", type=int, default=50)
+    parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
+    parser.add_argument("--fast", action="store_true", help=argparse.SUPPRESS)
+    chosen = parser.parse_args()
+    if chosen.parts == ["child"]:
+        return child(chosen.folder, chosen.fast)
+    parts = chosen.parts or PARTS
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    with tempfile.TemporaryDirectory() as name:
+        root = Path(name)
+        reference = speed(root) if {"speed", "kill", "cluster"} & set(parts) else root
+        if "overhead" in parts:
+            overhead(root)
+        if "kill" in parts:
+            kill(root, reference, chosen.kills, fast=False)
+            plan, options = harassed(True)
+            run(plan, root / "stand-ins", workers=WORKERS, **options)
+            kill(root, root / "stand-ins", chosen.kills, fast=True)
+        if "cluster" in parts:
+            cluster(root, reference)
+        if "disk" in parts:
+            disk(root)
+
+
+if __name__ == "__main__":
+    main()

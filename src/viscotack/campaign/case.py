@@ -1,0 +1,176 @@
+"""One case: solve it within its limits, and say in one row what came out. Runs in the workers.
+
+A row has the numbers of ``viscotack.summary``, key points of the curve and a resampled trajectory:
+everything that a table of the campaign needs, and a thousandth of the result.
+"""
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ..bem import solve
+from ..observables import PullOff, pull_off, summary
+from ..record import from_dict
+from ..result import Outcome, Result
+from .limits import LimitExceeded, Watch, peak_memory
+
+# Shares of the travel from the start to the pull-off at which the force is a key point.
+KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
+# Shares of that travel at which the trajectory is kept: 24, closer to each other at the pull-off.
+TRAJECTORY_SHARES = 1 - (1 - np.linspace(0.0, 1.0, 24)) ** 2
+# What the summary says for a reader, not for a table.
+_LEFT_OUT = ("problem", "versions", "run_id", "events", "statistics", "error_estimate")
+_COST = ("steps", "nodes", "modes", "newton_iterations")
+
+
+@dataclass(frozen=True)
+class CaseSettings:
+    """How a case is solved, and how much it may take.
+
+    Attributes
+    ----------
+    accuracy : float
+        Wanted relative error of the pull-off force.
+    until : {"pull-off", "detached"}
+        How far to pull; to full separation takes about twice the time, and the work of separation
+        is known only then.
+    time_limit : float
+        Longest time of a case [s]; one that takes longer is a failure.
+    memory_limit : float
+        Most memory of a case [bytes], beside what its worker has at rest; only on Linux.
+    """
+
+    accuracy: float = 2e-3
+    until: str = "pull-off"
+    time_limit: float = 600.0
+    memory_limit: float = 400e6
+
+    def __post_init__(self) -> None:
+        if self.until not in ("detached", "pull-off"):
+            raise ValueError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
+        if not 1e-6 <= self.accuracy <= 0.02:
+            raise ValueError(f"accuracy must be between 1e-6 and 0.02, got {self.accuracy!r}")
+        for name, unit in (("time_limit", "s"), ("memory_limit", "bytes")):
+            if not getattr(self, name) > 0:
+                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r} {unit}")
+
+
+Work = Callable[[Any, CaseSettings], dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a worker sends back: a row, or why there is none.
+
+    Attributes
+    ----------
+    row : dict or None
+        Numbers, words and lists of numbers by column.
+    failure, reason : str
+        Kind of failure, such as "refused" or "time limit", and a sentence; "" with a row.
+    wall_time_s : float
+        Time of the case in the worker [s].
+    peak_memory : float
+        Largest resident memory that the worker has had [bytes].
+    """
+
+    row: dict[str, Any] | None
+    failure: str
+    reason: str
+    wall_time_s: float
+    peak_memory: float
+
+
+class Unsolved(Exception):
+    """A simulation that stopped before its end, with the reason."""
+
+
+def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
+    """Do the work of one case within its limits; an error is an answer too.
+
+    Parameters
+    ----------
+    work : callable
+        Returns the row of a problem; :func:`measure`, or a stand-in.
+    problem : str
+        The record of a problem as JSON.
+    settings : CaseSettings
+        Passed on to the work; the limits are kept here.
+    """
+    began = perf_counter()
+    watch = Watch(seconds=settings.time_limit, memory=settings.memory_limit)
+    row, failure, reason = None, "", ""
+    try:
+        with watch:
+            row = work(from_dict(json.loads(problem)), settings)
+    except LimitExceeded:
+        row, failure, reason = None, watch.kind, watch.reason
+    except MemoryError as error:
+        failure, reason = "memory limit", f"the machine has no more memory: {error}"
+    except Unsolved as error:
+        failure, reason = "stopped", str(error)
+    except ValueError as error:
+        failure, reason = "refused", str(error)
+    except Exception as error:
+        failure, reason = "crashed", f"{type(error).__name__}: {error}"
+    return Answer(row, failure, reason, perf_counter() - began, peak_memory())
+
+
+def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
+    """Solve a problem and return its row.
+
+    Raises
+    ------
+    Unsolved
+        If the simulation stopped before its end.
+    ValueError
+        If the problem has no relaxed start, or its result no pull-off.
+    """
+    result = solve(problem, accuracy=settings.accuracy, until=settings.until, throw=False)
+    if result.outcome is Outcome.STOPPED:
+        raise Unsolved(result.status)
+    found = pull_off(result)
+    answer = summary(result)
+    errors, cost = answer["error_estimate"] or {}, answer["statistics"]
+    row = {name: value for name, value in answer.items() if name not in _LEFT_OUT}
+    row |= {"error_estimate": errors.get("force"), "error_estimate_work": errors.get("work")}
+    row |= {name: cost.get(name) for name in _COST} | {"jumps": len(result.events)}
+    row |= {"versions": ", ".join(f"{k} {v}" for k, v in answer["versions"].items())}
+    return row | curve(result, found)
+
+
+def curve(result: Result, found: PullOff) -> dict[str, Any]:
+    """Return key points and trajectory of the retraction from its start to the pull-off.
+
+    Returns
+    -------
+    dict
+        ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
+        ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at
+        TRAJECTORY_SHARES of it; dimensionless as in `Result`. Forces follow a monotone cubic
+        between the steps of the run, radii a straight line; None without an edge.
+    """
+    first = int(np.flatnonzero(result.depth == result.depth.max())[-1])
+    start = float(result.depth[first])
+    travel = start - found.depth
+    # Where the curve jumps the depth stands still: the state after the jump is kept.
+    moved = np.append(np.diff(result.depth[first:]) < 0, True)
+    x = (start - result.depth[first:][moved]) / travel
+    force = PchipInterpolator(x, result.force[first:][moved])
+    radius = result.contact_radius[first:][moved]
+    row: dict[str, Any] = {"travel_to_pull_off": travel}
+    row |= {f"force_at_{name}": float(force(share)) for name, share in KEY_SHARES.items()}
+    forces = force(TRAJECTORY_SHARES)
+    # The force minimum is located between steps; the last point is that very number.
+    forces[-1] = -found.force
+    row["trajectory_depth"] = (start - TRAJECTORY_SHARES * travel).tolist()
+    row["trajectory_force"] = forces.tolist()
+    radii = np.interp(TRAJECTORY_SHARES, x, radius)
+    radii[-1] = found.contact_radius
+    row["trajectory_contact_radius"] = [a if np.isfinite(a) else None for a in radii.tolist()]
+    return row

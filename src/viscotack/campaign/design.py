@@ -1,0 +1,163 @@
+"""Tables of inputs: every combination of given values, or points that fill a region evenly.
+
+A range is written as values with a scale, ``{ log = [0.01, 10] }`` or ``{ linear = [0.2, 2] }``.
+With more than two values, equal shares of the points lie between neighbours: the values are then
+equally spaced quantiles, and any distribution can be stated.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+METHODS = ("sobol", "latin-hypercube")
+# A Sobol sequence is drawn in blocks of this power of two, its balance asks for one.
+_BLOCK = 10
+# Values of a range are rounded to these digits: cases are named by their numbers, and the last
+# digit of an exponential is not the same on every machine.
+_DIGITS = 9
+# A region in which fewer points than this share are contacts is not worth being searched.
+_LEAST_ACCEPTED = 1e-2
+
+
+def grid(values: Mapping[str, Any]) -> Iterator[dict[str, float]]:
+    """Return every combination of the values of the inputs.
+
+    Parameters
+    ----------
+    values : mapping of str to number, list, or range with a count
+        A number, a list of numbers, or ``{"log": [1, 100], "count": 5}`` (or ``"linear"``).
+
+    Examples
+    --------
+    >>> list(grid({"tabor": 1.0, "rate": {"log": [1, 100], "count": 3}}))
+    [{'tabor': 1.0, 'rate': 1.0}, {'tabor': 1.0, 'rate': 10.0}, {'tabor': 1.0, 'rate': 100.0}]
+    """
+    lists = [_steps(name, given) for name, given in values.items()]
+    for combination in product(*lists):
+        yield dict(zip(values, combination, strict=True))
+
+
+def fill(
+    values: Mapping[str, Any], *, cases: int, method: str = "sobol", seed: int = 0
+) -> Iterator[dict[str, float]]:
+    """Return points that fill the ranges of the inputs evenly.
+
+    Parameters
+    ----------
+    values : mapping of str to number or range
+        ``{"log": [0.01, 10]}``, ``{"linear": [...]}``, a fixed number, or
+        ``{"choose": [0.1, 0.3], "weights": [5, 1]}``; the weights may be left out.
+    cases : int
+        How many points to begin with.
+    method : {"sobol", "latin-hypercube"}
+        A Sobol sequence goes on beyond `cases` for as long as it is asked, and its first points do
+        not depend on their number, so a plan can be extended. A Latin hypercube has `cases` points.
+    seed : int
+        Of the scrambling.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
+    makers = {name: _mapping(name, given) for name, given in values.items()}
+    free = [name for name in makers if not isinstance(values[name], int | float)]
+    if not free:
+        raise ValueError("a fill needs at least one range; give a grid for a single case")
+    for point in _points(len(free), cases, method, seed):
+        places = dict(zip(free, point, strict=True))
+        yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
+
+
+def accepted(
+    rows: Iterator[dict[str, float]], accept: Any, wanted: int | None
+) -> tuple[list[dict[str, float]], int]:
+    """Return the rows that are accepted, up to the wanted number, and how many were not."""
+    kept: list[dict[str, float]] = []
+    rejected = 0
+    for row in rows:
+        if accept(row):
+            kept.append(row)
+        else:
+            rejected += 1
+        if wanted is not None and len(kept) == wanted:
+            break
+        if rejected > 2 / _LEAST_ACCEPTED and len(kept) < _LEAST_ACCEPTED * rejected:
+            raise ValueError(
+                f"only {len(kept)} of the first {len(kept) + rejected} points of a fill are "
+                "contacts; change its ranges"
+            )
+    return kept, rejected
+
+
+def _points(dimensions: int, cases: int, method: str, seed: int) -> Iterator[list[float]]:
+    # Takes a while to import, and a worker that imports this module never draws a point.
+    from scipy.stats import qmc
+
+    # The name that every supported version of scipy knows; the checker knows the newest only.
+    generator: dict[str, Any] = {"seed": seed}
+    if method == "latin-hypercube":
+        yield from qmc.LatinHypercube(dimensions, **generator).random(cases).tolist()
+        return
+    sequence = qmc.Sobol(dimensions, **generator)
+    while True:
+        yield from sequence.random(2**_BLOCK).tolist()
+
+
+def _steps(name: str, given: Any) -> list[float]:
+    if isinstance(given, Mapping):
+        count = given.get("count")
+        if not isinstance(count, int) or count < 1:
+            raise ValueError(f"{name}: a range of a grid needs its count, got {dict(given)}")
+        make = _mapping(name, {k: v for k, v in given.items() if k != "count"})
+        places = np.linspace(0.0, 1.0, count) if count > 1 else [0.0]
+        return [make(place) for place in places]
+    return _numbers(name, given if isinstance(given, list) else [given])
+
+
+def _mapping(name: str, given: Any) -> Any:
+    """Return what turns a place in [0, 1) into a value of the input."""
+    if not isinstance(given, Mapping):
+        (fixed,) = _numbers(name, [given])
+        return lambda _: fixed
+    scales = [key for key in ("log", "linear", "choose") if key in given]
+    allowed = {*scales, "weights"} if scales == ["choose"] else set(scales)
+    if len(scales) != 1 or given.keys() - allowed:
+        raise ValueError(
+            f"{name} must be a number, {{ log = [low, high] }}, {{ linear = [low, high] }} or "
+            f"{{ choose = [...], weights = [...] }}, got {dict(given)}"
+        )
+    values = np.array(_numbers(name, given[scales[0]]))
+    if scales == ["choose"]:
+        return _choice(name, values, given.get("weights", [1] * len(values)))
+    if len(values) < 2 or np.any(np.diff(values) < 0):
+        raise ValueError(f"{name}: a range is two or more rising values, got {values.tolist()}")
+    logarithmic = scales == ["log"]
+    if logarithmic and values[0] <= 0:
+        raise ValueError(f"{name}: a log range must be positive, got {values.tolist()}")
+    ends, places = np.log(values) if logarithmic else values, np.linspace(0, 1, len(values))
+
+    def value(place: float) -> float:
+        found = np.interp(place, places, ends)
+        return float(f"{np.exp(found) if logarithmic else found:.{_DIGITS}g}")
+
+    return value
+
+
+def _choice(name: str, values: npt.NDArray, weights: Sequence[float]) -> Any:
+    shares = np.cumsum(_numbers(f"{name}, weights", weights))
+    if len(shares) != len(values) or shares[-1] <= 0 or np.any(np.diff(shares, prepend=0) < 0):
+        raise ValueError(
+            f"{name}: needs a weight, not negative, for each of its {len(values)} choices, "
+            f"got {list(weights)}"
+        )
+    return lambda place: float(values[np.searchsorted(shares, place * shares[-1], side="right")])
+
+
+def _numbers(name: str, given: Any) -> list[float]:
+    good = isinstance(given, list | tuple) and given
+    if not good or any(isinstance(v, bool) or not isinstance(v, int | float) for v in given):
+        raise ValueError(f"{name} must be a number or a list of numbers, got {given!r}")
+    if not np.all(np.isfinite(given)):
+        raise ValueError(f"{name} must be finite, got {given!r}")
+    return [float(v) for v in given]

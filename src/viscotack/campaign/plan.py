@@ -1,0 +1,281 @@
+"""A plan: which cases to run and how, from a TOML file or a bare CSV file."""
+
+import csv
+import json
+import os
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from ..case_file import read_case
+from ..record import from_dict, run_id, to_dict
+from ..units import parse, positive
+from .case import CaseSettings
+from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
+from .design import accepted, fill, grid
+
+_KEYS = ("kind", "problem", "settings", "grid", "fill", "list")
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case of a plan.
+
+    Attributes
+    ----------
+    name : str
+        By the content of its problem: equal problems have equal names.
+    inputs : dict
+        The numbers that state it, by column.
+    """
+
+    name: str
+    inputs: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Cases to run, in the order of the file, each once.
+
+    Attributes
+    ----------
+    kind : Kind
+        What the inputs mean.
+    cases : tuple of Case
+        Without repetitions.
+    settings : CaseSettings
+        How they are solved.
+    base : dict or None
+        Record of the problem in which inputs are replaced, with ``problem = "FILE.toml"``.
+    rejected, repeated : int
+        Points of grids and fills that are not contacts, and cases stated more than once.
+    source : str
+        Text of the file; "" for a plan made otherwise.
+    suffix : str
+        Its ending, ".toml" or ".csv".
+    """
+
+    kind: Kind
+    cases: tuple[Case, ...]
+    settings: CaseSettings
+    base: dict[str, Any] | None = None
+    rejected: int = 0
+    repeated: int = 0
+    source: str = ""
+    suffix: str = ".toml"
+
+    def problem(self, case: Case) -> str:
+        """Return the problem of a case as JSON, as it is sent to a worker."""
+        return json.dumps(to_dict(self.kind.problem(case.inputs)))
+
+
+def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
+    """Return the plan in a file.
+
+    Parameters
+    ----------
+    path : path
+        A TOML file as docs/campaigns.md describes it, or a CSV file with a column per input.
+    **changed
+        Settings (fields of `CaseSettings`) that replace those of the file; None leaves one.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If a key, a column or a number is wrong; with its place.
+    """
+    path = Path(path)
+    changed = {name: value for name, value in changed.items() if value is not None}
+    if path.suffix == ".csv":
+        rows = read_rows(path)
+        names = set(rows[0][1])
+        try:
+            kind = KINDS[kind_of_columns(names)]
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+        tables: dict[str, Any] = {}
+        blocks: list[tuple[str, Any]] = [("list", rows)]
+        base = None
+    else:
+        try:
+            tables = tomllib.loads(path.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise ValueError(f"{path} is not a TOML file: {error}") from None
+        unknown = tables.keys() - set(_KEYS)
+        if unknown:
+            raise ValueError(
+                f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
+            )
+        blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
+        blocks = [
+            (key, read_rows(path.parent / _file(path, block)) if key == "list" else block)
+            for key, block in blocks
+        ]
+        if not blocks:
+            raise ValueError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+        kind, base = _kind(path, tables, blocks)
+    cases, rejected, repeated = _cases(path, kind, blocks)
+    return Plan(
+        kind=kind,
+        cases=cases,
+        settings=_settings(path, tables.get("settings", {}), changed),
+        base=base,
+        rejected=rejected,
+        repeated=repeated,
+        source=path.read_text(encoding="utf-8"),
+        suffix=".csv" if path.suffix == ".csv" else ".toml",
+    )
+
+
+def restored_kind(name: str, base: dict[str, Any] | None, columns: Iterable[str]) -> Kind:
+    """Return the kind of a stored plan."""
+    if base is not None:
+        return kind_of_problem(from_dict(base), set(columns))
+    if name not in KINDS:
+        raise ValueError(f"unknown kind of case {name!r}; a newer version may know it")
+    return KINDS[name]
+
+
+def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
+    """Return the rows of a CSV file of numbers, each with its line; a first row names columns."""
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            reader = csv.reader(file)
+            names = [name.strip() for name in next(reader, [])]
+            rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is not a text file") from None
+    if not rows or len(set(names)) != len(names):
+        raise ValueError(
+            f"{path}: needs a first row of different column names and a case a row below it"
+        )
+    found = []
+    for line, row in rows:
+        if len(row) != len(names):
+            raise ValueError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+        try:
+            found.append((line, {n: float(v) for n, v in zip(names, row, strict=True)}))
+        except ValueError as error:
+            raise ValueError(f"{path}, line {line}: {error}; inputs are numbers") from None
+    return found
+
+
+def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
+    blocks = tables.get(key, [])
+    if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
+        raise ValueError(f"{path}: write [[{key}]] with two brackets; there may be several")
+    return blocks
+
+
+def _file(path: Path, block: Mapping[str, Any]) -> str:
+    if block.keys() != {"file"}:
+        raise ValueError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
+    return str(block["file"])
+
+
+def _kind(
+    path: Path, tables: Mapping[str, Any], blocks: list[tuple[str, Any]]
+) -> tuple[Kind, dict[str, Any] | None]:
+    if "problem" in tables:
+        if "kind" in tables:
+            raise ValueError(f"{path}: kind and problem exclude each other; leave one out")
+        problem = read_case(path.parent / str(tables["problem"]))
+        names = {name for key, block in blocks for name in _inputs(key, block)}
+        try:
+            return kind_of_problem(problem, names), to_dict(problem)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+    name = tables.get("kind", "sphere")
+    if name not in KINDS:
+        raise ValueError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
+    return KINDS[name], None
+
+
+def _inputs(key: str, block: Any) -> set[str]:
+    """Return the names of the inputs of a block; a dotted path may be written as tables."""
+    if key == "list":
+        return set(block[0][1])
+    return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
+
+
+def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+    """Return a block with dotted names: TOML reads ``protocol.speed = 1`` as a table."""
+    found: dict[str, Any] = {}
+    for key, value in block.items():
+        is_range = isinstance(value, dict) and value.keys() & {"log", "linear", "choose"}
+        if isinstance(value, dict) and not is_range:
+            found |= _flat(value, f"{prefix}{key}.")
+        else:
+            found[f"{prefix}{key}"] = value
+    return found
+
+
+def _cases(
+    path: Path, kind: Kind, blocks: list[tuple[str, Any]]
+) -> tuple[tuple[Case, ...], int, int]:
+    found: dict[str, Case] = {}
+    rejected = stated = 0
+    for number, (key, block) in enumerate(blocks, 1):
+        where = f"{path}, block {number} ([[{key}]])"
+        try:
+            kind.check(_inputs(key, block))
+            rows, away = _rows(path, kind, key, block)
+            rejected += away
+            for row in rows:
+                stated += 1
+                case = Case(run_id(kind.problem(row)), row)
+                found.setdefault(case.name, case)
+        except (ValueError, TypeError) as error:
+            text = str(error)
+            raise ValueError(text if text.startswith(str(path)) else f"{where}: {text}") from None
+    return tuple(found.values()), rejected, stated - len(found)
+
+
+def _rows(path: Path, kind: Kind, key: str, block: Any) -> tuple[list[dict[str, float]], int]:
+    if key == "list":
+        return list(_checked(path, kind, block)), 0
+
+    def accept(row: dict[str, float]) -> bool:
+        return has_relaxed_contact(kind.problem(row))
+
+    values = _flat(block)
+    if key == "grid":
+        return accepted(grid(values), accept, None)
+    cases, method = values.pop("cases", None), values.pop("method", "sobol")
+    seed = values.pop("seed", 0)
+    if not isinstance(cases, int) or cases < 1 or not isinstance(seed, int):
+        raise ValueError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
+    # The dimensions of the sequence follow the kind, not the order in which a file was written.
+    ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
+    return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases)
+
+
+def _checked(path: Path, kind: Kind, rows: Any) -> Iterator[dict[str, float]]:
+    for line, row in rows:
+        try:
+            kind.problem(row)
+        except ValueError as error:
+            raise ValueError(f"{path}, line {line}: {error}") from None
+        yield row
+
+
+def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSettings:
+    names = [field.name for field in fields(CaseSettings)]
+    if not isinstance(given, dict) or given.keys() - set(names):
+        raise ValueError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
+    units = {"accuracy": "1", "time_limit": "s", "memory_limit": "byte"}
+    values = dict(given) | dict(changed)
+    for name, unit in units.items():
+        if name in values:
+            try:
+                values[name] = positive(name, parse(values[name], unit), unit)
+            except ValueError as error:
+                raise ValueError(f"{path}, [settings] {name}: {error}") from None
+    try:
+        return CaseSettings(**values)
+    except ValueError as error:
+        raise ValueError(f"{path}, [settings]: {error}") from None

@@ -1,0 +1,177 @@
+import json
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import synthetic
+from viscotack import pull_off, pull_off_force, run_id, solve, to_dict
+from viscotack.campaign import CaseSettings, measure
+from viscotack.campaign.case import (
+    KEY_SHARES,
+    TRAJECTORY_SHARES,
+    Unsolved,
+    attempt,
+    curve,
+)
+from viscotack.campaign.limits import LimitExceeded, Watch, peak_memory, resident_memory
+
+PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
+QUICK = CaseSettings(accuracy=0.02, until="pull-off")
+
+
+def exact_force(depth):
+    """Return the JKR force at depths on the branch in contact."""
+    a = np.linspace(0.6, 3.0, 200_001)
+    return np.interp(depth, synthetic.jkr_depth(a), synthetic.jkr_force(a))
+
+
+def test_key_points_and_trajectory_lie_on_the_curve():
+    result = synthetic.jkr_result(steps=400, end=0.7)
+    row = curve(result, pull_off(result))
+    start, travel = result.depth[0], row["travel_to_pull_off"]
+    assert travel == pytest.approx(start - synthetic.PULL_OFF_DEPTH, rel=1e-4)
+    for name, share in KEY_SHARES.items():
+        exact = exact_force(start - share * travel)
+        assert row[f"force_at_{name}"] == pytest.approx(exact, rel=1e-4, abs=1e-4)
+    depth, force = (np.array(row[f"trajectory_{name}"]) for name in ("depth", "force"))
+    radius = np.array(row["trajectory_contact_radius"])
+    assert len(depth) == 24 and depth[0] == start and force[0] == result.force[0]
+    assert force == pytest.approx(exact_force(depth), abs=1e-3)
+    assert synthetic.jkr_depth(radius) == pytest.approx(depth, rel=1e-3, abs=1e-2)
+    assert force[-1] == -pull_off_force(result) == force.min()
+    assert np.all(np.diff(TRAJECTORY_SHARES, 2) < 0), "closer to each other at the pull-off"
+
+
+def test_the_trajectory_ends_at_the_pull_off_before_a_jump():
+    whole, to_jump = (
+        curve(result, pull_off(result))
+        for result in (synthetic.jkr_result(end=0.5), synthetic.jkr_detachment())
+    )
+    assert to_jump == whole
+
+
+def test_a_jump_at_one_depth_does_not_break_the_curve():
+    whole = synthetic.jkr_result(steps=300)
+    i = 40
+    twice = {
+        name: np.insert(getattr(whole, name), i, getattr(whole, name)[i] + shift)
+        for name, shift in (("time", 0), ("depth", 0), ("force", 1), ("contact_radius", 0))
+    }
+    jumped = synthetic.jkr_result(**twice, edge_speed=np.insert(whole.edge_speed, i, 0.0))
+    found = pull_off(whole)
+    assert curve(jumped, found) == curve(whole, found)
+
+
+def test_the_row_of_a_case_is_what_the_result_says():
+    row = measure(synthetic.GROUPS, QUICK)
+    result = solve(synthetic.GROUPS, accuracy=0.02, until="pull-off")
+    assert row["pull_off_force"] == pull_off_force(result)
+    assert row["error_estimate"] == result.error_estimate["force"]
+    assert row["error_estimate_work"] == result.error_estimate["work"]
+    assert row["status"] == result.status and row["steps"] == len(result.time) - 1
+    assert "numpy" in row["versions"]
+    kinds = {type(v) for v in row.values() if v is not None}
+    assert kinds <= {str, float, int, list}
+
+
+def test_an_answer_has_a_row_or_a_reason():
+    good = attempt(lambda problem, settings: {"id": run_id(problem)}, PROBLEM, QUICK)
+    assert good.row == {"id": run_id(synthetic.GROUPS)} and not good.failure
+    assert good.wall_time_s > 0 and good.peak_memory > 1e6
+
+    def fails(error):
+        def work(problem, settings):
+            raise error
+
+        answer = attempt(work, PROBLEM, QUICK)
+        assert answer.row is None
+        return answer.failure, answer.reason
+
+    assert fails(ValueError("no contact")) == ("refused", "no contact")
+    assert fails(Unsolved("stopped because")) == ("stopped", "stopped because")
+    assert fails(KeyError("x")) == ("crashed", "KeyError: 'x'")
+    assert fails(MemoryError("no room"))[0] == "memory limit"
+
+
+def test_a_stopped_simulation_is_a_failure_with_its_reason(monkeypatch):
+    from viscotack.campaign import case
+
+    stopped = synthetic.jkr_result(status="stopped because the bound of 9 steps was met")
+    monkeypatch.setattr(case, "solve", lambda *_, **__: stopped)
+    answer = attempt(measure, PROBLEM, QUICK)
+    assert (answer.failure, answer.reason) == ("stopped", stopped.status)
+    never = synthetic.jkr_result(start=2.3, end=2.2)
+    monkeypatch.setattr(case, "solve", lambda *_, **__: never)
+    answer = attempt(measure, PROBLEM, QUICK)
+    assert answer.failure == "refused" and "no pull-off" in answer.reason
+
+
+def endless(problem, settings):
+    while True:
+        np.linalg.solve(np.eye(20), np.ones(20))
+
+
+def greedy(problem, settings):
+    held = []
+    while True:
+        held.append(np.ones(1_000_000))
+        time.sleep(1e-3)
+
+
+def test_a_case_that_takes_too_long_is_ended():
+    answer = attempt(endless, PROBLEM, CaseSettings(time_limit=0.2))
+    assert (answer.failure, answer.reason) == ("time limit", "took more than 0.2 s")
+    assert 0.2 <= answer.wall_time_s < 2
+
+
+@pytest.mark.skipif(not resident_memory(), reason="only Linux tells the memory of a process")
+def test_a_case_that_takes_too_much_memory_is_ended():
+    before = peak_memory()
+    answer = attempt(greedy, PROBLEM, CaseSettings(memory_limit=100e6, time_limit=20))
+    assert answer.failure == "memory limit" and "more than 100 MB" in answer.reason
+    # it is looked at every 50 ms, in which the case may take some more
+    assert 100e6 < answer.peak_memory == peak_memory() < before + 700e6
+
+
+def test_limits_hold_in_any_thread():
+    answers = []
+
+    def do():
+        answers.append(attempt(endless, PROBLEM, CaseSettings(time_limit=0.1)))
+
+    thread = threading.Thread(target=do)
+    thread.start()
+    thread.join(10)
+    assert answers[0].failure == "time limit"
+
+
+def test_a_limit_that_is_met_in_the_last_moment_does_not_come_late():
+    ended = 0
+    for i in range(60):
+        watch = Watch(seconds=2e-3, memory=1e12)
+        try:
+            with watch:
+                # ends in all moments around that at which the watch looks
+                until = time.perf_counter() + 1.7e-3 + i * 1e-5
+                while time.perf_counter() < until:
+                    pass
+        except LimitExceeded:
+            ended += 1
+        sum(range(1000))
+    assert 0 <= ended <= 60
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"until": "later"}, "until must be"),
+        ({"accuracy": 0.5}, "accuracy must be between"),
+        ({"time_limit": 0.0}, "time_limit must be positive"),
+        ({"memory_limit": -1.0}, "memory_limit must be positive"),
+    ],
+)
+def test_impossible_settings_are_refused(changed, words):
+    with pytest.raises(ValueError, match=words):
+        CaseSettings(**changed)

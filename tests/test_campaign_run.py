@@ -1,0 +1,360 @@
+import errno
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from campaign_work import (
+    InlineCrew,
+    broken,
+    crash_at_seven,
+    deadly,
+    employ,
+    interrupting,
+    picky,
+    plan_of,
+    slow,
+    stand_in,
+)
+from viscotack.campaign import AllCrashed, Store, read_plan, run
+from viscotack.campaign.crew import Gone
+from viscotack.campaign.run import PASSING
+
+HERE = Path(__file__).parent
+
+
+@pytest.fixture
+def crew(monkeypatch):
+    return employ(monkeypatch, InlineCrew())
+
+
+def table(folder):
+    """Return what two runs must agree on."""
+    return Store(folder).results().drop(["wall_time_s"])
+
+
+def rates(folder):
+    return Store(folder).results().column("rate").to_pylist()
+
+
+def test_every_case_is_run_once_and_stored(tmp_path, crew):
+    plan = plan_of(tmp_path)
+    end = run(plan, tmp_path / "c", work=stand_in)
+    assert (end.cases, end.done, end.failed, end.stopped) == (20, 20, 0, False)
+    assert sorted(crew.done) == rates(tmp_path / "c") == [float(i + 1) for i in range(20)]
+    row = Store(tmp_path / "c").results().to_pylist()[3]
+    assert row["pull_off_force"] == 0.25 and row["tabor"] == 1.0 and len(row["trajectory_force"])
+
+
+def test_the_longest_case_comes_first(tmp_path, crew):
+    plan = plan_of(tmp_path)
+    run(plan, tmp_path / "c", work=stand_in)
+    # all else equal, slow retractions take longer
+    assert crew.done == sorted(crew.done)
+
+
+def test_what_is_stored_is_not_run_again(tmp_path, crew):
+    run(plan_of(tmp_path, cases=7), tmp_path / "c", work=stand_in)
+    crew.done.clear()
+    end = run(plan_of(tmp_path, cases=10), tmp_path / "c", work=stand_in)
+    assert sorted(crew.done) == [8, 9, 10] and end.done == 10
+    crew.done.clear()
+    # a smaller plan in the same folder: there is nothing to do, and nothing is lost
+    end = run(plan_of(tmp_path, cases=3), tmp_path / "c", work=stand_in)
+    assert not crew.done and (end.cases, end.done) == (3, 3)
+    assert len(rates(tmp_path / "c")) == 10
+
+
+def test_a_folder_goes_on_without_its_plan(tmp_path, crew):
+    folder = tmp_path / "c"
+    Store.create((folder.mkdir(), folder)[1], plan_of(tmp_path, cases=5))
+    end = run(None, folder, work=stand_in)
+    assert end.done == 5
+    with pytest.raises(FileNotFoundError):
+        run(None, tmp_path / "nowhere")
+    with pytest.raises(ValueError, match="holds no campaign"):
+        run(None, tmp_path)
+
+
+def test_failures_have_their_own_table_and_are_tried_again_on_demand(tmp_path, crew):
+    folder, plan = tmp_path / "c", plan_of(tmp_path)
+    end = run(plan, folder, work=picky)
+    assert (end.done, end.failed) == (16, 4)
+    failures = Store(folder).failures()
+    assert failures.column("rate").to_pylist() == [5, 10, 15, 20]
+    assert failures.column("reason").to_pylist()[0] == "no contact at a rate of 5"
+    assert not set(rates(folder)) & {5, 10, 15, 20}
+    crew.done.clear()
+    assert run(plan, folder, work=stand_in).failed == 4 and not crew.done
+    end = run(plan, folder, work=stand_in, retry=True)
+    assert (end.done, end.failed) == (20, 0) and len(crew.done) == 4
+    assert Store(folder).failures().num_rows == 0
+
+
+def test_a_crash_is_tried_again_by_the_next_run(tmp_path, crew):
+    folder, plan = tmp_path / "c", plan_of(tmp_path)
+    assert run(plan, folder, work=crash_at_seven).failed == 1
+    assert Store(folder).finished()[1].popitem()[1] in PASSING
+    assert run(plan, folder, work=stand_in).done == 20
+    assert table(folder).equals(table_of_undisturbed(tmp_path))
+
+
+def table_of_undisturbed(tmp_path):
+    run(plan_of(tmp_path), tmp_path / "undisturbed", work=stand_in)
+    return table(tmp_path / "undisturbed")
+
+
+def test_a_program_with_a_fault_is_not_let_loose_on_all_cases(tmp_path, crew):
+    with pytest.raises(AllCrashed, match="first 20 cases have all crashed.*a fault of the prog"):
+        run(plan_of(tmp_path, cases=100), tmp_path / "c", work=broken)
+    assert len(crew.done) < 30
+
+
+def test_what_is_reported_done_is_stored(tmp_path, crew):
+    reports = []
+
+    def check(now):
+        done, failed = Store(tmp_path / "c").finished()
+        reports.append(now.done)
+        assert (len(done), len(failed)) == (now.done, now.failed)
+
+    run(plan_of(tmp_path), tmp_path / "c", work=picky, report=check, store_every=0.0)
+    assert len(reports) > 10 and reports[-1] == 16
+
+
+def test_the_remaining_time_is_told(tmp_path, crew):
+    seen = []
+    plan = plan_of(tmp_path, cases=40)
+    run(plan, tmp_path / "c", work=slow, report=seen.append, store_every=0.0)
+    halfway = seen[len(seen) // 2]
+    assert 0.3 < halfway.remaining_s / halfway.elapsed_s < 3
+    assert seen[-1].remaining_s == pytest.approx(0, abs=1e-9)
+    assert seen[-1].rate > 10 and seen[-1].peak_memory > 1e6
+
+
+def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
+    folder, plan = tmp_path / "c", plan_of(tmp_path)
+    before = signal.getsignal(signal.SIGINT)
+    end = run(plan, folder, work=interrupting)
+    assert end.stopped and 7 <= end.done < 15
+    assert len(rates(folder)) == end.done == len(crew.done)
+    assert signal.getsignal(signal.SIGINT) is before
+    assert run(plan, folder, work=stand_in).done == 20
+    assert table(folder).equals(table_of_undisturbed(tmp_path))
+
+
+def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
+    collect = crew.outcome
+
+    def twice(future):
+        answer = collect(future)
+        if len(crew.done) == 10:
+            os.kill(os.getpid(), signal.SIGINT)
+            os.kill(os.getpid(), signal.SIGINT)
+        return answer
+
+    monkeypatch.setattr(crew, "outcome", twice)
+    with pytest.raises(KeyboardInterrupt):
+        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert 0 < len(rates(tmp_path / "c")) <= 10
+
+
+def test_a_death_of_a_worker_costs_nothing(tmp_path, monkeypatch):
+    crew = employ(monkeypatch, InlineCrew(deaths=[7.0]))
+    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert (end.done, end.failed, crew.renewed) == (20, 0, 1)
+
+
+def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
+    crew = employ(monkeypatch, InlineCrew(deaths=[7.0] * 9))
+    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert (end.done, end.failed) == (19, 1)
+    (row,) = Store(tmp_path / "c").failures().to_pylist()
+    assert row["rate"] == 7 and row["failure"] == "worker died"
+    # twice among others, once alone
+    assert crew.renewed == 3 and len(crew.deaths) == 6
+
+
+def test_a_case_that_a_cluster_has_given_up_is_a_failure(tmp_path, monkeypatch):
+    employ(monkeypatch, InlineCrew(deaths=[7.0], certain=True))
+    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert (end.done, end.failed) == (19, 1)
+
+
+def test_a_lost_scheduler_ends_the_run_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
+    outcome = crew.outcome
+
+    def lose(future):
+        if len(crew.done) >= 10:
+            raise Gone("the connection was lost")
+        return outcome(future)
+
+    monkeypatch.setattr(crew, "outcome", lose)
+    with pytest.raises(Gone):
+        run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert 0 < len(rates(tmp_path / "c")) < 10
+
+
+def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, monkeypatch):
+    folder, plan = tmp_path / "c", plan_of(tmp_path, cases=60)
+    sync, left = os.fsync, [12]
+
+    def fill_up(handle):
+        left[0] -= 1
+        if left[0] < 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        sync(handle)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", fill_up)
+        with pytest.raises(OSError, match="no space left for .*results"):
+            run(plan, folder, work=stand_in, store_every=0.0)
+    stored = rates(folder)
+    assert 0 < len(stored) < 60
+    crew.done.clear()
+    assert run(plan, folder, work=stand_in).done == 60
+    assert not set(crew.done) & set(stored)
+
+
+def test_a_run_says_who_made_it(tmp_path, crew):
+    run(plan_of(tmp_path), tmp_path / "c", work=stand_in, workers=2)
+    (made,) = Store(tmp_path / "c").provenance["runs"]
+    assert made["done"] == 20 and made["workers"] == 2 and made["process"] == os.getpid()
+    assert {"began", "host", "platform", "python", "viscotack"} <= made.keys()
+
+
+def test_a_run_needs_workers(tmp_path):
+    with pytest.raises(ValueError, match="workers must be at least 1"):
+        run(plan_of(tmp_path), tmp_path / "c", workers=0)
+
+
+def test_processes_give_the_same_table(tmp_path, monkeypatch):
+    end = run(plan_of(tmp_path), tmp_path / "c", workers=2, work=picky)
+    assert (end.done, end.failed) == (16, 4) and 0 < end.worker_use < 1
+    employ(monkeypatch, InlineCrew())
+    run(plan_of(tmp_path), tmp_path / "d", work=picky)
+    assert table(tmp_path / "c").equals(table(tmp_path / "d"))
+
+
+@pytest.mark.slow
+def test_processes_survive_a_case_that_kills_them(tmp_path, monkeypatch):
+    end = run(plan_of(tmp_path), tmp_path / "c", workers=2, work=deadly)
+    assert (end.done, end.failed) == (19, 1)
+    end = run(plan_of(tmp_path), tmp_path / "c", workers=1, work=stand_in)
+    assert (end.done, end.failed) == (20, 0)
+    employ(monkeypatch, InlineCrew())
+    assert table(tmp_path / "c").equals(table_of_undisturbed(tmp_path))
+
+
+CHILD = """
+import sys
+from pathlib import Path
+from campaign_work import plan_of, slow
+from viscotack.campaign import run
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1])
+    run(plan_of(folder, cases=400), folder / "c", workers=2, work=slow, store_every=0.1,
+        report=lambda now: print(now.done, flush=True))
+"""
+
+
+def child(folder):
+    """Start a run of 400 cases in a process of its own."""
+    folder.mkdir(parents=True, exist_ok=True)
+    script = folder / "child.py"
+    script.write_text(CHILD)
+    return subprocess.Popen(
+        [sys.executable, str(script), str(folder)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(HERE)},
+    )
+
+
+def news(started, told):
+    """Return the first number that a child reports above what was told; "0" if it ends before."""
+    return next((line for line in started.stdout if int(line) > told), "0")
+
+
+@pytest.mark.slow
+def test_random_kills_lose_nothing_that_was_reported_and_duplicate_nothing(tmp_path):
+    chance, told = random.Random(8), 0
+    for number in range(8):
+        started = child(tmp_path)
+        # one in four in the start, the others in the middle of things
+        words = [news(started, told)] if number % 4 else []
+        time.sleep(chance.uniform(0.0, 1.0))
+        started.kill()
+        words += started.communicate()[0].split()
+        told = max([told, *map(int, words)])
+        if (tmp_path / "c/provenance.json").exists():
+            done, failed = Store(tmp_path / "c").finished()
+            assert len(done) >= told and not failed
+            assert Store(tmp_path / "c").results().num_rows == len(done)
+    assert told > 0, "no run came as far as to store something"
+    left = 400 - len(Store(tmp_path / "c").finished()[0])
+    plan = read_plan(tmp_path / "plan.toml")
+    assert run(plan, tmp_path / "c", workers=2, work=stand_in).done == 400
+    if left:
+        assert Store(tmp_path / "c").provenance["runs"][-1]["to_run"] == left
+    run(plan, tmp_path / "d", workers=2, work=stand_in)
+    assert table(tmp_path / "c").equals(table(tmp_path / "d"))
+
+
+@pytest.mark.slow
+def test_ctrl_c_in_a_terminal_ends_a_run_in_order(tmp_path):
+    started = child(tmp_path)
+    assert int(news(started, 0)) > 0
+    started.send_signal(signal.SIGINT)
+    out, err = started.communicate(timeout=60)
+    assert started.returncode == 0 and "Traceback" not in err
+    last = int(out.split()[-1])
+    assert last == Store(tmp_path / "c").results().num_rows < 400
+    assert Store(tmp_path / "c").provenance["runs"][0]["stopped"] is True
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_the_same_table_also_when_a_worker_is_killed(tmp_path, monkeypatch):
+    pytest.importorskip("distributed", reason="the cluster extra is not installed")
+    monkeypatch.setenv("PYTHONPATH", str(HERE))
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    dask, file = [sys.executable, "-m", "dask"], tmp_path / "scheduler.json"
+    common = ["--scheduler-file", str(file), "--no-dashboard"]
+    began = [subprocess.Popen([*dask, "scheduler", "--port", "0", *common], **quiet)]
+    try:
+        worker = ["worker", *common, "--nthreads", "1", "--no-nanny", "--local-directory"]
+        began += [subprocess.Popen([*dask, *worker, str(tmp_path)], **quiet) for _ in range(2)]
+        while not file.exists():
+            time.sleep(0.1)
+        import json
+
+        address = json.loads(file.read_text())["address"]
+
+        def murder(now):
+            if now.done > 50:
+                began[1].kill()
+
+        plan = plan_of(tmp_path, cases=200)
+        options = {"work": slow, "report": murder, "store_every": 0.2}
+        end = run(plan, tmp_path / "c", scheduler=address, **options)
+        assert began[1].wait(10) and (end.done, end.failed) == (200, 0)
+    finally:
+        for process in began:
+            process.kill()
+            process.wait()
+    run(plan, tmp_path / "d", workers=2, work=stand_in)
+    assert table(tmp_path / "c").equals(table(tmp_path / "d"))
+
+
+def test_a_scheduler_that_is_not_there_is_named(tmp_path, monkeypatch):
+    pytest.importorskip("distributed", reason="the cluster extra is not installed")
+    monkeypatch.setattr("viscotack.campaign.crew._PATIENCE", 0.2)
+    with pytest.raises(ConnectionError, match="no scheduler answers at 'tcp://127.0.0.1:9'"):
+        run(plan_of(tmp_path), tmp_path / "c", scheduler="tcp://127.0.0.1:9", work=stand_in)

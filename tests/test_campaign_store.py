@@ -1,0 +1,260 @@
+import errno
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pyarrow as pa
+import pytest
+from scipy.io import loadmat
+
+from campaign_work import plan_of
+from viscotack.campaign import CaseSettings, Store, export
+from viscotack.campaign.lock import FolderInUse, locked
+from viscotack.campaign.parts import Parts, table_of
+
+
+def names(parts):
+    return parts.read().column("name").to_pylist()
+
+
+def appended(parts, count, begin=0):
+    for i in range(begin, begin + count):
+        parts.append([{"name": f"case {i}", "value": float(i)}])
+
+
+def files(parts):
+    return sorted(path.name for path in parts.folder.iterdir())
+
+
+def test_rows_come_back_in_the_order_in_which_they_came(tmp_path):
+    parts = Parts(tmp_path / "results")
+    assert parts.read().num_rows == 0
+    parts.append([])
+    assert not (tmp_path / "results").exists()
+    appended(parts, 5)
+    assert names(parts) == [f"case {i}" for i in range(5)]
+    assert parts.read(["value"]).to_pydict() == {"value": [0, 1, 2, 3, 4]}
+
+
+def test_columns_of_parts_need_not_be_equal(tmp_path):
+    parts = Parts(tmp_path)
+    parts.append([{"name": "a", "x": None, "curve": [1.0, None]}])
+    parts.append([{"name": "b", "x": 2.0, "steps": 3, "word": "w"}, {"name": "c", "x": 3}])
+    rows = parts.read().to_pylist()
+    assert [row["x"] for row in rows] == [None, 2.0, 3.0]
+    assert [row["steps"] for row in rows] == [None, 3, None]
+    assert rows[0]["curve"] == [1.0, None] and rows[1]["word"] == "w"
+
+
+def test_many_appends_leave_few_files(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    parts = Parts(tmp_path)
+    appended(parts, 4**3 + 4 + 1)
+    assert names(parts) == [f"case {i}" for i in range(4**3 + 4 + 1)]
+    assert files(parts) == [
+        "000001-000064.parquet",
+        "000065-000068.parquet",
+        "000069-000069.parquet",
+    ]
+
+
+def test_a_large_part_is_not_merged_again(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    monkeypatch.setattr("viscotack.campaign.parts._LARGEST", 10.0)
+    parts = Parts(tmp_path)
+    appended(parts, 9)
+    assert len(files(parts)) == 9 == len(names(parts))
+
+
+def test_a_merge_that_was_cut_short_changes_nothing(tmp_path):
+    parts = Parts(tmp_path)
+    appended(parts, 31)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    appended(parts, 1, begin=31)
+    assert files(parts) == ["000001-000032.parquet"]
+    # killed after the large part was in place and some of the small ones were removed
+    for path, content in sorted(before.items())[:20]:
+        path.write_bytes(content)
+    (tmp_path / "000033-000033.parquet.1234.draft").write_bytes(b"PAR1 half")
+    assert names(parts) == [f"case {i}" for i in range(32)]
+    appended(parts, 1, begin=32)
+    parts.tidy()
+    assert files(parts) == ["000001-000032.parquet", "000033-000033.parquet"]
+    assert names(parts) == [f"case {i}" for i in range(33)]
+
+
+def test_a_reader_follows_a_merge(tmp_path, monkeypatch):
+    parts = Parts(tmp_path)
+    appended(parts, 31)
+    spans, looked = parts._spans(), []
+
+    def late():
+        looked.append(1)
+        if len(looked) == 1:
+            appended(Parts(tmp_path), 1, begin=31)
+            return spans
+        return Parts(tmp_path)._spans()
+
+    monkeypatch.setattr(parts, "_spans", late)
+    assert len(names(parts)) == 32 and len(looked) == 2
+
+
+def test_a_damaged_part_is_named(tmp_path):
+    parts = Parts(tmp_path)
+    appended(parts, 2)
+    path = tmp_path / "000002-000002.parquet"
+    path.write_bytes(path.read_bytes()[:-20])
+    with pytest.raises(ValueError, match="000002-000002.parquet is damaged.*run the campaign"):
+        parts.read()
+
+
+def test_a_full_disk_is_named_and_leaves_the_table_as_it_was(tmp_path, monkeypatch):
+    parts = Parts(tmp_path)
+    appended(parts, 3)
+
+    def full(_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        with pytest.raises(OSError, match="no space left for .*make room and run again"):
+            appended(parts, 1, begin=3)
+    assert len(files(parts)) == 3
+    appended(parts, 1, begin=3)
+    assert names(parts) == [f"case {i}" for i in range(4)]
+
+
+def test_a_file_that_may_not_grow_is_named_too(tmp_path):
+    # The bound of the system on a file's size stands for a quota; it holds for a whole process.
+    code = (
+        "import resource, signal; from pathlib import Path\n"
+        "from viscotack.campaign.parts import Parts\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        f"parts = Parts(Path({str(tmp_path)!r})); parts.append([{{'name': 'a'}}])\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (100, resource.RLIM_INFINITY))\n"
+        "try:\n    parts.append([{'name': 'b'}])\n"
+        "except OSError as error:\n    print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "no space left" in done.stdout
+    assert names(Parts(tmp_path)) == ["a"] and len(files(Parts(tmp_path))) == 1
+
+
+HOLD = (
+    "import sys, time; from pathlib import Path\n"
+    "from viscotack.campaign.lock import locked\n"
+    "with locked(Path(sys.argv[1])):\n    print('held', flush=True)\n    time.sleep(60)\n"
+)
+
+
+def test_a_second_run_on_a_folder_is_refused_until_the_first_has_ended(tmp_path):
+    command = [sys.executable, "-c", HOLD, str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as holder:
+        assert holder.stdout is not None and holder.stdout.readline() == "held\n"
+        with pytest.raises(FolderInUse, match=f"in use by process {holder.pid} on "):
+            with locked(tmp_path):
+                pass
+        holder.kill()
+        holder.wait()
+        with locked(tmp_path):
+            assert (tmp_path / "lock").read_text().startswith(f"process {os.getpid()} on ")
+
+
+def test_a_store_keeps_its_plan(tmp_path):
+    plan = plan_of(tmp_path / "a", text="settings.accuracy = 1e-3")
+    store = Store.create(tmp_path / "a", plan)
+    again = Store(tmp_path / "a").plan()
+    assert again.cases == plan.cases and again.settings == plan.settings
+    assert again.kind is plan.kind
+    assert [again.problem(case) for case in again.cases] == [plan.problem(c) for c in plan.cases]
+    assert (tmp_path / "a/plan.toml").read_text() == plan.source
+    assert store.settings == CaseSettings(accuracy=1e-3)
+
+
+def test_a_problem_in_si_is_stored_whole(tmp_path):
+    from test_campaign_plan import LENS, written
+    from viscotack.campaign import read_plan
+
+    written(tmp_path, LENS, "lens.toml")
+    text = 'problem = "lens.toml"\n[[grid]]\nprotocol.speed = [1e-6, 1e-4]\n'
+    plan = read_plan(written(tmp_path, text))
+    Store.create(tmp_path, plan)
+    (tmp_path / "lens.toml").unlink()
+    again = Store(tmp_path).plan()
+    assert [again.problem(case) for case in again.cases] == [plan.problem(c) for c in plan.cases]
+
+
+def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
+    Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)).add([{"name": "x"}], [])
+    grown = Store.create(tmp_path, plan_of(tmp_path / "p", cases=5, text="settings.time_limit = 9"))
+    assert len(grown.plan().cases) == 5 and grown.finished() == ({"x"}, {})
+    with pytest.raises(ValueError, match=r"accuracy = 0.002, the plan asks for 0.001; .*--out"):
+        Store.create(tmp_path, plan_of(tmp_path / "p", text="settings.accuracy = 1e-3"))
+
+
+def test_failures_never_enter_the_results(tmp_path):
+    plan = plan_of(tmp_path, cases=4)
+    store = Store.create(tmp_path, plan)
+    a, b, c, d = (case.name for case in plan.cases)
+    failed = {"failure": "refused", "reason": "no contact"}
+    store.add([{"name": c, "x": 3.0}, {"name": a, "x": 1.0}], [{"name": b} | failed])
+    store.add([], [{"name": d} | failed, {"name": b} | failed | {"reason": "still none"}])
+    assert store.results().column("name").to_pylist() == [a, c]
+    assert store.failures().column("name").to_pylist() == [b, d]
+    assert store.failures().column("reason").to_pylist()[0] == "still none"
+    store.add([{"name": b, "x": 2.0}], [])
+    assert store.results().column("x").to_pylist() == [1, 2, 3]
+    assert store.finished() == ({a, b, c}, {d: "refused"})
+    assert store.failures().column("name").to_pylist() == [d]
+
+
+def test_what_is_not_a_campaign_is_refused(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        Store(tmp_path / "nowhere")
+    with pytest.raises(ValueError, match="holds no campaign"):
+        Store(tmp_path)
+    (tmp_path / "provenance.json").write_text('{"format": "visc')
+    with pytest.raises(ValueError, match=r"provenance.json is damaged"):
+        Store(tmp_path)
+    newer = {"format": "viscotack campaign", "format_version": 2}
+    (tmp_path / "provenance.json").write_text(json.dumps(newer))
+    with pytest.raises(ValueError, match="newer version"):
+        Store(tmp_path)
+
+
+TABLE = [
+    {"name": "a", "rate": 1.5, "status": "detached", "steps": 7, "trajectory": [0.1, None]},
+    {"name": "b", "rate": None, "status": None, "steps": 9, "trajectory": [3.0, 4.0]},
+]
+
+
+def test_a_csv_table_gives_the_very_numbers_back(tmp_path):
+    export(table_of([row | {"rate": 0.1 + 0.2} for row in TABLE]), tmp_path / "t.csv")
+    lines = (tmp_path / "t.csv").read_text().splitlines()
+    assert lines[0] == "name,rate,status,steps,trajectory_01,trajectory_02"
+    assert lines[1].split(",") == ["a", repr(0.1 + 0.2), "detached", "7", "0.1", ""]
+    export(table_of(TABLE), tmp_path / "t.csv", trajectories=False)
+    assert (tmp_path / "t.csv").read_text().splitlines()[2] == "b,,,9"
+
+
+def test_a_matlab_file_has_a_variable_per_column(tmp_path):
+    table = table_of([{"protocol.speed": 1e-6} | row for row in TABLE])
+    export(table, tmp_path / "t.mat")
+    found = loadmat(tmp_path / "t.mat")
+    assert found["protocol_speed"].tolist() == [[1e-6], [1e-6]]
+    assert found["trajectory"].shape == (2, 2) and np.isnan(found["trajectory"][0, 1])
+    assert np.isnan(found["rate"][1, 0]) and found["status"][0, 0][0] == "detached"
+
+
+def test_a_parquet_file_is_the_table(tmp_path):
+    export(table_of(TABLE), tmp_path / "t.parquet")
+    assert pa.parquet.read_table(tmp_path / "t.parquet").to_pylist() == TABLE
+
+
+def test_an_export_says_what_it_cannot_do(tmp_path):
+    with pytest.raises(ValueError, match="ending must be one of .csv"):
+        export(table_of(TABLE), tmp_path / "t.xls")
+    with pytest.raises(ValueError, match="has no rows"):
+        export(pa.table({}), tmp_path / "t.csv")
