@@ -1,4 +1,4 @@
-"""All benchmarks, one after the other, as `make bench` runs them: a few minutes on two cores."""
+"""All benchmarks, one after the other, as `make bench` runs them: some 20 minutes on two cores."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ PARTS = [
     ("Accuracy of the default setting", ["accuracy.py"]),
     ("The published table", ["published.py", "--count", "1000"]),
     ("Random cases over the whole range", ["robust.py", "--count", "512", "--until", "detached"]),
+    ("The flat punch on a layer", ["punch.py"]),
+    ("Campaigns: speed, overhead, kills, a cluster, a full disk", ["campaign.py"]),
 ]
 
 

@@ -159,8 +159,8 @@ def test_every_start_can_be_written(line, start, tmp_path):
             r"\[material\] model must be one of elastic, sls, prony, power-law, .* got 'rubber'",
         ),
         (
-            edited('law = "lennard-jones"', 'law = "dugdale"'),
-            r"\[interface\] law must be one of lennard-jones, got 'dugdale'",
+            edited('law = "lennard-jones"', 'law = "glue"'),
+            r"\[interface\] law must be one of lennard-jones, dugdale, .*, got 'glue'",
         ),
         (
             edited('preload_force = "1.5 mN"', ""),
@@ -186,6 +186,14 @@ def test_every_start_can_be_written(line, start, tmp_path):
         (
             with_material(f'model = "prony"\n{BASE}branches = ["5 MPa"]'),
             r"\[material\] branches: .*write for example branches = \[\[",
+        ),
+        (
+            with_material(f'model = "prony"\n{BASE}branches = [["5 MPa", "2 s"], ["4 MPa"]]'),
+            r"\[material\] branches: .*a modulus and a relaxation time, got \['4 MPa'\]; write",
+        ),
+        (
+            with_material(f'model = "prony"\n{BASE}branches = ["ab"]'),
+            r"\[material\] branches: .*a modulus and a relaxation time, got 'ab'; write",
         ),
         (
             with_material(f'model = "elastic"\n{BASE}exponent = 0.5'),
@@ -228,7 +236,7 @@ def test_a_prony_series_is_read_in_its_own_unit_of_time(text, branches, unit, tm
         ("modulus_ratio,relaxation_time_s\n", "no branch below the header"),
         ("# x\nmodulus_ratio,relaxation_time_s\n5,2\n5,-2\n", "line 4: time must be positive"),
         ("modulus_ratio,relaxation_time_s\n5,two\n", "line 2: time must be a number in s"),
-        ("modulus_ratio,relaxation_time_s\n5,2,3\n", "line 2"),
+        ("modulus_ratio,relaxation_time_s\n5,2,3\n", "line 2: a row is .*, got '5,2,3'"),
     ],
 )
 def test_a_wrong_prony_series_is_refused_with_its_line(text, words, tmp_path):

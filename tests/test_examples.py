@@ -22,14 +22,25 @@ def load(name):
 
 
 def test_every_example_is_run_here():
-    known = {"pdms_lens.py", "detach_once.py", "fields.py", "from_toml"}
+    known = {
+        "pdms_lens.py",
+        "detach_once.py",
+        "fields.py",
+        "from_toml",
+        "from_dma",  # its commands are run with the pages
+        "hysteresis.py",
+        "dwell_time.py",
+        "dead_load.py",
+    }
     found = {path.name for path in EXAMPLES.iterdir() if path.name != "__pycache__"}
     assert found == known
 
 
 def test_lens_holds_harder_when_pulled_faster(tmp_path, capsys):
     picture = tmp_path / "lens.png"
-    elastic, results = load("pdms_lens").main([1e-6, 1e-3], accuracy=2e-3, picture=picture)
+    elastic, results = load("pdms_lens").main(
+        [1e-6, 1e-3], accuracy=2e-3, picture=picture, short_speeds=()
+    )
     slow, *forces = [vt.summary(r)["pull_off_force_N"] * 1e3 for r in (elastic, *results)]
     # in mN; the converged values are 3.927, 3.943 and 6.222
     assert [slow, *forces] == pytest.approx([3.927, 3.943, 6.222], rel=3e-3)
@@ -74,3 +85,27 @@ def test_command_in_the_file_runs(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert "pull-off force" in done.stdout and (tmp_path / "lens.csv").is_file()
+
+
+def test_the_loop_is_largest_at_a_middle_speed(tmp_path, capsys):
+    example = load("hysteresis")
+    results = example.main(accuracy=1e-2, picture=tmp_path / "loops.png")
+    heat = [example.lost_work(result)["heat"] for result in results]
+    assert heat[1] > 2 * max(heat[0], heat[2])
+    assert (tmp_path / "loops.png").stat().st_size > 10_000
+    assert "lost in jumps" in capsys.readouterr().out
+
+
+def test_a_rested_contact_holds_harder(tmp_path):
+    relaxed, forces = load("dwell_time").main(
+        [1e-2, 1.0, 100.0], accuracy=1e-2, picture=tmp_path / "dwell.png"
+    )
+    assert forces[0] < forces[1] < forces[2]
+    assert forces[2] == pytest.approx(relaxed, rel=1e-2)
+
+
+def test_a_heavier_load_is_borne_for_a_shorter_time(tmp_path, capsys):
+    times = load("dead_load").main([1.2, 2.0], accuracy=1e-2, picture=tmp_path / "load.png")
+    # seconds; the converged values are 5.2 and 0.74
+    assert times == pytest.approx([5.2, 0.74], rel=0.05)
+    assert "still in contact" in capsys.readouterr().out

@@ -25,7 +25,11 @@ def commands(page):
 
 def simulations():
     """Return every `viscotack simulate` and the `show` that may follow it, page by page."""
-    found = {page.name: [c for c in commands(page) if c.startswith("viscotack")] for page in PAGES}
+    found = {
+        # a cluster is not at hand everywhere
+        page.name: [c for c in commands(page) if c.startswith("viscotack") and "tcp://" not in c]
+        for page in PAGES
+    }
     return {name: lines for name, lines in found.items() if lines}
 
 
@@ -34,6 +38,8 @@ def anywhere(tmp_path, monkeypatch):
     """Stand in a folder that looks like the checkout, and may be written to."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     shutil.copy(ROOT / "examples" / "from_toml" / "lens.toml", tmp_path)
+    cases = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n2,0.1,0.8,5,10\n"
+    (tmp_path / "cases.csv").write_text(cases)
     monkeypatch.chdir(tmp_path)
 
 
@@ -56,13 +62,13 @@ def test_python_of_the_pages_runs(page, anywhere):
 
 @pytest.mark.parametrize("page", simulations())
 def test_commands_of_the_pages_run(page, anywhere):
-    from viscotack.theory_commands import application
+    from viscotack.cli import application
 
     for line in simulations()[page]:
         arguments = shlex.split(line)[1:]
         if arguments[0] == "simulate" and "-h" not in arguments and "--help" not in arguments:
             arguments += ["--until", "pull-off", "--accuracy", "1e-2"]
-        done = CliRunner().invoke(application, arguments)
+        done = CliRunner().invoke(application(), arguments)
         assert done.exit_code == 0, f"{line}\n{done.output}"
 
 

@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from .bem import SimulationError as SimulationError
     from .bem import solve as solve
     from .case_file import read_case as read_case
+    from .geometry import FlatPunch as FlatPunch
     from .geometry import Sphere as Sphere
+    from .layer import Bonded as Bonded
+    from .layer import Frictionless as Frictionless
+    from .layer import Layer as Layer
     from .materials import Elastic as Elastic
     from .materials import Prony as Prony
     from .materials import RelaxationPowerLaw as RelaxationPowerLaw
@@ -29,9 +33,12 @@ if TYPE_CHECKING:
     from .observables import PullOff as PullOff
     from .observables import contact_radius_at_pull_off as contact_radius_at_pull_off
     from .observables import crack_speed_at_pull_off as crack_speed_at_pull_off
+    from .observables import effective_surface_energy as effective_surface_energy
+    from .observables import ligament_at_pull_off as ligament_at_pull_off
     from .observables import pull_off as pull_off
     from .observables import pull_off_depth as pull_off_depth
     from .observables import pull_off_force as pull_off_force
+    from .observables import pull_off_stress as pull_off_stress
     from .observables import summary as summary
     from .observables import work_of_separation as work_of_separation
     from .observables import work_to_pull_off as work_to_pull_off
@@ -40,14 +47,24 @@ if TYPE_CHECKING:
     from .plot import draw_overview as draw_overview
     from .plot import draw_radius as draw_radius
     from .plot import draw_rates as draw_rates
+    from .plot import draw_regimes as draw_regimes
     from .plot import save_figure as save_figure
     from .problem import Groups as Groups
     from .problem import Problem as Problem
     from .problem import Scales as Scales
+    from .protocol import Apart as Apart
+    from .protocol import Approach as Approach
     from .protocol import AtDepth as AtDepth
     from .protocol import AtForce as AtForce
     from .protocol import AtRadius as AtRadius
+    from .protocol import Dwell as Dwell
+    from .protocol import LoadTo as LoadTo
+    from .protocol import MoveTo as MoveTo
+    from .protocol import Retract as Retract
     from .protocol import Retraction as Retraction
+    from .punch_problem import PunchGroups as PunchGroups
+    from .punch_problem import PunchProblem as PunchProblem
+    from .punch_problem import PunchScales as PunchScales
     from .record import from_dict as from_dict
     from .record import run_id as run_id
     from .record import to_dict as to_dict
@@ -66,11 +83,25 @@ _NAMES = {
     # words with units, and what a contact is made of
     "units": ("parse",),
     "traction": ("LennardJones",),
-    "geometry": ("Sphere",),
+    "geometry": (
+        "Sphere",
+        "FlatPunch",
+    ),
+    "layer": (
+        "Layer",
+        "Frictionless",
+        "Bonded",
+    ),
     "protocol": (
         "AtDepth",
         "AtForce",
         "AtRadius",
+        "Apart",
+        "Approach",
+        "Retract",
+        "MoveTo",
+        "Dwell",
+        "LoadTo",
         "Retraction",
     ),
     "materials": (
@@ -85,6 +116,11 @@ _NAMES = {
         "Problem",
         "Groups",
         "Scales",
+    ),
+    "punch_problem": (
+        "PunchProblem",
+        "PunchGroups",
+        "PunchScales",
     ),
     "record": (
         "to_dict",
@@ -123,6 +159,9 @@ _NAMES = {
         "crack_speed_at_pull_off",
         "work_to_pull_off",
         "work_of_separation",
+        "pull_off_stress",
+        "ligament_at_pull_off",
+        "effective_surface_energy",
         "summary",
     ),
     "plot": (
@@ -131,6 +170,7 @@ _NAMES = {
         "draw_radius",
         "draw_overview",
         "draw_rates",
+        "draw_regimes",
         "save_figure",
     ),
 }

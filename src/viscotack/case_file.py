@@ -12,20 +12,21 @@ from pathlib import Path
 from typing import Any
 
 from .geometry import Sphere
-from .materials import (
-    Elastic,
-    Material,
-    Prony,
-    RelaxationPowerLaw,
-    RetardationPowerLaw,
-    StandardSolid,
-)
+from .materials import Material
+from .materials.passport_file import read_passport
+from .materials.words import MODELS, units_of
 from .problem import Problem
-from .protocol import AtDepth, AtForce, AtRadius, Retraction, Start
-from .traction import LennardJones
+from .protocol_file import protocol_from_table
+from .punch_file import punch_parts
+from .punch_problem import PunchProblem
+from .traction_file import law_from_table
 from .units import parse, positive
 
-_TABLES = ("material", "interface", "sphere", "protocol")
+# The tables of a problem, by its indenter.
+_TABLES = {
+    "sphere": ("material", "interface", "sphere", "protocol"),
+    "punch": ("material", "interface", "punch", "layer", "protocol"),
+}
 # An example for every key, shown when it is missing or wrong.
 _EXAMPLES = {
     "model": '"power-law"',
@@ -34,23 +35,33 @@ _EXAMPLES = {
     "tau0": '"18.76 ms"',
     "exponent": "0.22",
     "poisson_ratio": "0.5",
+    "passport": '"pdms.toml"',
+    "temperature": '"20 degC"',
     "branches": '[["5 MPa", "1 ms"], ["4 MPa", "1 s"]]',
     "law": '"lennard-jones"',
     "work_of_adhesion": '"0.1523 J/m^2"',
     "equilibrium_gap": '"1.55 um"',
+    "strength": '"100 kPa"',
+    "decay": "0.25",
+    "file": '"table.csv"',
     "radius": '"5.19 mm"',
+    "half_width": '"1 mm"',
+    "thickness": '"50 um"',
+    "base": '"frictionless"',
     "speed": '"100 um/s"',
+    "stiffness": '"500 N/m"',
 }
 
 
-def read_case(path: str | os.PathLike[str]) -> Problem:
+def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem:
     """Return the problem that a TOML file states in SI.
 
     Parameters
     ----------
     path : path
-        File with the tables [material], [interface], [sphere] and [protocol]. Quantities are
-        texts with units, such as ``radius = "5.19 mm"``.
+        File with the tables [material], [interface], [sphere] and [protocol], or [punch] and
+        [layer] in place of [sphere]. Quantities are texts with units, such as
+        ``radius = "5.19 mm"``.
 
     Raises
     ------
@@ -65,18 +76,24 @@ def read_case(path: str | os.PathLike[str]) -> Problem:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{path} is not a TOML file: {error}") from None
-    _refuse_unknown(f"{path}", tables, _TABLES, "table")
-    found = {name: _Table(path, name, tables) for name in _TABLES}
-    parts = {
+    indenter = "punch" if tables.keys() & {"punch", "layer"} else "sphere"
+    _refuse_unknown(f"{path}", tables, _TABLES[indenter], "table")
+    found = {name: _Table(path, name, tables) for name in _TABLES[indenter]}
+    law = law_from_table(found["interface"])
+    parts: dict[str, Any] = {
         "material": _material(found["material"]),
-        "traction": _interface(found["interface"]),
-        "geometry": found["sphere"].make(Sphere, radius=found["sphere"].quantity("radius", "m")),
-        "protocol": _protocol(found["protocol"]),
+        "traction": law,
+        "protocol": protocol_from_table(found["protocol"], indenter, law.equilibrium_gap),
     }
+    if indenter == "punch":
+        parts |= punch_parts(found, parts["material"])
+    else:
+        radius = found["sphere"].quantity("radius", "m")
+        parts["geometry"] = found["sphere"].make(Sphere, radius=radius)
     for table in found.values():
         table.finish()
     try:
-        return Problem(**parts)
+        return PunchProblem(**parts) if indenter == "punch" else Problem(**parts)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 
@@ -131,6 +148,8 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
     branches = []
     for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
         try:
+            if len(row) != 2:
+                raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
             ratio, time = row
             branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
         except ValueError as error:
@@ -204,25 +223,23 @@ def _refuse_unknown(where: str, given: Iterable[str], known: Iterable[str], what
 
 
 def _material(table: _Table) -> Material:
-    models = {
-        "elastic": (Elastic, {}),
-        "sls": (StandardSolid, {"glassy_modulus": "Pa", "tau0": "s"}),
-        "prony": (Prony, {}),
-        "power-law": (
-            RetardationPowerLaw,
-            {"glassy_modulus": "Pa", "exponent": "1", "tau0": "s"},
-        ),
-        "relaxation-power-law": (
-            RelaxationPowerLaw,
-            {"glassy_modulus": "Pa", "exponent": "1", "tau0": "s"},
-        ),
+    if "passport" in table.values:
+        return _from_passport(table)
+    model = table.word("model", MODELS)
+    values: dict[str, Any] = {
+        key: table.quantity(key, unit) for key, unit in units_of(model).items()
     }
-    kind, units = models[table.word("model", models)]
-    units = {"rubbery_modulus": "Pa", "poisson_ratio": "1"} | units
-    values: dict[str, Any] = {key: table.quantity(key, unit) for key, unit in units.items()}
-    if kind is Prony:
+    if model == "prony":
         values["branches"] = _branches(table, values["rubbery_modulus"])
-    return table.make(kind, **values)
+    return table.make(MODELS[model][0], **values)
+
+
+def _from_passport(table: _Table) -> Material:
+    """Return the material of a passport beside the file, at the temperature asked for."""
+    passport = read_passport(table.path.parent / str(table.get("passport")))
+    if "temperature" not in table.values:
+        return passport.material
+    return table.make(passport.at_temperature, table.quantity("temperature", "K"))
 
 
 def _branches(table: _Table, rubbery_modulus: float) -> tuple[tuple[float, float], ...]:
@@ -236,7 +253,7 @@ def _branches(table: _Table, rubbery_modulus: float) -> tuple[tuple[float, float
         return tuple((ratio * rubbery_modulus, time * second) for ratio, time in ratios)
     pairs = table.get("branches")
     try:
-        return tuple((parse(str(E), "Pa"), parse(str(t), "s")) for E, t in pairs)
+        return tuple(_branch(pair) for pair in pairs)
     except (TypeError, ValueError) as error:
         raise ValueError(
             f"{table.name} branches: {error}; write for example "
@@ -244,28 +261,7 @@ def _branches(table: _Table, rubbery_modulus: float) -> tuple[tuple[float, float
         ) from None
 
 
-def _interface(table: _Table) -> LennardJones:
-    table.word("law", ["lennard-jones"])
-    return table.make(
-        LennardJones,
-        work_of_adhesion=table.quantity("work_of_adhesion", "J/m^2"),
-        equilibrium_gap=table.quantity("equilibrium_gap", "m"),
-    )
-
-
-def _protocol(table: _Table) -> Retraction:
-    starts: dict[str, tuple[Any, str]] = {
-        "preload_depth": (AtDepth, "m"),
-        "preload_force": (AtForce, "N"),
-        "preload_radius": (AtRadius, "m"),
-    }
-    given = [key for key in starts if key in table.values]
-    if len(given) != 1:
-        raise ValueError(
-            f"{table.name} needs exactly one of {', '.join(starts)}, "
-            f"got {' and '.join(given) or 'none'}; "
-            'write for example preload_force = "1.5 mN"'
-        )
-    kind, unit = starts[given[0]]
-    start: Start = table.make(kind, table.quantity(given[0], unit))
-    return table.make(Retraction, start=start, speed=table.quantity("speed", "m/s"))
+def _branch(pair: Any) -> tuple[float, float]:
+    if not isinstance(pair, list) or len(pair) != 2:
+        raise ValueError(f"a branch is a modulus and a relaxation time, got {pair!r}")
+    return parse(str(pair[0]), "Pa"), parse(str(pair[1]), "s")

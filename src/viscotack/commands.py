@@ -98,6 +98,33 @@ def flag(name: str, metavar: str, words: str) -> Any:
     return Option(name, metavar=metavar, help=words, show_default=False)
 
 
+Gap = Annotated[
+    float | None,
+    flag("--apart", "GAP", "Or: start at rest with the surfaces this far apart, in h0."),
+]
+Moves = Annotated[
+    list[str] | None,
+    flag(
+        "--move",
+        "WORDS",
+        "What the machine does before the retraction; give it once for each move. 'approach "
+        "SPEED to WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a "
+        "number), 'move to DEPTH in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold "
+        "drive|depth|force TIME'; all dimensionless.",
+    ),
+]
+LawName = Annotated[
+    str | None,
+    flag(
+        "--law",
+        "LAW",
+        "Forces across the gap: lennard-jones (also when left out), dugdale, "
+        "exponential:DECAY (decay length over h0), or table:FILE, a CSV file with the header "
+        "'gap_nm,traction_kPa' or other units.",
+    ),
+]
+
+
 @application.callback(invoke_without_command=True)
 def _viscotack(
     version: Annotated[bool, Option("--version", help="Print the version and exit.")] = False,
@@ -132,7 +159,8 @@ def simulate_sphere(
             "tau0 is its retardation time. prony:FILE: CSV file with the header "
             "'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
             "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) "
-            "is then that of the header: s, ms, ..., or none.",
+            "is then that of the header: s, ms, ..., or none. FILE.toml: a passport, as `viscotack "
+            "material fit` writes it.",
         ),
     ] = None,
     modulus_ratio: Annotated[
@@ -162,21 +190,8 @@ def simulate_sphere(
             "Or: relaxed start at this contact radius, in (pi R^2 dg0/E0*)^(1/3).",
         ),
     ] = None,
-    apart: Annotated[
-        float | None,
-        flag("--apart", "GAP", "Or: start at rest with the surfaces this far apart, in h0."),
-    ] = None,
-    move: Annotated[
-        list[str] | None,
-        flag(
-            "--move",
-            "WORDS",
-            "What the machine does before the retraction; give it once for each move. 'approach "
-            "SPEED to WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a "
-            "number), 'move to DEPTH in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold "
-            "drive|depth|force TIME'; all dimensionless.",
-        ),
-    ] = None,
+    apart: Gap = None,
+    move: Moves = None,
     stiffness: Annotated[
         float | None,
         flag("--stiffness", "K", "Of the machine, in 1.5 pi R dg0/h0; rigid when left out."),
@@ -190,16 +205,7 @@ def simulate_sphere(
             "left out, and the test ends with the last move.",
         ),
     ] = None,
-    law: Annotated[
-        str | None,
-        flag(
-            "--law",
-            "LAW",
-            "Forces across the gap: lennard-jones (also when left out), dugdale, "
-            "exponential:DECAY (decay length over h0), or table:FILE, a CSV file with the header "
-            "'gap_nm,traction_kPa' or other units.",
-        ),
-    ] = None,
+    law: LawName = None,
     radius: Annotated[
         str | None,
         flag(

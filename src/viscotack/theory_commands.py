@@ -35,7 +35,8 @@ Material = Annotated[
     Option(
         "--material",
         metavar="MATERIAL",
-        help="power-law (also when left out), sls or prony:FILE, as for simulate sphere.",
+        help="power-law (also when left out), sls, prony:FILE or a passport FILE.toml, as for "
+        "simulate sphere.",
     ),
 ]
 Ratio = Annotated[

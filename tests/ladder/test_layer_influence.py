@@ -9,8 +9,8 @@ import pytest
 from scipy.special import sici, xlogy
 
 from viscotack.bem.layer import layer_influence, nodal_lengths
-from viscotack.theory import punch_crossover
 from viscotack.layer import Bonded, Frictionless
+from viscotack.theory import punch_crossover
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]

@@ -1,0 +1,173 @@
+"""From a laboratory's file to a pull-off force, by the command line."""
+
+import json
+import shlex
+
+import numpy as np
+import pytest
+
+from viscotack.cli import main
+from viscotack.materials import Prony
+from viscotack.materials.library import published
+from viscotack.materials.passport_file import read_passport, write_passport
+
+FIT = (
+    'material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC" '
+    '--glass-transition "-115 degC" '
+)
+
+
+@pytest.fixture
+def lab(tmp_path, monkeypatch):
+    """Stand in a folder with a DMA of the thesis's silicone: 1 Hz, -130 to 20 C, 2 % noise."""
+    monkeypatch.chdir(tmp_path)
+    pdms = published("pdms-10-1")
+    celsius = np.arange(-130, 21, 10.0)
+    omega = 2 * np.pi * 10 ** np.asarray(pdms.shift.log10_shift(celsius + 273.15))
+    random = np.random.default_rng(5)
+    rows = ["f,T,E',E''", "Hz,C,MPa,MPa"]
+    for T, E in zip(celsius, pdms.material.complex_modulus(omega) / 1e6, strict=True):
+        storage, loss = (part * (1 + 0.02 * random.normal()) for part in (E.real, E.imag))
+        rows.append(f"1,{T},{storage:.5g},{loss:.5g}")
+    (tmp_path / "dma.csv").write_text("\n".join(rows) + "\n")
+    return tmp_path
+
+
+def call(line):
+    """Return the exit status of a command."""
+    with pytest.raises(SystemExit) as caught:
+        main(shlex.split(line))
+    return caught.value.code or 0
+
+
+def printed(line, capsys):
+    assert call(line) == 0, capsys.readouterr().err
+    return capsys.readouterr()
+
+
+def refused(line, capsys):
+    """Return the message of a refused command: nothing on standard output, no traceback."""
+    assert call(line) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and "Traceback" not in err
+    return err
+
+
+def test_from_file_to_pull_off_in_two_commands(lab, capsys):
+    out, err = printed(FIT + "-o pdms.toml --plot fit.png", capsys)
+    assert "power-law: 4 constants on 32 numbers" in out
+    assert "wrote pdms.toml" in err and (lab / "fit.png").stat().st_size > 20_000
+    line = "simulate sphere --material pdms.toml --tabor 2.05 --preload 30 --rate 1"
+    scales = ' --radius "5.19 mm" --work-of-adhesion "0.1523 J/m^2"'
+    out, _ = printed(f"{line}{scales} --until pull-off --accuracy 1e-2 --json", capsys)
+    fitted = json.loads(out)
+    write_passport(published("pdms-10-1"), "true.toml")
+    out, _ = printed(
+        f"{line}{scales} --until pull-off --accuracy 1e-2 --json".replace("pdms", "true"), capsys
+    )
+    true = json.loads(out)
+    assert fitted["pull_off_force"] == pytest.approx(true["pull_off_force"], rel=0.01)
+    assert fitted["pull_off_force_N"] == pytest.approx(4.6e-3, rel=0.03)
+
+
+def test_advice_takes_a_passport(lab, capsys):
+    write_passport(published("pdms-10-1"), "pdms.toml")
+    out, _ = printed("advise --material pdms.toml --tabor 2.05 --preload 30 --rate 1", capsys)
+    assert "Use: " in out
+
+
+def test_a_fit_as_json_is_one_object(lab, capsys):
+    out, _ = printed(FIT + "--model power-law --name silicone --json", capsys)
+    answer = json.loads(out)
+    assert answer["name"] == "silicone"
+    assert answer["material"]["model"] == "power-law"
+    assert answer["material"]["exponent"] == pytest.approx(0.2207, rel=0.01)
+    assert answer["origin"]["file"] == "dma.csv" and len(answer["origin"]["sha256"]) == 64
+    assert {name for name, _, _ in answer["evidence"]["intervals"]} >= {"tau0", "glassy_modulus"}
+
+
+def test_the_models_can_be_chosen(lab, capsys):
+    out, _ = printed(FIT + "--model prony --arms 18 -o x.toml", capsys)
+    assert "18 arms are 37 constants" in out
+    assert isinstance(read_passport("x.toml").material, Prony)
+    out, _ = printed(FIT + '--model power-law --glassy-modulus "3089 MPa"', capsys)
+    assert "given" in out
+
+
+def test_a_relaxation_test_is_fitted(lab, capsys):
+    t = np.geomspace(1e-3, 1e3, 30)
+    rows = "\n".join(f"{x:.6g},{1 + 9 * np.exp(-x / 0.5):.6g}" for x in t)
+    (lab / "step.csv").write_text(f"t,E_relax\ns,MPa\n{rows}\n")
+    out, _ = printed("material fit step.csv --test relaxation --poisson-ratio 0.5", capsys)
+    assert "sls" in out.splitlines()[0]
+
+
+def test_a_passport_is_shown(capsys):
+    out, _ = printed("material show pdms-10-1", capsys)
+    assert "0.000472" in out and "Eq. 4.25 and 4.27" in out
+    out, _ = printed("material show pdms-10-1 --json", capsys)
+    assert json.loads(out)["material"]["tau0"] == 0.01876
+
+
+def test_a_passport_moves_to_another_temperature(lab, capsys):
+    printed('material convert pdms-10-1 --temperature "0 degC" -o cold.toml', capsys)
+    cold = read_passport("cold.toml")
+    assert cold.material == published("pdms-10-1").at_temperature(273.15)
+    assert "a_T" in cold.origin.notes[-1]
+
+
+def test_a_power_law_becomes_a_series_with_a_stated_error(lab, capsys):
+    printed('material convert pdms-10-1 --prony --frequencies "1 mHz,1 MHz" -o x.toml', capsys)
+    series = read_passport("x.toml")
+    assert isinstance(series.material, Prony)
+    assert "error" in series.origin.notes[-1]
+    omega = 2 * np.pi * np.geomspace(1e-3, 1e6, 100)
+    exact = published("pdms-10-1").material.complex_modulus(omega)
+    assert np.max(np.abs(series.material.complex_modulus(omega) / exact - 1)) < 3e-4
+
+
+@pytest.mark.parametrize("code", ["abaqus", "ansys", "comsol", "radioss", "tamaas"])
+def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
+    printed(
+        f'material export pdms-10-1 --to {code} --frequencies "1 Hz,1 MHz" --pressure-unit MPa '
+        "-o card.txt",
+        capsys,
+    )
+    text = (lab / "card.txt").read_text()
+    assert "units: pressure MPa, time s" in text and "largest error" in text
+    printed(f"material convert card.txt --from {code} -o back.toml", capsys)
+    back = read_passport("back.toml").material
+    omega = 2 * np.pi * np.geomspace(1, 1e6, 50)
+    exact = published("pdms-10-1").material.complex_modulus(omega)
+    assert np.max(np.abs(back.complex_modulus(omega) / exact - 1)) < 3.1e-4
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("material fit nothing.csv --poisson-ratio 0.5", "there is no file nothing.csv"),
+        ("material fit dma.csv", "--poisson-ratio"),
+        ("material fit dma.csv --poisson-ratio 0.5", "say at which temperature"),
+        (
+            'material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC"',
+            "nothing overlaps that could tell the shift; give --glass-transition",
+        ),
+        (FIT + '--wlf "8.86,101.6 K"', "give one shift, got --glass-transition and --wlf"),
+        (FIT + "-o /nowhere/x.toml", "there is no folder /nowhere"),
+        (FIT + "--plot fit.docx", "its ending must be one of"),
+        (FIT + "--model sls --arms 3", "arms go with the model prony"),
+        (FIT + "--test creep", "cannot be used for --test creep"),
+        ("material show nothing", "neither a passport"),
+        ("material show dma.csv", "is not a TOML file"),
+        ('material convert pdms-10-1 --temperature "60 degC"', "superposition is not extrapolated"),
+        ("material convert dma.csv --from abaqus", "dma.csv: the text does not say its units"),
+        ("material convert pdms-10-1 --pressure-unit MPa", "cannot be used without --from"),
+        ("material export pdms-10-1 --to nastran", "nastran"),
+        ('material export pdms-10-1 --to abaqus --frequencies "1 Hz"', "needs two values"),
+        ("material export pdms-10-1 --to abaqus --pressure-unit m", "does not measure"),
+        ("simulate sphere --material dma.toml --tabor 2 --preload 3 --rate 1", "there is no file"),
+    ],
+)
+def test_what_is_wrong_is_said_in_words(line, words, lab, capsys):
+    message = refused(line, capsys)
+    assert words in " ".join(message.split()), message

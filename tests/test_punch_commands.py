@@ -1,0 +1,279 @@
+"""The commands of the punch: flags and files in, numbers, words and pictures out."""
+
+import json
+
+import numpy as np
+import pytest
+
+from viscotack.case_file import read_case
+from viscotack.cli import main
+from viscotack.layer import Bonded, Frictionless
+from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
+from viscotack.punch_commands import punch_from_flags
+from viscotack.punch_problem import PunchGroups, PunchProblem
+from viscotack.record import from_dict, run_id
+from viscotack.result import columns, load
+
+PUNCH = ["simulate", "punch"]
+ISSUE = (
+    "--size 64.85 --thickness 3.24 --cohesion 0.05 --modulus-ratio 0.1 --preload 1 --rate 10"
+).split()
+# The keys that the command line promises, with what they are in SI.
+KEYS = {
+    "pull_off_stress": "Pa",
+    "work_of_separation": "J_per_m2",
+    "ligament_at_pull_off": "m",
+    "crack_speed_at_pull_off": "m_per_s",
+    "effective_surface_energy": "J_per_m2",
+}
+CASE = """
+[material]
+model = "sls"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+tau0 = "100 ms"
+poisson_ratio = 0.4
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1.5 um"
+
+[punch]
+half_width = "1 mm"
+
+[layer]
+thickness = "50 um"
+base = "bonded"
+
+[protocol]
+preload_stress = "2 kPa"
+speed = "100 um/s"
+"""
+PAD = [
+    *("--half-width", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"),
+    *("--strength", "50 kPa", "--modulus-ratio", "0.1", "--tau0", "1 ms"),
+]
+
+
+def call(arguments):
+    """Return the exit status of a command."""
+    with pytest.raises(SystemExit) as caught:
+        main([str(a) for a in arguments])
+    return caught.value.code or 0
+
+
+def asked(arguments, capsys):
+    """Return the one JSON object that a command prints."""
+    assert call([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def wrong(arguments, capsys):
+    """Return the message of a refused command."""
+    assert call(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and "Traceback" not in err
+    return " ".join(err.split())
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    path = tmp_path / "pad.toml"
+    path.write_text(CASE)
+    return path
+
+
+def test_the_example_of_the_help_gives_the_promised_keys(capsys):
+    answer = asked([*PUNCH, *ISSUE], capsys)
+    assert KEYS.keys() | {"status", "error_estimate", "energy_residual"} <= answer.keys()
+    assert answer["status"] == "detached"
+    assert answer["pull_off_stress"] == pytest.approx(0.9955, rel=2e-3)
+    assert answer["energy_residual"] < 1e-3
+    assert 0 < answer["error_estimate"]["force"] < 2e-3
+    assert answer["effective_surface_energy_note"] is None
+    assert {"size", "thickness", "cohesion", "rate"} <= answer.keys()
+    problem = from_dict(answer["problem"])
+    assert isinstance(problem, PunchGroups)
+    assert run_id(problem) == answer["run_id"]
+
+
+def test_the_material_is_a_standard_solid_unless_it_is_said():
+    flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "preload": 1, "rate": 10}
+    assert isinstance(punch_from_flags(flags | {"modulus-ratio": 0.1}).material, StandardSolid)
+    power = flags | {"modulus-ratio": 0.1, "exponent": 0.5, "material": "power-law"}
+    assert isinstance(punch_from_flags(power).material, RetardationPowerLaw)
+    del flags["rate"]
+    assert isinstance(punch_from_flags(flags | {"material": "elastic"}).material, Elastic)
+
+
+def test_the_layer_slides_unless_it_is_bonded_and_the_start_is_by_depth_or_stress():
+    flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "material": "elastic"}
+    assert punch_from_flags(flags | {"preload": -1}).base == Frictionless()
+    assert punch_from_flags(flags | {"preload": -1}).start == AtDepth(-1)
+    glued = punch_from_flags(flags | {"preload-force": 0.2, "bonded": 0.4})
+    assert glued.base == Bonded(poisson_ratio=0.4)
+    assert glued.start == AtForce(0.2)
+
+
+def test_a_test_with_a_history_and_another_law_is_stated_in_words(capsys):
+    flags = "--size 20 --thickness 2 --cohesion 0.05 --modulus-ratio 0.1 --apart 15 --law dugdale"
+    moves = ["--move", "approach 5 to depth 1", "--move", "dwell 2"]
+    answer = asked([*PUNCH, *flags.split(), *moves, "--rate", "10", "--stiffness", "5"], capsys)
+    problem = from_dict(answer["problem"])
+    assert problem.moves == (Approach(speed=5.0, to=AtDepth(1.0)), Dwell(2.0))
+    assert problem.start == Apart(15.0) and problem.stiffness == 5.0
+    # the strength, with the overshoot of a parabola at the corner of a flat maximum
+    assert answer["pull_off_stress"] == pytest.approx(1.0, abs=0.01)
+    assert answer["energy_residual"] < 2e-3
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        ("--size 60 --thickness 3 --modulus-ratio 0.1 --preload 1 --rate 1", "--cohesion missing"),
+        ("--size 60 --thickness 3 --cohesion 0.05 --preload 1 --rate 1", "--modulus-ratio missing"),
+        ("--size 60 --thickness 3 --cohesion 1 --material elastic", "exactly one of --preload"),
+        ("--size 60 --thickness 0 --cohesion 1 --material elastic --preload 1", "must be positive"),
+        (
+            "--size 60 --thickness 3 --cohesion 1 --material elastic --preload 1 --bonded 0.6",
+            "poisson_ratio must lie between 0 and 0.5",
+        ),
+        (
+            "--size 60 --thickness 3 --cohesion 1 --material elastic --preload-force -2",
+            "no relaxed contact bears a mean stress of -2 sigma0",
+        ),
+    ],
+)
+def test_wrong_flags_are_refused_in_words(flags, words, capsys):
+    assert words in wrong([*PUNCH, *flags.split()], capsys)
+
+
+def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
+    problem = read_case(case_file)
+    assert isinstance(problem, PunchProblem)
+    assert problem.layer.base == Bonded(poisson_ratio=0.4)
+    assert problem.protocol.start == AtForce(2000.0)
+    answer = asked([*PUNCH, case_file, "-o", tmp_path / "pad.npz"], capsys)
+    for name, unit in KEYS.items():
+        assert answer[f"{name}_{unit}"] > 0, name
+    unit = problem.scales()
+    assert answer["pull_off_stress_Pa"] == pytest.approx(answer["pull_off_stress"] * unit.stress)
+    assert answer["crack_speed_at_pull_off_m_per_s"] == pytest.approx(
+        answer["crack_speed_at_pull_off"] * 1.5e-6 / 0.1
+    )
+    result = load(tmp_path / "pad.npz")
+    assert result.problem == problem
+    table = columns(result)
+    names = ("time", "depth", "stress", "ligament", "crack_speed")
+    tails = ("_s", "_m", "_Pa", "_m", "_m_per_s")
+    assert list(table) == [*names, *(n + t for n, t in zip(names, tails, strict=True))]
+    np.testing.assert_allclose(table["stress"], -result.force)
+    assert table["stress_Pa"].max() == pytest.approx(answer["pull_off_stress_Pa"], rel=2e-3)
+    assert np.nanmax(table["ligament_m"]) == pytest.approx(1e-3, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('base = "bonded"', "", "[layer] base is missing"),
+        ('base = "bonded"', 'base = "glued"', "must be one of frictionless, bonded, got 'glued'"),
+        ('"50 um"', '"50 kg"', "[layer] thickness: '50 kg' does not measure the right thing"),
+        ("preload_stress", "preload_radius", "needs exactly one of preload_depth, preload_stress"),
+        ('[layer]\nthickness = "50 um"\nbase = "bonded"\n', "", "the table [layer] is missing"),
+        ("[punch]", "[sphere]", "unknown table 'sphere'"),
+    ],
+)
+def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, capsys):
+    assert old in CASE
+    case_file.write_text(CASE.replace(old, new))
+    assert words in wrong([*PUNCH, case_file], capsys)
+
+
+def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
+    assert "states a punch" in wrong(["simulate", "sphere", case_file], capsys)
+    assert "states a punch" in wrong(["advise", case_file], capsys)
+    assert "leave out --size" in wrong([*PUNCH, case_file, "--size", 3], capsys)
+
+
+def test_words_tell_what_is_at_hand(capsys):
+    thick = [*ISSUE, "--thickness", "324", "--until", "pull-off"]
+    assert call([*PUNCH, *thick]) == 0
+    out = capsys.readouterr().out
+    assert "pull-off stress" in out and "sigma0" in out
+    assert "thicker than b1" in out
+    assert "work of separation" not in out  # the run ended before
+
+
+@pytest.mark.parametrize("kind", ["force", "radius", "overview", "energy"])
+def test_every_kind_of_plot_is_drawn(kind, case_file, tmp_path):
+    picture = tmp_path / "pad.png"
+    options = ["--plot", picture, "--plot-kind", kind, "--accuracy", "0.01"]
+    assert call([*PUNCH, case_file, *options]) == 0
+    assert picture.stat().st_size > 10_000
+
+
+def test_theory_says_how_thick_a_pad_must_be(capsys):
+    ask = ["theory", "punch", *PAD, "--speed", "100 um/s"]
+    answer = asked([*ask, "--stress", "30 kPa"], capsys)
+    assert answer["cohesive_below_m"] == pytest.approx(4e-5)
+    assert answer["cohesive_when_fast_below_m"] == pytest.approx(4e-4)
+    assert answer["half_plane_above_m"] == pytest.approx(4e-3 / np.pi)
+    thickness = answer["thickness_m"]
+    back = asked([*ask, "--thickness", f"{thickness!r} m"], capsys)
+    assert back["pull_off_stress_Pa"] == pytest.approx(3e4, rel=1e-4)
+    assert back["regime"] == "thin layer"
+    assert back["slowest_pull_off_stress_Pa"] < 3e4 < back["fastest_pull_off_stress_Pa"]
+
+
+def test_theory_takes_a_case(case_file, capsys):
+    case_file.write_text(CASE.replace("bonded", "frictionless"))
+    answer = asked(["theory", "punch", case_file, "--theory", "persson-brener"], capsys)
+    found = asked([*PUNCH, case_file, "--until", "pull-off"], capsys)
+    # theory is up to 19 % high
+    assert answer["pull_off_stress_Pa"] == pytest.approx(found["pull_off_stress_Pa"], rel=0.2)
+    wished = asked(["theory", "punch", case_file, "--stress", "60 kPa"], capsys)
+    assert wished["thickness_m"] > 50e-6
+
+
+def test_theory_draws_its_map(capsys, tmp_path):
+    picture = tmp_path / "map.png"
+    found = asked(["theory", "punch", *PAD, "--map", "--plot", picture], capsys)["map"]
+    assert picture.stat().st_size > 10_000
+    assert np.shape(found["regime"]) == (len(found["thickness_m"]), len(found["speed_m_per_s"]))
+    assert {word for row in found["regime"] for word in row} == {
+        "cohesive",
+        "thin layer",
+        "half-plane",
+    }
+    stress = np.array(found["pull_off_stress_Pa"])
+    assert np.all(np.diff(stress, axis=0) < 1e-9 * stress.max())  # falls with the thickness
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--thickness", "1 mm", "--stress", "1 kPa"], "not both"),
+        (["--stress", "30 kPa"], "--speed missing"),
+        (["--stress", "30 m", "--speed", "1 mm/s"], "--stress: '30 m' does not measure"),
+        (["--stress", "60 kPa", "--speed", "1 mm/s"], "below the strength"),
+    ],
+)
+def test_impossible_wishes_are_refused(options, words, capsys):
+    assert words in wrong(["theory", "punch", *PAD, *options], capsys)
+
+
+def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
+    pad = ["theory", "punch", *PAD[:8], "--material", "elastic"]
+    answer = asked([*pad, "--thickness", "200 um", "--speed", "1 mm/s"], capsys)
+    assert answer["pull_off_stress_Pa"] == pytest.approx(answer["slowest_pull_off_stress_Pa"])
+    assert answer["crack_speed_at_pull_off_m_per_s"] is None
+    assert "no map" in wrong([*pad, "--plot", tmp_path / "map.png"], capsys)
+
+
+def test_help_is_for_strangers(capsys):
+    for command in (PUNCH, ["theory", "punch"]):
+        assert call([*command, "--help"]) == 0
+        out = capsys.readouterr().out
+        assert "Example: viscotack" in out and "a" in out
