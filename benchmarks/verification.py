@@ -15,7 +15,19 @@ import numpy as np
 from cases import REFINED, case, power_law, published_rows, spread_out, standard_solid
 from published import measure as measure_published
 
-from viscotack import AtDepth, AtForce, Elastic, Groups, pull_off_force, solve
+from viscotack import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    Dwell,
+    Elastic,
+    Groups,
+    PunchGroups,
+    pull_off_force,
+    pull_off_stress,
+    solve,
+)
 from viscotack.bem import Settings
 from viscotack.bem.plain import plain_solve
 from viscotack.materials import RetardationPowerLaw
@@ -187,6 +199,42 @@ def slow_limit_row() -> list[Row]:
     return [(name, "limit", f"{expected:.4f}, elastic", percent(found, expected), "0.1 %")]
 
 
+def history_rows() -> list[Row]:
+    """Return tests with a history against the simple ones they must tend to."""
+    at_once = Groups(tabor=3.24, material=standard_solid(0.1), start=AtDepth(20.0), rate=10.0)
+    moves = (Approach(0.05, AtDepth(20.0)), Dwell(1000.0))
+    pressed = replace(at_once, start=Apart(20.0), moves=moves)
+    sprung = replace(at_once, stiffness=1e5)
+    relaxed, slowly, stiff = (
+        pull_off_force(solve(g, until="pull-off")) for g in (at_once, pressed, sprung)
+    )
+    against = f"{relaxed:.4f}, relaxed start"
+    rows = [
+        ("slow approach from apart, long dwell", "limit", against, slowly, "0.2 %"),
+        ("spring of 1e5 times 1.5 pi R dg/h0", "limit", against, stiff, "0.02 %"),
+    ]
+    return [(n, rung, a, percent(found, relaxed), t) for n, rung, a, found, t in rows]
+
+
+def punch_rows() -> list[Row]:
+    """Return the flat punch against another program and the exact elastic crossover."""
+    rows: list[Row] = []
+    for thickness, rate, expected in ((3.24, 1.0, 0.947), (32.42, 10.0, 0.4465)):
+        groups = PunchGroups(
+            size=64.85,
+            thickness=thickness,
+            cohesion=0.05,
+            material=standard_solid(0.1),
+            start=AtDepth(1.0),
+            rate=rate,
+        )
+        found = pull_off_stress(solve(groups, until="pull-off"))
+        name = f"punch, b {thickness:g} a0, rate {rate:g}"
+        against = f"{expected}, 200 equal nodes with full end hats"
+        rows.append((name, "peer", against, percent(found, expected), "0.5 %"))
+    return rows
+
+
 def main() -> None:
     """Measure, print, and write the page when asked."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -195,6 +243,7 @@ def main() -> None:
     chosen = parser.parse_args()
     rows = elastic_rows() + fast_limit_row() + slow_limit_row() + order_rows()
     rows += twin_rows() + refined_rows() + published_row(chosen.rows)
+    rows += history_rows() + punch_rows()
     table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
     print(table)
     if chosen.write:

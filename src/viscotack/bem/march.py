@@ -142,7 +142,7 @@ class _March:
         settings, leg, now = self.settings, self.leg, self.state.seen
         elapsed, ahead = now.time - self.began.time, leg.missing(now.depth, now.force, now.edge)
         self._clip(ahead)
-        dt = self.dt
+        dt, rigid = self.dt, np.isinf(leg.stiffness)
         s = step(self.body.modes, dt)
         stiffest = s.compliance < (
             1 + _INSTANT
@@ -163,7 +163,8 @@ class _March:
             if self.known or np.isinf(trial.error)
             else 0.0,
             (abs(after.force - now.force) / (2 * self.room)) ** 2,
-            (abs(after.depth - now.depth) / (2 * self.travel)) ** 2,
+            # a rigid machine's travel is bounded before the step is tried
+            (abs(after.depth - now.depth) / self.travel) ** 2 if not rigid else 0.0,
             abs(missing) / tolerated,
             _edge_strain(now.edge, after.edge, self.grading),
         )
