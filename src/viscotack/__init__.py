@@ -11,7 +11,9 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from . import bem as bem
+    from . import campaign as campaign
     from . import materials as materials
+    from . import measured as measured
     from . import theory as theory
     from .advice import Advice as Advice
     from .advice import Estimate as Estimate
@@ -20,7 +22,10 @@ if TYPE_CHECKING:
     from .bem import SimulationError as SimulationError
     from .bem import solve as solve
     from .case_file import read_case as read_case
+    from .dead_load import time_to_detachment as time_to_detachment
+    from .geometry import Cone as Cone
     from .geometry import FlatPunch as FlatPunch
+    from .geometry import PowerLawProfile as PowerLawProfile
     from .geometry import Sphere as Sphere
     from .layer import Bonded as Bonded
     from .layer import Frictionless as Frictionless
@@ -52,6 +57,8 @@ if TYPE_CHECKING:
     from .problem import Groups as Groups
     from .problem import Problem as Problem
     from .problem import Scales as Scales
+    from .profile_problem import ProfileGroups as ProfileGroups
+    from .profile_problem import ProfileProblem as ProfileProblem
     from .protocol import Apart as Apart
     from .protocol import Approach as Approach
     from .protocol import AtDepth as AtDepth
@@ -75,17 +82,22 @@ if TYPE_CHECKING:
     from .result import load as load
     from .result import save as save
     from .result import write_csv as write_csv
+    from .traction import Dugdale as Dugdale
+    from .traction import Exponential as Exponential
     from .traction import LennardJones as LennardJones
+    from .traction import Tabulated as Tabulated
     from .units import parse as parse
 
 # Module -> the public names it has.
 _NAMES = {
     # words with units, and what a contact is made of
     "units": ("parse",),
-    "traction": ("LennardJones",),
+    "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
     "geometry": (
         "Sphere",
         "FlatPunch",
+        "Cone",
+        "PowerLawProfile",
     ),
     "layer": (
         "Layer",
@@ -122,6 +134,10 @@ _NAMES = {
         "PunchGroups",
         "PunchScales",
     ),
+    "profile_problem": (
+        "ProfileProblem",
+        "ProfileGroups",
+    ),
     "record": (
         "to_dict",
         "from_dict",
@@ -150,6 +166,7 @@ _NAMES = {
         "threshold_contact_radius",
     ),
     # its numbers and its pictures
+    "dead_load": ("time_to_detachment",),
     "observables": (
         "PullOff",
         "pull_off",
@@ -174,7 +191,7 @@ _NAMES = {
         "save_figure",
     ),
 }
-_ROOMS = ("materials", "theory", "bem")
+_ROOMS = ("materials", "theory", "bem", "measured", "campaign")
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
