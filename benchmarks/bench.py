@@ -1,4 +1,4 @@
-"""All benchmarks, one after the other, as `make bench` runs them: some 20 minutes on two cores."""
+"""All benchmarks, one after the other, as `make bench` runs them: some 30 minutes on two cores."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ PARTS = [
     ("The published table", ["published.py", "--count", "1000"]),
     ("Random cases over the whole range", ["robust.py", "--count", "512", "--until", "detached"]),
     ("The flat punch on a layer", ["punch.py"]),
+    ("Tests with a history, and other traction laws", ["histories.py"]),
+    ("From the rate to the state at pull-off", ["rate_law.py"]),
     ("Campaigns: speed, overhead, kills, a cluster, a full disk", ["campaign.py"]),
 ]
 
