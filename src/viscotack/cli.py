@@ -10,6 +10,7 @@ _COMMANDS = (
     "punch_commands",
     "material_commands",
     "campaign_commands",
+    "study_commands",
 )
 
 
