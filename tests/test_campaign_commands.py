@@ -6,10 +6,10 @@ import sys
 import pytest
 
 from campaign_work import InlineCrew, employ, picky, plan_of
+from viscotack.app.campaign import _progress_words
 from viscotack.campaign import Store, run
 from viscotack.campaign.lock import locked
 from viscotack.campaign.run import Progress
-from viscotack.campaign_commands import _progress_words
 from viscotack.cli import main
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]

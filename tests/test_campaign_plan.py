@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from viscotack import AtDepth, StandardSolid, read_case
+from viscotack.app.flags import problem_from_flags
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import fill, grid
 from viscotack.campaign.run import expected_cost
-from viscotack.flags import problem_from_flags
 from viscotack.punch_problem import PunchGroups
 from viscotack.record import from_dict, run_id, to_dict
 

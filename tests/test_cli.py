@@ -10,8 +10,8 @@ import pytest
 import viscotack
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
+from viscotack.app.flags import problem_from_flags
 from viscotack.cli import main
-from viscotack.flags import problem_from_flags
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
+from viscotack.app.flags import problem_from_flags
 from viscotack.case_file import read_case
-from viscotack.flags import problem_from_flags
 from viscotack.materials import (
     Elastic,
     Prony,

@@ -5,8 +5,8 @@ import json
 import pytest
 from typer.testing import CliRunner
 
+from viscotack.app.commands import application
 from viscotack.case_file import read_case
-from viscotack.commands import application
 from viscotack.protocol import (
     Apart,
     Approach,

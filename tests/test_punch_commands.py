@@ -5,12 +5,12 @@ import json
 import numpy as np
 import pytest
 
+from viscotack.app.punch import punch_from_flags
 from viscotack.case_file import read_case
 from viscotack.cli import main
 from viscotack.layer import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
-from viscotack.punch_commands import punch_from_flags
 from viscotack.punch_problem import PunchGroups, PunchProblem
 from viscotack.record import from_dict, run_id
 from viscotack.result import columns, load

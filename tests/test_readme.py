@@ -12,6 +12,10 @@ ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 
 
+# A cluster, and the table of others that the study is about, are not at hand everywhere.
+NOT_AT_HAND = ("tcp://", "rows.csv")
+
+
 def blocks(page, language):
     """Return the fenced blocks of a page in a language."""
     return re.findall(rf"```{language}\n(.*?)```", page.read_text(), re.DOTALL)
@@ -26,8 +30,11 @@ def commands(page):
 def simulations():
     """Return every `viscotack simulate` and the `show` that may follow it, page by page."""
     found = {
-        # a cluster is not at hand everywhere
-        page.name: [c for c in commands(page) if c.startswith("viscotack") and "tcp://" not in c]
+        page.name: [
+            line
+            for line in commands(page)
+            if line.startswith("viscotack") and not any(word in line for word in NOT_AT_HAND)
+        ]
         for page in PAGES
     }
     return {name: lines for name, lines in found.items() if lines}

@@ -5,13 +5,7 @@ from importlib import import_module
 from typing import Any
 
 # Each of these modules adds its commands to the one application.
-_COMMANDS = (
-    "theory_commands",
-    "punch_commands",
-    "material_commands",
-    "campaign_commands",
-    "study_commands",
-)
+_COMMANDS = ("theory", "punch", "material", "campaign", "study")
 
 
 def application() -> Any:
@@ -19,10 +13,10 @@ def application() -> Any:
 
     The library of the command line takes a while to import; ``import viscotack`` never pays it.
     """
-    from .commands import application
+    from .app.commands import application
 
     for name in _COMMANDS:
-        import_module(f"viscotack.{name}")
+        import_module(f"viscotack.app.{name}")
     return application
 
 

@@ -5,14 +5,14 @@ from typing import Any
 
 import numpy as np
 
-from .case_file import read_prony
-from .materials import Elastic, Material, Prony, RetardationPowerLaw, StandardSolid
-from .materials.passport_file import read_passport
-from .problem import Groups, Problem
-from .protocol import Apart, AtDepth, AtForce, AtRadius, Start
-from .protocol_words import PURE_NUMBERS, move_from_words
-from .traction_file import law_from_words
-from .units import finite, parse, positive
+from ..case_file import read_prony
+from ..materials import Elastic, Material, Prony, RetardationPowerLaw, StandardSolid
+from ..materials.passport_file import read_passport
+from ..problem import Groups, Problem
+from ..protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from ..protocol_words import PURE_NUMBERS, move_from_words
+from ..traction_file import law_from_words
+from ..units import finite, parse, positive
 
 _STARTS = {
     "preload": AtDepth,

@@ -10,13 +10,14 @@ import numpy as np
 import typer
 from typer import Option
 
-from . import commands, plot
+from .. import plot
+from ..problem import Groups, Problem
+from ..theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
+from ..theory.modulus_file import read_modulus
+from ..units import parse, positive
+from . import commands
 from .commands import AsJson, PlotFile, application, check_files, wrong_input
 from .flags import material_from_flags, problem_from_flags
-from .problem import Groups, Problem
-from .theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
-from .theory.modulus_file import read_modulus
-from .units import parse, positive
 
 # Of a table over the range that matters.
 _ROWS = 41
@@ -217,7 +218,7 @@ def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
     Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
     --rate 316.23
     """
-    from .advice import advise
+    from ..advice import advise
 
     given = {name.replace("_", "-"): value for name, value in flags.items()}
     with wrong_input():

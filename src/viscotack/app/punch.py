@@ -10,7 +10,26 @@ import numpy as np
 import typer
 from typer import Argument, Option
 
-from . import plot
+from .. import plot
+from ..layer import Base, Bonded, Frictionless
+from ..materials import Elastic, Material
+from ..materials.passport_file import read_passport
+from ..problem import material_in_si
+from ..protocol import Apart, AtDepth, AtForce, Start
+from ..protocol_words import PURE_NUMBERS, move_from_words
+from ..punch_problem import PunchGroups, PunchProblem
+from ..theory import (
+    greenwood,
+    persson_brener,
+    punch,
+    punch_crossover,
+    punch_design,
+    punch_map,
+    punch_rate,
+    punch_unloading,
+)
+from ..traction_file import law_from_words
+from ..units import finite, parse
 from .commands import (
     Accuracy,
     AsJson,
@@ -32,26 +51,7 @@ from .commands import (
     wrong_input,
 )
 from .flags import material_from_flags, require
-from .layer import Base, Bonded, Frictionless
-from .materials import Elastic, Material
-from .materials.passport_file import read_passport
-from .problem import material_in_si
-from .protocol import Apart, AtDepth, AtForce, Start
-from .protocol_words import PURE_NUMBERS, move_from_words
-from .punch_problem import PunchGroups, PunchProblem
-from .theory import (
-    greenwood,
-    persson_brener,
-    punch,
-    punch_crossover,
-    punch_design,
-    punch_map,
-    punch_rate,
-    punch_unloading,
-)
-from .theory_commands import theory
-from .traction_file import law_from_words
-from .units import finite, parse
+from .theory import theory
 
 _STARTS = {"preload": AtDepth, "preload-force": AtForce, "apart": Apart}
 # Of a regime map: thicknesses and speeds, and how thin and thick it gets beside b0 and a.

@@ -71,9 +71,9 @@ def surrogates(
 
 def _studied(data: Path, out: Path, **settings: Any) -> dict[str, Any]:
     """Return what was found and written; the page and its files are in the folder then."""
-    from .surrogate.study import study
-    from .surrogate.study_report import summary, write_study
-    from .surrogate.table import read_detachments
+    from ..surrogate.study import study
+    from ..surrogate.study_report import summary, write_study
+    from ..surrogate.table import read_detachments
 
     if out.exists() and not out.is_dir():
         raise ValueError(f"cannot write to {out}: it is a file; give the name of a folder")

@@ -50,9 +50,9 @@ def plan_command(
     Example: viscotack campaign plan study.toml --csv cases.csv
     """
     with _words_for_what_is_missing():
-        from .campaign import read_plan
-        from .campaign.export import export
-        from .campaign.parts import table_of
+        from ..campaign import read_plan
+        from ..campaign.export import export
+        from ..campaign.parts import table_of
 
         check_files(None, csv_file)
         plan = read_plan(plan_file)
@@ -165,7 +165,7 @@ def run_command(
         "memory_limit": memory_limit,
     }
     with _words_for_what_is_missing():
-        from .campaign import AllCrashed, read_plan, run
+        from ..campaign import AllCrashed, read_plan, run
 
         if out is None:
             raise ValueError("--out is missing: the folder that keeps the campaign")
@@ -195,7 +195,7 @@ def status_command(folder: Folder, as_json: AsJson = False) -> None:
     Example: viscotack campaign status study
     """
     with _words_for_what_is_missing():
-        from .campaign import Progress, Store
+        from ..campaign import Progress, Store
 
         store = Store(folder)
         planned = {case.name for case in store.plan().cases}
@@ -235,7 +235,7 @@ def export_command(
     """
     wanted = [csv_file, parquet_file, mat_file, failures_file]
     with _words_for_what_is_missing():
-        from .campaign import Store, export
+        from ..campaign import Store, export
 
         if not any(wanted):
             raise ValueError("say what to write: --csv, --parquet, --mat or --failures FILE")

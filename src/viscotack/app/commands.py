@@ -19,14 +19,14 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer import Argument, Option
 
-from . import __version__, plot
-from .case_file import read_case
+from .. import __version__, plot
+from ..case_file import read_case
+from ..observables import summary
+from ..outputs import kind_of
+from ..problem import Problem
+from ..punch_problem import Case, PunchProblem
+from ..result import Outcome, Result, load, save, write_csv
 from .flags import problem_from_flags
-from .observables import summary
-from .outputs import kind_of
-from .problem import Problem
-from .punch_problem import Case, PunchProblem
-from .result import Outcome, Result, load, save, write_csv
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -309,7 +309,7 @@ def carry_out(
     with wrong_input():
         check_files(*files)
         problem = state()
-        from .bem import solve
+        from ..bem import solve
 
         with _progress() as progress:
             result = solve(

@@ -10,18 +10,18 @@ import numpy as np
 import typer
 from typer import Argument, Option
 
-from . import __version__, plot
+from .. import __version__, plot
+from ..materials.conversion import PronyForm, prony_form
+from ..materials.exchange import Units, exported, imported
+from ..materials.library import MATERIALS, published
+from ..materials.passport import Origin, Passport
+from ..materials.passport_file import read_passport, write_passport
+from ..materials.passport_tables import passport_text
+from ..materials.passport_words import in_words
+from ..materials.shift import WLF
+from ..materials.words import word_of
+from ..units import parse
 from .commands import AsJson, PlotFile, application, check_files, wrong_input
-from .materials.conversion import PronyForm, prony_form
-from .materials.exchange import Units, exported, imported
-from .materials.library import MATERIALS, published
-from .materials.passport import Origin, Passport
-from .materials.passport_file import read_passport, write_passport
-from .materials.passport_tables import passport_text
-from .materials.passport_words import in_words
-from .materials.shift import WLF
-from .materials.words import word_of
-from .units import parse
 
 material = typer.Typer(
     help="From a laboratory's file to a material, and on to other programs.",
@@ -167,9 +167,9 @@ def fit_command(
     """
     with wrong_input():
         check_files(plot_file, output)
-        from .measured.draw import draw_fit
-        from .measured.fit import fit
-        from .measured.fit_passport import issued
+        from ..measured.draw import draw_fit
+        from ..measured.fit import fit
+        from ..measured.fit_passport import issued
 
         given = {"kind": kind, "modulus_unit": modulus_unit, "temperature": _kelvin(measured_at)}
         shifting = {"glass-transition": glass_transition, "wlf": wlf, "shift-file": shift_file}
@@ -364,7 +364,7 @@ def _master_curve(
     file: Path, given: dict[str, Any], reference: float | None, shifting: dict[str, Any]
 ) -> tuple[Any, Any]:
     """Return the master curve of a DMA, and how times shift."""
-    from .measured import master_curve, read_dma, read_shifts
+    from ..measured import master_curve, read_dma, read_shifts
 
     named = [name for name, value in shifting.items() if value is not None]
     if len(named) > 1:
@@ -396,7 +396,7 @@ def _master_curve(
 
 
 def _over_time(file: Path, test: Test, given: dict[str, Any]) -> Any:
-    from .measured import read_creep, read_relaxation
+    from ..measured import read_creep, read_relaxation
 
     return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
 
