@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from viscotack.bem.body import Body, State
+from viscotack.bem.body import Body, State, Trial
 from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Profile, Snapshot
 from viscotack.bem.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance
@@ -139,35 +139,23 @@ class _March:
 
     def _step(self) -> bool:
         """Try a step and go where it leads, or make the next one shorter."""
-        settings, leg, now = self.settings, self.leg, self.state.seen
-        elapsed, ahead = now.time - self.began.time, leg.missing(now.depth, now.force, now.edge)
+        leg, now, first = self.leg, self.state.seen, self.history.snapshots[0]
+        ahead = leg.missing(now.depth, now.force, now.edge)
         self._clip(ahead)
-        dt, rigid = self.dt, np.isinf(leg.stiffness)
-        s = step(self.body.modes, dt)
-        stiffest = s.compliance < (
-            1 + _INSTANT
-        ) * self.body.modes.instantaneous and dt <= leg.least_step * (1 + 1e-9)
-        most = 500 if stiffest else _MOST_ITERATIONS
-        trial = self.body.after(self.state, s, self._hold(self.began, elapsed + dt), most)
+        s = step(self.body.modes, self.dt)
+        instant = s.compliance < (1 + _INSTANT) * self.body.modes.instantaneous
+        stiffest = instant and self.dt <= leg.least_step * (1 + 1e-9)
+        hold = self._hold(self.began, now.time - self.began.time + self.dt)
+        trial = self.body.after(self.state, s, hold, 500 if stiffest else _MOST_ITERATIONS)
         after = trial.after.seen
         self.history.iterations += trial.iterations
         if trial.released and stiffest:
             self._release(after)
             return True
         entry = self._entry(s, trial.after)
-        first = self.history.snapshots[0]
         missing = entry.imbalance(first, after) - self.books.imbalance(first, now)
-        tolerated = settings.imbalance * max(entry.largest(first, after), SMALLEST_ENERGY)
-        strain = max(
-            trial.error / (settings.step_error * self.looser**2)
-            if self.known or np.isinf(trial.error)
-            else 0.0,
-            (abs(after.force - now.force) / (2 * self.room)) ** 2,
-            # a rigid machine's travel is bounded before the step is tried
-            (abs(after.depth - now.depth) / self.travel) ** 2 if not rigid else 0.0,
-            abs(missing) / tolerated,
-            _edge_strain(now.edge, after.edge, self.grading),
-        )
+        tolerated = self.settings.imbalance * max(entry.largest(first, after), SMALLEST_ENERGY)
+        strain = max(self._strain(trial), abs(missing) / tolerated)
         if not strain <= 1.5 and not stiffest:
             self.history.rejected += 1
             self.dt *= max(0.2, min(0.8 / np.sqrt(strain), 0.7))
@@ -194,6 +182,20 @@ class _March:
         else:
             self.since_lowest += 1
         return True
+
+    def _strain(self, trial: Trial) -> float:
+        """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
+        now, after = self.state.seen, trial.after.seen
+        allowed = self.settings.step_error * self.looser**2
+        known = self.known or np.isinf(trial.error)
+        # a rigid machine's travel is bounded before the step is tried
+        sprung = not np.isinf(self.leg.stiffness)
+        return max(
+            trial.error / allowed if known else 0.0,
+            (abs(after.force - now.force) / (2 * self.room)) ** 2,
+            (abs(after.depth - now.depth) / self.travel) ** 2 if sprung else 0.0,
+            _edge_strain(now.edge, after.edge, self.grading),
+        )
 
     def _clip(self, ahead: float) -> None:
         """Shorten the next step to the travel it may have, and to the end of its leg."""
