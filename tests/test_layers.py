@@ -24,6 +24,7 @@ FLOOR = {
     "case_file": 4,
     "outputs": 4,
     "punch_file": 4,
+    "profile_file": 4,
     "protocol_file": 4,
     "traction_file": 4,
     "dead_load": 5,

@@ -269,7 +269,7 @@ def test_a_status_sentence_tells_its_outcome(status, outcome):
         ({"force": np.ones(3)}, "equally long"),
         ({"depth": np.full(201, np.nan)}, "depth of a result must be finite"),
         ({"time": -np.arange(201.0)}, "time of a result must not go back"),
-        ({"problem": {"tabor": 1}}, "problem must be a Problem, Groups"),
+        ({"problem": {"tabor": 1}}, "problem must be a Problem or Groups"),
     ],
 )
 def test_an_impossible_result_is_refused(change, words):

@@ -288,6 +288,8 @@ _JKR_FORCE = 1.5 * np.pi
 
 def _check(groups: Groups) -> None:
     """Refuse tests for which the theories have no answer."""
+    if not isinstance(groups, Groups):
+        raise ValueError(f"advice is for spheres, got {type(groups).__name__}; simulate others")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:
         raise ValueError(

@@ -16,6 +16,8 @@ from .materials import Material
 from .materials.passport_file import read_passport
 from .materials.words import MODELS, units_of
 from .problem import Problem
+from .profile_file import profile_from_table
+from .profile_problem import ProfileProblem
 from .protocol_file import protocol_from_table
 from .punch_file import punch_parts
 from .punch_problem import PunchProblem
@@ -26,6 +28,12 @@ from .units import parse, positive
 _TABLES = {
     "sphere": ("material", "interface", "sphere", "protocol"),
     "punch": ("material", "interface", "punch", "layer", "protocol"),
+    "profile": ("material", "interface", "profile", "protocol"),
+}
+_KINDS: dict[str, Any] = {
+    "sphere": Problem,
+    "punch": PunchProblem,
+    "profile": ProfileProblem,
 }
 # An example for every key, shown when it is missing or wrong.
 _EXAMPLES = {
@@ -48,19 +56,22 @@ _EXAMPLES = {
     "half_width": '"1 mm"',
     "thickness": '"50 um"',
     "base": '"frictionless"',
+    "slope": "0.1",
+    "height": '"10 um"',
+    "at_radius": '"200 um"',
     "speed": '"100 um/s"',
     "stiffness": '"500 N/m"',
 }
 
 
-def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem:
+def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem | ProfileProblem:
     """Return the problem that a TOML file states in SI.
 
     Parameters
     ----------
     path : path
         File with the tables [material], [interface], [sphere] and [protocol], or [punch] and
-        [layer] in place of [sphere]. Quantities are texts with units, such as
+        [layer], or [profile], in place of [sphere]. Quantities are texts with units, such as
         ``radius = "5.19 mm"``.
 
     Raises
@@ -77,23 +88,34 @@ def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{path} is not a TOML file: {error}") from None
     indenter = "punch" if tables.keys() & {"punch", "layer"} else "sphere"
+    indenter = "profile" if "profile" in tables else indenter
     _refuse_unknown(f"{path}", tables, _TABLES[indenter], "table")
     found = {name: _Table(path, name, tables) for name in _TABLES[indenter]}
     law = law_from_table(found["interface"])
     parts: dict[str, Any] = {
         "material": _material(found["material"]),
         "traction": law,
-        "protocol": protocol_from_table(found["protocol"], indenter, law.equilibrium_gap),
+        "protocol": protocol_from_table(
+            found["protocol"], "punch" if indenter == "punch" else "sphere", law.equilibrium_gap
+        ),
     }
     if indenter == "punch":
         parts |= punch_parts(found, parts["material"])
+    elif indenter == "profile":
+        cone = "slope" in tables["profile"]
+        try:
+            parts["profile"] = profile_from_table(found["profile"], cone=cone)
+        except ValueError as error:
+            if str(path) in str(error):
+                raise
+            raise ValueError(f"{path}, [profile] {error}") from None
     else:
         radius = found["sphere"].quantity("radius", "m")
         parts["geometry"] = found["sphere"].make(Sphere, radius=radius)
     for table in found.values():
         table.finish()
     try:
-        return PunchProblem(**parts) if indenter == "punch" else Problem(**parts)
+        return _KINDS[indenter](**parts)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 

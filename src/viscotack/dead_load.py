@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from .problem import Problem
+from .outputs import si_scales
 from .protocol import Dwell
-from .punch_problem import PunchProblem
 from .result import Outcome, Result
 
 # The hold begins where the force is this near to the one held, beside it and the unit of force.
@@ -64,7 +63,6 @@ def time_to_detachment(result: Result) -> float:
     held = float(result.force[-1])
     other = np.flatnonzero(np.abs(result.force - held) > _HELD * (abs(held) + 1))
     begin = int(other[-1]) + 1 if other.size else 0
-    unit = 1.0
-    if isinstance(result.problem, Problem | PunchProblem):
-        unit = result.problem.scales().time
+    scales = si_scales(result.problem)
+    unit = 1.0 if scales is None else scales.time
     return float(result.time[-1] - result.time[begin]) * unit

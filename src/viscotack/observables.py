@@ -271,7 +271,9 @@ def _number(
 def _punch(result: Result) -> PunchGroups:
     groups = result.problem.groups()
     if not isinstance(groups, PunchGroups):
-        raise ValueError("the result is that of a sphere, and the observable one of a punch")
+        raise ValueError(
+            "the observable is one of a punch, and the result that of another indenter"
+        )
     return groups
 
 

@@ -6,10 +6,11 @@ Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. One :class:`Kind` st
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from .problem import Groups
+from .profile_problem import ProfileGroups, ProfileProblem
 from .punch_problem import Case, PunchGroups, PunchProblem
 
 
@@ -130,6 +131,10 @@ SPHERE = Kind(
 )
 
 
+# That of the sphere, R being the profile's equivalent radius.
+PROFILE = replace(SPHERE, inputs=("tabor", "profile_exponent", "modulus_ratio", "rate"))
+
+
 def _tension(groups: PunchGroups) -> float:
     return -1.0
 
@@ -176,9 +181,11 @@ PUNCH = Kind(
 
 def kind_of(problem: Case) -> Kind:
     """Return what a problem's answer is given in."""
-    return PUNCH if isinstance(problem, PunchProblem | PunchGroups) else SPHERE
+    if isinstance(problem, PunchProblem | PunchGroups):
+        return PUNCH
+    return PROFILE if isinstance(problem, ProfileProblem | ProfileGroups) else SPHERE
 
 
 def si_scales(problem: Case) -> Any | None:
     """Return what one unit of each number is in SI; None for a problem in groups."""
-    return None if isinstance(problem, Groups | PunchGroups) else problem.scales()
+    return None if isinstance(problem, Groups | PunchGroups | ProfileGroups) else problem.scales()

@@ -131,49 +131,19 @@ class Problem:
     @property
     def tabor(self) -> float:
         """Tabor number mu, range of the forces beside the elastic deformation; no unit."""
-        R, w, h0 = (
-            self.geometry.radius,
-            self.traction.work_of_adhesion,
-            self.traction.equilibrium_gap,
-        )
-        return (R * w**2 / (self.material.contact_modulus**2 * h0**3)) ** (1 / 3)
+        return tabor_number(self.geometry.radius, self.material, self.traction)
 
     def scales(self) -> Scales:
         """Return what one unit of each dimensionless output is in SI."""
-        R, w, h0 = (
-            self.geometry.radius,
-            self.traction.work_of_adhesion,
-            self.traction.equilibrium_gap,
-        )
-        beta = (R**2 * w / self.material.contact_modulus) ** (1 / 3)
-        force, time = 1.5 * np.pi * R * w, self.material.time_unit
-        return Scales(
-            force=force,
-            length=h0,
-            radius=np.pi ** (1 / 3) * beta,
-            work=force * h0,
-            time=time,
-            edge_speed=beta / time,
-            stress=w / h0,
-        )
+        return sphere_scales(self.geometry.radius, self.material, self.traction)
 
     def groups(self) -> "Groups":
         """Return the dimensionless problem; its time unit is that of the material."""
-        unit, protocol = self.scales(), self.protocol
-        units = Units(1 / unit.length, 1 / unit.force, 1 / unit.radius, 1 / unit.time)
-        return Groups(
-            tabor=self.tabor,
-            material=self.material.reduced(),
-            start=units.start(protocol.start),
-            rate=units.speed(protocol.speed),
-            traction=self.traction.reduced(),
-            moves=units.moves(protocol.moves),
-            stiffness=units.stiffness(protocol.stiffness),
-        )
+        return Groups(**reduced_parts(self))
 
     def _check_small_strain(self) -> None:
         R = self.geometry.radius
-        for state in _farthest(self.protocol):
+        for state in farthest(self.protocol):
             a = _relaxed_radius(self, state)
             if a <= LARGEST_CONTACT * R:
                 continue
@@ -302,6 +272,43 @@ class Groups:
         )
 
 
+def tabor_number(radius: float, material: Material, traction: Traction) -> float:
+    """Return the Tabor number of a sphere of this radius [m]."""
+    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
+    return (radius * w**2 / (material.contact_modulus**2 * h0**3)) ** (1 / 3)
+
+
+def sphere_scales(radius: float, material: Material, traction: Traction) -> Scales:
+    """Return what one unit of each dimensionless output is for a sphere of this radius [m]."""
+    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
+    beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
+    force, time = 1.5 * np.pi * radius * w, material.time_unit
+    return Scales(
+        force=force,
+        length=h0,
+        radius=np.pi ** (1 / 3) * beta,
+        work=force * h0,
+        time=time,
+        edge_speed=beta / time,
+        stress=w / h0,
+    )
+
+
+def reduced_parts(problem: Any) -> dict[str, Any]:
+    """Return the fields of `Groups` that a problem in SI with a Tabor number and scales has."""
+    unit, protocol = problem.scales(), problem.protocol
+    units = Units(1 / unit.length, 1 / unit.force, 1 / unit.radius, 1 / unit.time)
+    return {
+        "tabor": problem.tabor,
+        "material": problem.material.reduced(),
+        "start": units.start(protocol.start),
+        "rate": units.speed(protocol.speed),
+        "traction": problem.traction.reduced(),
+        "moves": units.moves(protocol.moves),
+        "stiffness": units.stiffness(protocol.stiffness),
+    }
+
+
 def check_material(material: Any) -> None:
     """Refuse what is not a material."""
     if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
@@ -359,7 +366,7 @@ def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: fl
     return replace(material, **changed, poisson_ratio=poisson_ratio)
 
 
-def _farthest(protocol: Retraction) -> list[Start]:
+def farthest(protocol: Retraction) -> list[Start]:
     """Return the states that a test goes through, each as if it were relaxed."""
     states = [] if isinstance(protocol.start, Apart) else [protocol.start]
     for move in protocol.moves:

@@ -25,6 +25,7 @@ from .problem import (
     check_traction,
     material_in_si,
 )
+from .profile_problem import ProfileGroups, ProfileProblem
 from .protocol import Apart, AtRadius, Move, Retraction, Start, Units
 from .traction import LennardJones, Traction
 from .units import finite, positive
@@ -291,4 +292,4 @@ class PunchGroups:
 
 
 # Whatever can be simulated.
-Case = Problem | Groups | PunchProblem | PunchGroups
+Case = Problem | Groups | PunchProblem | PunchGroups | ProfileProblem | ProfileGroups

@@ -5,10 +5,19 @@ import json
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
-from . import geometry, layer, materials, problem, protocol, punch_problem, traction
+from . import (
+    geometry,
+    layer,
+    materials,
+    problem,
+    profile_problem,
+    protocol,
+    punch_problem,
+    traction,
+)
 
 # Where the classes of a record may live. A new law in one of these rooms needs nothing here.
-_ROOMS = (materials, traction, geometry, layer, protocol, problem, punch_problem)
+_ROOMS = (materials, traction, geometry, layer, protocol, problem, punch_problem, profile_problem)
 
 
 def to_dict(thing: Any) -> dict[str, Any]:

@@ -157,7 +157,7 @@ class Result:
     def _check(self) -> None:
         if not isinstance(self.problem, Case):
             raise ValueError(
-                "problem must be a Problem, Groups, PunchProblem or PunchGroups, got "
+                "problem must be a Problem or Groups, of a sphere, a punch or a profile, got "
                 f"{type(self.problem).__name__}"
             )
         lengths = {name: getattr(self, name).shape for name in _SERIES}

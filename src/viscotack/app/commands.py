@@ -24,6 +24,7 @@ from ..case_file import read_case
 from ..observables import summary
 from ..outputs import kind_of
 from ..problem import Problem
+from ..profile_problem import ProfileProblem
 from ..punch_problem import Case, PunchProblem
 from ..result import Outcome, Result, load, save, write_csv
 from .flags import problem_from_flags
@@ -279,6 +280,34 @@ def simulate_sphere(
     )
 
 
+@simulate.command("profile")
+def simulate_profile(
+    case: Annotated[Path, Argument(metavar="CASE.toml", help="Problem in SI, see docs/input.md.")],
+    until: HowFar = Until.DETACHED,
+    accuracy: Accuracy = 2e-3,
+    plot_file: PlotFile = None,
+    plot_kind: PlotWhat = PlotKind.FORCE,
+    csv_file: CsvFile = None,
+    save_file: SaveFile = None,
+    as_json: AsJson = False,
+) -> None:
+    """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic half-space.
+
+    The file has a table [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and
+    `height` at a radius `at_radius`.
+
+    Example: viscotack simulate profile examples/from_toml/cone.toml
+    """
+    carry_out(
+        lambda: stated_problem(case, {}, problem_from_flags, ProfileProblem),
+        accuracy=accuracy,
+        until=until,
+        files=(plot_file, csv_file, save_file),
+        plot_kind=plot_kind,
+        as_json=as_json,
+    )
+
+
 def stated_problem(
     case: Path | None, flags: Mapping[str, Any], from_flags: Callable[[Any], Case], kind: type
 ) -> Case:
@@ -290,7 +319,7 @@ def stated_problem(
         raise ValueError(f"{case} states the whole problem; leave out {', '.join(given)}")
     problem = read_case(case)
     if not isinstance(problem, kind):
-        found = "punch" if isinstance(problem, PunchProblem) else "sphere"
+        found = {PunchProblem: "punch", ProfileProblem: "profile"}.get(type(problem), "sphere")
         raise ValueError(f"{case} states a {found}, which has commands of its own")
     return problem
 

@@ -14,12 +14,14 @@ from viscotack.bem.contact import Contact
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
+from viscotack.bem.profile import ProfileContact
 from viscotack.bem.punch import PunchContact
 from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
 from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Material, Modes
 from viscotack.observables import pull_off_force, work_to_pull_off
 from viscotack.problem import Groups
+from viscotack.profile_problem import ProfileGroups
 from viscotack.punch_problem import Case, PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 
@@ -64,16 +66,17 @@ def solve(
     throw: bool = True,
     progress: Callable[[float], None] | None = None,
 ) -> Result:
-    """Simulate the detachment of a rigid sphere from a viscoelastic half-space.
+    """Simulate the detachment of a rigid indenter from a viscoelastic solid.
 
-    The sphere starts in a fully relaxed contact and is retracted at a constant rate. Pressure and
-    gap follow from the traction law and from the hereditary half-space (Eq. 4.11 to 4.15 of
-    Maghami, PhD thesis (2025)); mesh, steps and relaxation modes follow from the accuracy.
+    The test begins at rest, in a relaxed contact or apart, goes through the moves of its protocol,
+    and ends with a retraction at a constant rate, or with the last move. Pressure and gap follow
+    from the traction law and from the hereditary solid (Eq. 4.11 to 4.15 of Maghami, PhD thesis
+    (2025)); mesh, steps and relaxation modes follow from the accuracy.
 
     Parameters
     ----------
-    problem : Problem or Groups
-        What is retracted, in SI or in dimensionless groups.
+    problem : Problem, Groups, PunchProblem or PunchGroups
+        What is tested, in SI or in dimensionless groups.
     accuracy : float
         Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
         end is a flat minimum, has up to five times this error.
@@ -167,7 +170,7 @@ def _run(
     return _result(problem, contact, history, modes, fields)
 
 
-def contact_of(groups: Groups | PunchGroups) -> Contact:
+def contact_of(groups: Groups | PunchGroups | ProfileGroups) -> Contact:
     """Return the contact that dimensionless groups describe."""
     if isinstance(groups, PunchGroups):
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
@@ -177,6 +180,8 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
             f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
         )
+    if isinstance(groups, ProfileGroups):
+        return ProfileContact(groups.tabor, groups.traction, groups.profile_exponent)
     return SphereContact(groups.tabor, groups.traction)
 
 

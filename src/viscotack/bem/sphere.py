@@ -43,18 +43,45 @@ _CENTRED = 0.25
 _SCAR_ZONES = 2.0
 
 
-def jkr_radius(depth: float) -> float:
-    """Return the JKR contact radius [beta] at a depth [mu h0], where it ends the last there was."""
-    last = jkr.instability(**_JKR_UNITS).depth
-    return float(jkr.contact_radius_at_depth(max(depth, last), **_JKR_UNITS))
-
-
 @dataclass(frozen=True)
 class SphereContact:
-    """A sphere of this Tabor number; see :class:`viscotack.bem.contact.Contact`."""
+    """A sphere of this Tabor number; see :class:`viscotack.bem.contact.Contact`.
+
+    What depends on the shape is in the methods up to `surface`; another shape has its own.
+    """
 
     tabor: float
     law: Traction
+
+    def rise(self, radius: float) -> float:
+        """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
+        return self.tabor * radius**2 / 2
+
+    def radius_of_rise(self, rise: float) -> float:
+        """Return the radius [beta] at which the indenter has risen by this much [h0]."""
+        return float(np.sqrt(2 * rise / self.tabor))
+
+    def bare_radius(self, depth: float) -> float:
+        """Return the contact radius [beta] at a depth [h0] without adhesion."""
+        return float(np.sqrt(depth / self.tabor))
+
+    def jkr_depth(self, radius: float) -> float:
+        """Return the JKR depth [h0] at a contact radius [beta]."""
+        return self.tabor * float(jkr.depth(radius, **_JKR_UNITS))
+
+    def jkr_radius(self, depth: float) -> float:
+        """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
+        last = jkr.instability(**_JKR_UNITS).depth
+        return float(jkr.contact_radius_at_depth(max(depth / self.tabor, last), **_JKR_UNITS))
+
+    def jkr_radius_at_force(self, force: float) -> float:
+        """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
+        weakest = -jkr.pull_off_force(radius=1.0, work_of_adhesion=1.0)
+        return float(jkr.contact_radius_at_force(max(force, weakest), **_JKR_UNITS))
+
+    def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
+        """Return the JKR gap [h0] around a contact of this radius [beta]."""
+        return self.tabor * np.asarray(jkr.gap(nodes, contact_radius=radius, **_JKR_UNITS))
 
     @property
     def travel(self) -> float:
@@ -87,9 +114,9 @@ class SphereContact:
         catching = 1 + 0.4 * np.log10(max(tabor / 10, 1.0))
         nodes = settings.nodes_per_zone * max(1.0, softening(self.law) / _SOFTENING) * catching
         spacing = zone / nodes
-        edge = jkr_radius(depth / tabor)
+        edge = self.jkr_radius(depth)
         # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
-        squares = (settings.reach + max(depth, 0.0), settings.reach + tabor * edge**2 / 2)
+        rise = settings.reach + max(depth, self.rise(edge), 0.0)
         return Grading(
             spacing=spacing,
             half_width=zone * settings.fine_zones,
@@ -97,7 +124,7 @@ class SphereContact:
             scar_half_width=zone * _SCAR_ZONES,
             growth_inside=settings.growth_inside,
             growth_outside=settings.growth_outside,
-            outer_radius=max(float(np.sqrt(2 * max(squares) / tabor)), 2.5 * edge),
+            outer_radius=max(self.radius_of_rise(rise), 2.5 * edge),
         )
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
@@ -114,7 +141,7 @@ class SphereContact:
             return self._at_depth(start.depth, settings)
         if isinstance(start, AtRadius):
             wanted = start.contact_radius
-            first = self.tabor * float(jkr.depth(wanted * _RADIUS_UNIT, **_JKR_UNITS))
+            first = self.jkr_depth(wanted * _RADIUS_UNIT)
             return self._where(
                 lambda x: x.edge / _RADIUS_UNIT, wanted, "contact radius", first, settings
             )
@@ -128,13 +155,10 @@ class SphereContact:
             return start.depth
         if isinstance(start, AtForce):
             return self._jkr_depth(start)
-        return self.tabor * float(jkr.depth(start.contact_radius * _RADIUS_UNIT, **_JKR_UNITS))
+        return self.jkr_depth(start.contact_radius * _RADIUS_UNIT)
 
     def _jkr_depth(self, start: AtForce) -> float:
-        weakest = -jkr.pull_off_force(radius=1.0, work_of_adhesion=1.0)
-        force = max(1.5 * np.pi * start.force, weakest)
-        edge = jkr.contact_radius_at_force(force, **_JKR_UNITS)
-        return self.tabor * float(jkr.depth(edge, **_JKR_UNITS))
+        return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))
 
     def _apart(self, start: Apart, settings: Settings) -> Relaxed:
         depth = 1 - start.gap
@@ -151,14 +175,14 @@ class SphereContact:
 
     def _at_depth(self, depth: float, settings: Settings, offset: float = 0.0) -> Relaxed:
         """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
-        tabor, law = self.tabor, self.law
+        law = self.law
         grading = self.grading(settings, depth)
-        edge = max(jkr_radius(depth / tabor), np.sqrt(max(depth + 0.2, 0.0) / tabor)) + offset
+        edge = max(self.jkr_radius(depth), self.bare_radius(max(depth + 0.2, 0.0))) + offset
         surface, gap = None, None
         for _ in range(_MOST_MESHES):
             nodes = grading.nodes(edge, edge)
             if surface is None or gap is None:
-                guess = 1 + tabor * np.asarray(jkr.gap(nodes, contact_radius=edge, **_JKR_UNITS))
+                guess = 1 + self.jkr_gap(nodes, edge)
             else:
                 guess = np.maximum(CubicSpline(surface.position, gap)(nodes), 0.8)
             surface = self.surface(nodes)
@@ -171,7 +195,7 @@ class SphereContact:
                 return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
             edge = found
         raise ValueError(
-            f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {tabor:g}): "
+            f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {self.tabor:g}): "
             "the surfaces do not hold each other there; start deeper"
         )
 
@@ -190,7 +214,7 @@ class SphereContact:
             if depth not in found:
                 # The mesh shifts edges by about the same at all depths: look where the last was.
                 last = list(found.values())[-1:]
-                offset = sum(x.lattice - jkr_radius(x.depth / self.tabor) for x in last)
+                offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
                 offset = offset if self.tabor > 1 else 0.0
                 found[depth] = self._at_depth(depth, settings, offset)
             return quantity(found[depth]) - wanted

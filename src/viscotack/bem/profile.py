@@ -1,0 +1,117 @@
+r"""A power-law tip on the half-space: where it differs from the sphere.
+
+Lengths along the surface are in :math:`\beta` with :math:`\beta^{2q-1} = \Delta\gamma_0/(E_0^*
+(qA)^2)`; with :math:`\mu = q A \beta^q/h_0` the discrete surface is that of the sphere under the
+rigid gap :math:`1 + \mu r^q/q`. Depths of JKR are in :math:`\mu h_0`, as for the sphere.
+
+A sharp tip has no mesh of its own: the pressure of a cone rises like the logarithm of the distance
+from its tip, over an area that no force notices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+from scipy.special import hyp2f1
+
+from viscotack.bem.halfspace import half_space
+from viscotack.bem.sphere import SphereContact
+from viscotack.bem.surface import Surface
+from viscotack.theory import profiles
+
+
+@dataclass(frozen=True)
+class ProfileContact(SphereContact):
+    """A tip z = A r^q of this Tabor number; see :class:`viscotack.bem.contact.Contact`."""
+
+    exponent: float
+
+    @property
+    def _units(self) -> dict[str, float]:
+        # lengths along the surface in beta, depths in mu h0, forces in R dg
+        tip = {"exponent": self.exponent, "coefficient": 1 / self.exponent}
+        return tip | {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+
+    def rise(self, radius: float | npt.NDArray) -> float | npt.NDArray:
+        """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
+        return self.tabor * radius**self.exponent / self.exponent
+
+    def radius_of_rise(self, rise: float) -> float:
+        """Return the radius [beta] at which the indenter has risen by this much [h0]."""
+        return (self.exponent * rise / self.tabor) ** (1 / self.exponent)
+
+    def bare_radius(self, depth: float) -> float:
+        """Return the contact radius [beta] at a depth [h0] without adhesion."""
+        return (depth / self._bare_depth()) ** (1 / self.exponent)
+
+    def jkr_depth(self, radius: float) -> float:
+        """Return the JKR depth [h0] at a contact radius [beta]."""
+        return self.tabor * float(profiles.depth(radius, **self._units))
+
+    def jkr_radius(self, depth: float) -> float:
+        """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
+        return _inverse(self.jkr_depth, depth, profiles.instability(**self._units))
+
+    def jkr_radius_at_force(self, force: float) -> float:
+        """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
+        units = self._units
+        return _inverse(
+            lambda a: float(profiles.force(a, **units)), force, profiles.pull_off(**units)
+        )
+
+    def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
+        r"""Return the JKR gap [h0] around a contact of this radius [beta].
+
+        With Sneddon's displacement outside a contact of depth :math:`\delta`,
+
+        .. math:: u(r) = \frac{2}{\pi} \left[ \delta \arcsin\frac{a}{r}
+                  - \int_0^a \frac{A \kappa t^q}{\sqrt{r^2 - t^2}}\, dt \right]
+        """
+        q, r = self.exponent, np.maximum(nodes, radius)
+        ratio = radius / r
+        hollow = self._bare_depth() * radius**q * ratio / (q + 1)
+        hollow = hollow * hyp2f1(0.5, (q + 1) / 2, (q + 3) / 2, ratio**2)
+        depth = self.jkr_depth(radius)
+        gap = self.rise(r) - depth + 2 / np.pi * (depth * np.arcsin(ratio) - hollow)
+        return np.maximum(gap, 0.0)  # but for round-off it is not negative
+
+    @property
+    def zone(self) -> float:
+        """Length over which the gap opens at a relaxed edge [beta].
+
+        That of a crack, or a part of the distance over which the tip rises by h0: for q = 2 those
+        of the sphere.
+        """
+        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(2) * self.radius_of_rise(1.0))
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the half-space with these nodes [beta].
+
+        On the flank beyond the last node r the gap grows like r^q, and the tension of the
+        Lennard-Jones law falls like its third power: the area between two gaps differs from that at
+        the last node by r^(2-q), and the force on it by q/(1.5 q - 1) in all.
+        """
+        q = self.exponent
+        surface = half_space(nodes, self.tabor)
+        flank = surface.flank * nodes[-1] ** (2 - q) * q / (1.5 * q - 1)
+        return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))
+
+    def _bare_depth(self) -> float:
+        """Return the depth [h0] of a contact of radius beta without adhesion."""
+        units = self._units
+        return self.tabor * (float(profiles.depth(1.0, **units)) + np.sqrt(2 * np.pi))
+
+
+def _inverse(function: Callable[[float], float], value: float, end: profiles.Point) -> float:
+    """Return where a function that grows beyond the end of a branch has this value."""
+    low = float(end.contact_radius)
+    if value <= function(low):
+        return low
+    high = 2 * low
+    while function(high) < value:
+        high *= 2
+    return float(brentq(lambda a: function(a) - value, low, high, xtol=1e-14 * high))  # type: ignore[arg-type]

@@ -1,0 +1,254 @@
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from viscotack.advice import advise
+from viscotack.bem import solve
+from viscotack.case_file import read_case
+from viscotack.cli import application
+from viscotack.dead_load import time_to_detachment
+from viscotack.geometry import Cone, PowerLawProfile, Sphere
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.observables import pull_off_force, summary
+from viscotack.problem import Problem
+from viscotack.profile_problem import ProfileGroups, ProfileProblem
+from viscotack.protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Dwell,
+    LoadTo,
+    Retract,
+    Retraction,
+)
+from viscotack.record import from_dict, run_id, to_dict
+from viscotack.result import columns, load, save
+from viscotack.theory import profiles
+from viscotack.traction import LennardJones
+
+SOLID = StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)
+LAW = LennardJones(work_of_adhesion=0.15, equilibrium_gap=0.1e-6)
+MOVES = (Approach(1e-6, AtForce(1e-6)), Dwell(3.0, hold="depth"), Retract(2e-6, AtDepth(0.0)))
+
+
+CONE, START = Cone(slope=0.2), AtForce(1e-6)
+
+
+def problem(profile=CONE, start=START, **others):
+    parts = dict(speed=10e-6) | others
+    return ProfileProblem(SOLID, LAW, profile, Retraction(start=start, **parts))
+
+
+# --- shapes ---------------------------------------------------------------------------------
+
+
+def test_gaps_follow_their_powers():
+    r = np.array([0.0, 1e-4, 2e-4])
+    assert Cone(0.1).gap(r) == pytest.approx(0.1 * r, rel=1e-15)
+    assert PowerLawProfile(3.0, 1.5).gap(r) == pytest.approx(3 * r**1.5, rel=1e-15)
+    paraboloid = PowerLawProfile(1 / (2 * 5e-3), exponent=2)
+    assert paraboloid.gap(r) == pytest.approx(Sphere(5e-3).gap(r), rel=1e-14)
+
+
+@pytest.mark.parametrize("exponent", [0.9, 10.5, -1, float("nan")])
+def test_an_impossible_exponent_is_refused(exponent):
+    with pytest.raises(ValueError, match="exponent"):
+        PowerLawProfile(1.0, exponent)
+
+
+def test_an_impossible_slope_or_coefficient_is_refused():
+    with pytest.raises(ValueError, match="slope must be positive"):
+        Cone(-0.1)
+    with pytest.raises(ValueError, match="coefficient must be positive"):
+        PowerLawProfile(0.0, 2.0)
+
+
+# --- groups and scales ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("start", [AtForce(1e-3), AtDepth(2e-6), AtRadius(2e-4), Apart(5e-6)])
+def test_the_paraboloid_has_the_groups_and_the_scales_of_its_sphere(start):
+    R, law = 5e-3, LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
+    protocol = Retraction(start=start, speed=1e-4, moves=MOVES, stiffness=20.0)
+    sphere = Problem(SOLID, law, Sphere(R), protocol)
+    square = ProfileProblem(SOLID, law, PowerLawProfile(1 / (2 * R), 2), protocol)
+    assert square.radius == pytest.approx(R, rel=1e-14)
+    expected = numbers(sphere.groups())
+    assert numbers(square.groups())[: len(expected)] == pytest.approx([*expected], rel=1e-12)
+    assert vars(square.scales()) == pytest.approx(vars(sphere.scales()), rel=1e-12)
+
+
+def numbers(thing):
+    """Return all the numbers of a problem, the exponent of a profile last."""
+    if isinstance(thing, dict):
+        items = sorted(thing.items(), key=lambda item: item[0] == "profile_exponent")
+        return [number for _, value in items for number in numbers(value)]
+    if isinstance(thing, list | tuple):
+        return [number for value in thing for number in numbers(value)]
+    if hasattr(thing, "__dataclass_fields__"):
+        return numbers(to_dict(thing))
+    return [] if isinstance(thing, str) else [thing]
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 4.0])
+def test_scales_are_those_of_jkr_and_the_tabor_number_is_the_depth_over_the_range(exponent):
+    A = 0.1 * 1e-4 ** (1 - exponent)  # 10 um high at 0.1 mm
+    given = problem(PowerLawProfile(A, exponent), AtDepth(1e-8))
+    elastic = dict(contact_modulus=SOLID.contact_modulus, work_of_adhesion=0.15)
+    end = profiles.pull_off(exponent=exponent, coefficient=A, **elastic)
+    plain = dict(contact_modulus=1.0, work_of_adhesion=1.0)
+    unit = profiles.pull_off(exponent=exponent, coefficient=1 / exponent, **plain)
+    s = given.scales()
+    assert end.force / s.force == pytest.approx(unit.force / (1.5 * math.pi), rel=1e-12)
+    assert end.contact_radius / s.radius == pytest.approx(
+        unit.contact_radius / math.pi ** (1 / 3), rel=1e-12
+    )
+    assert end.depth / s.length == pytest.approx(given.tabor * unit.depth, rel=1e-12)
+
+
+@pytest.mark.parametrize("profile", [Cone(0.2), PowerLawProfile(7.0, 1.5), PowerLawProfile(1e8, 3)])
+@pytest.mark.parametrize("start", [AtForce(1e-7), AtDepth(1e-8), AtRadius(1e-6), Apart(1e-6)])
+def test_groups_with_their_scales_are_the_problem_again(profile, start):
+    old = problem(profile, start, moves=MOVES[1:], stiffness=3.0)
+    new = old.groups().in_si(
+        coefficient=profile.coefficient,
+        contact_modulus=SOLID.contact_modulus,
+        work_of_adhesion=LAW.work_of_adhesion,
+        time_unit=0.1,
+        poisson_ratio=0.5,
+    )
+    as_power = replace(old, profile=PowerLawProfile(profile.coefficient, profile.exponent))
+    assert numbers(new) == pytest.approx(numbers(as_power), rel=1e-11)
+
+
+def test_impossible_scales_are_refused():
+    scales = dict(coefficient=0.2, contact_modulus=2e6, work_of_adhesion=0.15, time_unit=0.1)
+    with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
+        problem().groups().in_si(**scales, poisson_ratio=0.7)
+    with pytest.raises(ValueError, match="coefficient must be positive"):
+        problem().groups().in_si(**(scales | {"coefficient": -1.0}), poisson_ratio=0.5)
+
+
+# --- refusals -------------------------------------------------------------------------------
+
+
+def test_parts_of_the_wrong_kind_are_refused():
+    with pytest.raises(
+        ValueError, match="profile must be a Cone or PowerLawProfile, got Sphere; try Cone"
+    ):
+        problem(Sphere(1e-3))
+    with pytest.raises(ValueError, match="protocol must be a Retraction, got AtDepth"):
+        ProfileProblem(SOLID, LAW, Cone(0.1), AtDepth(1e-6))
+    with pytest.raises(ValueError, match="profile_exponent must be between 1"):
+        replace(problem().groups(), profile_exponent=0.5)
+
+
+def test_a_steep_cone_is_refused():
+    with pytest.raises(ValueError, match="too steep: its slope is 0.6 .*holds to 0.5"):
+        problem(Cone(0.6))
+
+
+def test_a_tip_that_is_steep_where_the_forces_end_is_refused():
+    # of a sphere, sqrt(2 h0/R)
+    with pytest.raises(ValueError, match="too steep: its slope is 0.535 where the gap is"):
+        problem(PowerLawProfile(1 / (2 * 0.7e-6), 2), Apart(1e-6))
+
+
+def test_a_contact_beyond_small_strain_is_refused():
+    A = 1 / (2 * 1e-4)  # a sphere of 0.1 mm: contacts up to 50 um
+    for start, unit in ((AtRadius(51e-6), "5e-05 m"), (AtDepth(30e-6), "m"), (AtForce(1.0), "N")):
+        with pytest.raises(ValueError, match=f"beyond small strain.*may be up to .*{unit}"):
+            problem(PowerLawProfile(A, 2), start)
+    with pytest.raises(ValueError, match="beyond small strain"):
+        problem(PowerLawProfile(A, 2), AtDepth(1e-6), moves=(Approach(1e-6, AtForce(1.0)),))
+    assert problem(PowerLawProfile(A, 2), AtRadius(49e-6)).profile.exponent == 2
+
+
+# --- records and results --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("profile", [Cone(0.2), PowerLawProfile(7.0, 1.5)])
+def test_a_record_makes_an_equal_problem(profile):
+    for case in (problem(profile, moves=MOVES), problem(profile, moves=MOVES).groups()):
+        again = from_dict(to_dict(case))
+        assert again == case and type(again) is type(case)
+        assert run_id(again) == run_id(case)
+
+
+def test_a_cone_from_start_to_file(tmp_path):
+    given = problem(start=AtForce(0.0))
+    result = solve(given, until="pull-off", estimate_error=False)
+    in_groups = solve(given.groups(), until="pull-off", estimate_error=False)
+    assert pull_off_force(result) == pytest.approx(pull_off_force(in_groups), rel=1e-12)
+    found = summary(result)
+    assert found["pull_off_force_N"] == pytest.approx(
+        found["pull_off_force"] * given.scales().force, rel=1e-12
+    )
+    assert found["profile_exponent"] == 1.0 and found["tabor"] == given.tabor
+    assert "contact_radius_m" in columns(result)
+    save(result, tmp_path / "cone.npz")
+    assert load(tmp_path / "cone.npz").problem == given
+
+
+def test_how_long_a_cone_bears_a_load_is_told_in_seconds():
+    moves = (LoadTo(-150e-6, 1e-3), Dwell(50.0, hold="force"))
+    given = problem(start=AtForce(0.0), speed=None, moves=moves)
+    held, in_units = (
+        time_to_detachment(solve(x, estimate_error=False)) for x in (given, given.groups())
+    )
+    assert held == pytest.approx(0.1 * in_units, rel=1e-9)
+
+
+def test_advice_on_spheres_is_not_given_on_cones():
+    with pytest.raises(ValueError, match="advice is for spheres, got ProfileGroups"):
+        advise(problem())
+
+
+def test_a_tabor_number_that_the_mesh_cannot_serve_is_refused():
+    material = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    with pytest.raises(ValueError, match="Tabor number must be between"):
+        solve(ProfileGroups(1e4, material, AtForce(0.0), 1.0, 1.0))
+
+
+def test_a_cone_from_a_file_is_that_cone(tmp_path):
+    example = Path(__file__).parents[1] / "examples" / "from_toml" / "cone.toml"
+    problem = read_case(example)
+    assert isinstance(problem, ProfileProblem) and problem.profile == Cone(slope=0.05)
+    text = example.read_text().replace(
+        "slope = 0.05", 'exponent = 3\nheight = "10 um"\nat_radius = "200 um"'
+    )
+    (tmp_path / "cubic.toml").write_text(text)
+    cubic = read_case(tmp_path / "cubic.toml")
+    assert isinstance(cubic, ProfileProblem)
+    assert float(cubic.profile.gap(200e-6)) == pytest.approx(10e-6, rel=1e-12)
+
+
+def test_a_profile_is_simulated_from_the_command_line(tmp_path):
+    example = Path(__file__).parents[1] / "examples" / "from_toml" / "cone.toml"
+    arguments = ["simulate", "profile", str(example), "--until", "pull-off", "--accuracy", "1e-2"]
+    done = CliRunner().invoke(application(), [*arguments, "--json"])
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["pull_off_force_N"] == pytest.approx(2.815e-3, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ('exponent = 3\nheight = "0 um"\nat_radius = "1 um"', "height and at_radius must be pos"),
+        ("exponent = 3", "height is missing"),
+        ("slope = -1", "slope must be positive"),
+    ],
+)
+def test_an_impossible_profile_is_refused_with_its_file(tmp_path, keys, words):
+    example = Path(__file__).parents[1] / "examples" / "from_toml" / "cone.toml"
+    (tmp_path / "bad.toml").write_text(example.read_text().replace("slope = 0.05", keys))
+    with pytest.raises(ValueError, match=words) as refused:
+        read_case(tmp_path / "bad.toml")
+    assert "bad.toml" in str(refused.value) and "[profile]" in str(refused.value)
