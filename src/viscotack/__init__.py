@@ -12,6 +12,7 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
+    from . import datasets as datasets
     from . import materials as materials
     from . import measured as measured
     from . import theory as theory
@@ -191,7 +192,7 @@ _NAMES = {
         "save_figure",
     ),
 }
-_ROOMS = ("materials", "theory", "bem", "measured", "campaign")
+_ROOMS = ("materials", "theory", "bem", "measured", "campaign", "datasets")
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]

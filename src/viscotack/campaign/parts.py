@@ -180,6 +180,8 @@ def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:
 
 def _type(pa: Any, values: Iterable[Any]) -> Any:
     kinds = {type(v) for v in values if v is not None}
+    if not kinds:  # another part may say what it is
+        return pa.null()
     if str in kinds or kinds and all(issubclass(k, str) for k in kinds):
         return pa.string()
     if list in kinds:

@@ -1,0 +1,28 @@
+"""Make a dataset again: ``python -m viscotack.datasets NAME --out DIR [--workers N]``."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from ..campaign import Progress
+from .files import NAMES
+from .making import make
+
+
+def _say(progress: Progress) -> None:
+    print(f"{progress.done} of {progress.cases}, {progress.failed} failed", file=sys.stderr)
+
+
+def main() -> None:
+    """Run and say where the file is."""
+    parser = argparse.ArgumentParser(prog="python -m viscotack.datasets", description=__doc__)
+    parser.add_argument("name", choices=NAMES)
+    parser.add_argument("--out", type=Path, required=True, help="folder of the campaigns")
+    parser.add_argument("--workers", type=int, default=1, help="processes")
+    parser.add_argument("--cases", type=int, help="only so many, from the beginning of the plan")
+    given = parser.parse_args()
+    print(make(given.name, given.out, workers=given.workers, cases=given.cases, report=_say))
+
+
+if __name__ == "__main__":
+    main()

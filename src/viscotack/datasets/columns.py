@@ -1,0 +1,156 @@
+"""What a row of a dataset has: the columns, their units, and their words for the data card."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+# Stated relative errors are no less than these; benchmarks/datasets.py says how many hold.
+LEAST_ERRORS = {"force_error": 1e-3, "work_error": 5e-3}
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a dataset.
+
+    Attributes
+    ----------
+    name : str
+        In the dataset.
+    unit : str
+        As in docs/symbols.md; "1" for none.
+    words : str
+        What it is.
+    source : str
+        Its name in a campaign.
+    form : {"exact", "number", "whole", "curve"}
+        Exact numbers keep all digits; others have seven, far more than they are good for; a curve
+        is a list of 24.
+    sign : float
+        By which the number of a campaign is multiplied.
+    over : str
+        The input by which it is divided; "" for none.
+    least : float
+        The number is not allowed to be smaller; for errors.
+    """
+
+    name: str
+    unit: str
+    words: str
+    source: str = ""
+    form: str = "number"
+    sign: float = 1.0
+    over: str = ""
+    least: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "source", self.source or self.name)
+
+    def type(self, pa: Any) -> Any:
+        """Return the type of pyarrow that the column is stored in."""
+        if self.form == "curve":
+            return pa.list_(pa.float32(), 24)
+        return {"exact": pa.float64(), "number": pa.float32(), "whole": pa.int32()}[self.form]
+
+    def value(self, row: Mapping[str, Any]) -> Any:
+        """Return the value of the column from the row of a campaign."""
+        value = row.get(self.source)
+        if self.form in ("exact", "whole") or value is None:
+            return value
+        factor = self.sign / (row[self.over] if self.over else 1.0)
+        if isinstance(value, list):
+            return [None if v is None else factor * v for v in value]
+        return factor * value if self.least is None else max(value, self.least)
+
+
+def _error(name: str, words: str, source: str) -> Column:
+    return Column(name, "1", words, source, least=LEAST_ERRORS[name])
+
+
+_HOW = (
+    _error("force_error", "relative error of the pull-off force or stress", "error_estimate"),
+    _error("work_error", "relative error of the work to pull-off", "error_estimate_work"),
+    Column("energy_residual", "1", "largest imbalance of the energies over their largest term"),
+    Column("accuracy", "1", "what the solver was asked for", form="exact"),
+    Column("steps", "1", "steps of the run to the pull-off", form="whole"),
+    Column("jumps", "1", "times at which an equilibrium ended before the pull-off", form="whole"),
+)
+
+
+def _curve(force: str, unit: str, sign: float, edge: Column) -> tuple[Column, ...]:
+    shares = {"25": "25", "50": "50", "75": "75", "87_5": "87.5"}
+    sense = "compression" if sign > 0 else "tension"
+    words = f"{force} at 24 points of the travel, {sense} positive"
+    return (
+        Column("travel_to_pull_off", "h0", "travel from the start to the pull-off"),
+        *(
+            Column(
+                f"{force}_at_{key}",
+                unit,
+                f"{force} at {share} % of the travel",
+                f"force_at_{key}",
+                sign=sign,
+            )
+            for key, share in shares.items()
+        ),
+        Column(f"trajectory_{force}", unit, words, "trajectory_force", "curve", sign=sign),
+        edge,
+    )
+
+
+_FORCE, _RADIUS = "1.5 pi R dg0", "(pi R^2 dg0/E0*)^(1/3)"
+_EDGE = "contact edge at these points; null where there is none"
+# By kind of campaign.
+KEPT = {
+    "sphere": (
+        Column("tabor", "1", "Tabor number mu", form="exact"),
+        Column("modulus_ratio", "1", "rubbery over glassy modulus k", form="exact"),
+        Column("exponent", "1", "exponent n of the power law by retardation", form="exact"),
+        Column("preload", "h0", "depth of the relaxed start", form="exact"),
+        Column("rate", "h0/tau0", "retraction speed", form="exact"),
+        Column("pull_off_force", _FORCE, "minus the least force"),
+        Column("work_to_pull_off", "1.5 pi R dg0 h0", "work from zero force, or from the start"),
+        Column("pull_off_depth", "h0", "depth at the pull-off, positive into the solid"),
+        Column("contact_radius_at_pull_off", _RADIUS, "contact edge there; null without one"),
+        Column("crack_speed_at_pull_off", "(R^2 dg0/E0*)^(1/3)/tau0", "speed of the edge there"),
+        *_curve(
+            "force",
+            _FORCE,
+            1.0,
+            Column("trajectory_contact_radius", _RADIUS, _EDGE, form="curve"),
+        ),
+        *_HOW,
+    ),
+    "punch": (
+        Column("size", "a0", "half width of the punch", form="exact"),
+        Column("thickness", "a0", "thickness of the layer", form="exact"),
+        Column("cohesion", "1", "strength over relaxed contact modulus", form="exact"),
+        Column("modulus_ratio", "1", "rubbery over glassy modulus k", form="exact"),
+        Column("preload", "h0", "depth of the relaxed start", form="exact"),
+        Column("rate", "h0/tau0", "retraction speed", form="exact"),
+        Column("pull_off_stress", "sigma0", "largest mean tension"),
+        Column("work_to_pull_off", "dg0", "work of unit area from zero stress"),
+        Column("pull_off_depth", "h0", "depth at the pull-off, positive into the layer"),
+        Column("ligament_at_pull_off", "a", "half width still in contact there"),
+        Column("crack_speed_at_pull_off", "h0/tau0", "speed of the edge there; null at a jump"),
+        *_curve(
+            "stress",
+            "sigma0",
+            -1.0,
+            Column(
+                "trajectory_ligament", "a", _EDGE, "trajectory_contact_radius", "curve", over="size"
+            ),
+        ),
+        *_HOW,
+    ),
+}
+
+
+def units(kind: str) -> dict[str, list[str]]:
+    """Return unit and words of every column of a kind of campaign.
+
+    Examples
+    --------
+    >>> units("sphere")["preload"]
+    ['h0', 'depth of the relaxed start']
+    """
+    return {column.name: [column.unit, column.words] for column in KEPT[kind]}

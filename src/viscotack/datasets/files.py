@@ -1,0 +1,128 @@
+"""Read a dataset, after its checksum has been compared."""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+NAMES = ("thesis", "broad", "punch")
+_HERE = Path(__file__).parent
+# Written beside the data by whoever makes them; the format of `sha256sum`.
+_CHECKSUMS = _HERE / "SHA256SUMS"
+# The key of the metadata of a Parquet file that holds what is said of the set as a whole.
+METADATA_KEY = b"viscotack dataset"
+
+
+def path(name: str) -> Path:
+    """Return the Parquet file of a set.
+
+    Raises
+    ------
+    ValueError
+        If there is no set of that name.
+
+    Examples
+    --------
+    >>> path("broad").name
+    'broad.parquet'
+    """
+    return _HERE / f"{_known(name)}.parquet"
+
+
+def plan_path(name: str) -> Path:
+    """Return the plan of a set, for ``viscotack campaign``.
+
+    Examples
+    --------
+    >>> plan_path("broad").name
+    'broad.toml'
+    """
+    return _HERE / "plans" / f"{_known(name)}.toml"
+
+
+def load(name: str) -> Any:
+    """Return a set as a ``pyarrow.Table``, a row per case in the order of its plan.
+
+    Columns, units and errors: docs/datasets.md. ``.to_pandas()`` where pandas is installed.
+
+    Parameters
+    ----------
+    name : {"thesis", "broad", "punch"}
+        8,505 spheres distributed as in Table A.1 of Maghami, PhD thesis (2025); spheres that fill
+        a far wider range evenly; flat punches on a layer.
+
+    Raises
+    ------
+    ValueError
+        If there is no set of that name, or its file is not the one that was published.
+    ModuleNotFoundError
+        Without pyarrow.
+
+    Examples
+    --------
+    >>> table = load("thesis")
+    >>> table.num_rows
+    8505
+    """
+    content = _checked(name)
+    pa = _arrow()
+    return pa.parquet.read_table(pa.BufferReader(content), partitioning=None)
+
+
+def metadata(name: str) -> dict[str, Any]:
+    """Return what the file says of the set as a whole: units, errors, plan, licence, versions.
+
+    Examples
+    --------
+    >>> metadata("thesis")["licence"]
+    'CC BY 4.0'
+    """
+    content = _checked(name)
+    pa = _arrow()
+    return json.loads(pa.parquet.read_schema(pa.BufferReader(content)).metadata[METADATA_KEY])
+
+
+def checksum(content: bytes) -> str:
+    """Return the SHA-256 of a file's content, in hexadecimal digits.
+
+    Examples
+    --------
+    >>> checksum(b"")[:16]
+    'e3b0c44298fc1c14'
+    """
+    return hashlib.sha256(content).hexdigest()
+
+
+def _known(name: str) -> str:
+    if name not in NAMES:
+        raise ValueError(f"there is no dataset {name!r}; there are {', '.join(NAMES)}")
+    return name
+
+
+def _checked(name: str) -> bytes:
+    file = path(name)
+    expected = _checksums()[file.name]
+    content = file.read_bytes()
+    if checksum(content) != expected:
+        raise ValueError(
+            f"{file} is damaged: its SHA-256 is {checksum(content)}, published was {expected}; "
+            "install viscotack again"
+        )
+    return content
+
+
+def _checksums() -> dict[str, str]:
+    lines = _CHECKSUMS.read_text(encoding="utf-8").splitlines()
+    return {file: digest for digest, file in (line.split() for line in lines)}
+
+
+def _arrow() -> Any:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise ModuleNotFoundError(
+            "the datasets are stored in Parquet, which needs pyarrow; install it with "
+            "pip install 'viscotack[campaign]'"
+        ) from None
+    return pyarrow

@@ -1,0 +1,160 @@
+"""Make a dataset: a campaign, its less certain cases again and finer, and one file of it all.
+
+A campaign has one accuracy. Most cases are far better than it, some are not: those whose error
+estimates miss the targets are run again with a quarter of the error, and with a sixteenth. Each
+pass is a campaign of its own in the folder, and so resumable.
+"""
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from .. import __version__
+from ..campaign import Plan, Progress, Store, read_plan, run
+from ..campaign.parts import arrow, write_whole
+from .columns import KEPT, units
+from .files import METADATA_KEY, plan_path
+
+# How much finer each pass is than the one before it, and how many there are.
+_FINER, _PASSES = 4.0, 3
+LICENCE = "CC BY 4.0"
+CITATION = "The viscotack developers: open datasets of viscoelastic detachment, made with viscotack"
+
+
+@dataclass(frozen=True)
+class Targets:
+    """Largest relative errors that a case should have; a less certain one is run again, finer.
+
+    Attributes
+    ----------
+    force, work : float
+        Of the pull-off force (or stress) and of the work to pull-off.
+    """
+
+    force: float = 2e-3
+    work: float = 5e-3
+
+
+def make(
+    name: str,
+    folder: str | os.PathLike[str],
+    *,
+    workers: int = 1,
+    targets: Targets | None = None,
+    cases: int | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> Path:
+    """Run what of a dataset has not been run, and return the file of it.
+
+    Parameters
+    ----------
+    name : {"thesis", "broad", "punch"}
+        Whose plan is run.
+    folder : path
+        Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
+    workers : int
+        Processes.
+    targets : Targets, optional
+        Which errors make a case run again; leave it out for 0.2 % and 0.5 %.
+    cases : int, optional
+        Only so many cases from the beginning of the plan, which for a Sobol fill are spread over
+        the whole range.
+    report : callable, optional
+        Called with the progress of each campaign.
+
+    Returns
+    -------
+    Path
+        ``NAME.parquet`` in the folder.
+
+    Raises
+    ------
+    RuntimeError
+        If a campaign was stopped before its end.
+    """
+    folder, targets = Path(folder), targets or Targets()
+    plan = read_plan(plan_path(name))
+    plan = replace(plan, cases=plan.cases[:cases])
+    stores: list[Store] = []
+    for number in range(_PASSES):
+        if not plan.cases:
+            break
+        place = folder / (f"finer-{number}" if number else "first")
+        done = run(plan, place, workers=workers, report=report)
+        if done.stopped:
+            raise RuntimeError(f"stopped; run again with {folder} to go on")
+        stores.append(Store(place))
+        plan = _uncertain(plan, stores[-1], targets)
+    target = folder / f"{name}.parquet"
+    write_dataset(name, stores, target)
+    return target
+
+
+def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
+    """Return the plan of the cases whose error estimates miss the targets, finer."""
+    limits = {"error_estimate": targets.force, "error_estimate_work": targets.work}
+    missed = {
+        row["name"]
+        for row in store.results().select(["name", *limits]).to_pylist()
+        if any(row[name] is None or row[name] > limit for name, limit in limits.items())
+    }
+    return replace(
+        plan,
+        cases=tuple(case for case in plan.cases if case.name in missed),
+        settings=replace(plan.settings, accuracy=plan.settings.accuracy / _FINER),
+        source="",
+    )
+
+
+def write_dataset(name: str, stores: list[Store], target: Path) -> None:
+    """Write one file of campaigns with the same cases, each case from the last one that has it.
+
+    Stated errors are the estimates of the solver, but no less than columns.LEAST_ERRORS.
+    """
+    pa = arrow()
+    rows: dict[str, Mapping[str, Any]] = {}
+    for store in stores:
+        accuracy = store.settings.accuracy
+        for row in store.results().to_pylist():
+            rows[row["name"]] = row | {"accuracy": accuracy}
+    planned = {case.name: case.inputs for case in stores[0].plan().cases}
+    # a row repeats inputs that went through the problem, which costs the last digit
+    solved = [{**rows[case], **inputs} for case, inputs in planned.items() if case in rows]
+    kind = stores[0].provenance["kind"]
+    columns = {
+        column.name: pa.array([column.value(row) for row in solved], column.type(pa))
+        for column in KEPT[kind]
+    }
+    facts = {
+        "name": name,
+        "licence": LICENCE,
+        "citation": CITATION,
+        "viscotack": __version__,
+        "made": _days(stores),
+        "settings": [asdict(store.settings) for store in stores],
+        "cases": len(planned),
+        "failures": _failures(stores[0], rows),
+        "columns": units(kind),
+        "plan": plan_path(name).read_text(encoding="utf-8"),
+    }
+    table = pa.table(columns).replace_schema_metadata({METADATA_KEY: json.dumps(facts)})
+    sink = pa.BufferOutputStream()
+    pa.parquet.write_table(table, sink, compression="zstd", compression_level=19)
+    write_whole(target, sink.getvalue())
+
+
+def _failures(store: Store, rows: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the cases without a result, with their inputs and the reason."""
+    left_out = ("name", "wall_time_s")
+    found = store.failures().to_pylist()
+    kept = [row for row in found if row["name"] not in rows]
+    return [{k: v for k, v in row.items() if k not in left_out} for row in kept]
+
+
+def _days(stores: list[Store]) -> list[str]:
+    """Return the days on which cases were run."""
+    runs = [begun for store in stores for begun in store.provenance["runs"]]
+    return sorted({begun["began"][:10] for begun in runs})
