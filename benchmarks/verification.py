@@ -55,8 +55,8 @@ TAIL = """
 - No measured curve is predicted with nothing adjusted on it: the lens on PDMS follows the published
   simulation at slow speeds only with a range h0 that was fitted to the rate series itself.
 - Tabor numbers above 10 are compared with JKR only in the elastic case.
-- The published table is a peer with its own errors, not truth: see the rows above 3 % that
-  `python benchmarks/published.py --count 1000` lists, each with the converged value that decides.
+- The published table is a peer with its own errors, not truth: see the rows above 2 % that
+  published-data.md lists, each with the converged value that decides.
 - Work to pull-off ends at a flat minimum: where it is tiny (shallow preloads at small Tabor
   numbers, work below 0.05), its relative error exceeds 1 % at the default accuracy; the estimate
   says so.
