@@ -21,6 +21,7 @@ is linear over the steps.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
@@ -30,8 +31,10 @@ from scipy.special import ellipkm1
 from viscotack.materials import Material
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth
+from viscotack.punch_problem import Case, PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 
+EDGE_GAP = 3 ** (1 / 6)
 _GAUSS, _WEIGHT = np.polynomial.legendre.leggauss(20)
 _S, _DS = (_GAUSS + 1) / 2, _WEIGHT / 2  # on (0, 1)
 
@@ -141,44 +144,87 @@ def plain_solve(
         Ends early just past the pull-off, where a jump may follow, or with a status "stopped" where
         Newton fails.
     """
-    began = perf_counter()
-    groups = problem.groups()
-    if not isinstance(groups.start, AtDepth):
-        raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
-    if groups.rate is None or groups.moves:
-        raise ValueError("the plain twin retracts and does nothing else")
-    mu, depth = groups.tabor, groups.start.depth
+    began, groups = perf_counter(), problem.groups()
+    mu, depth = groups.tabor, relaxed_depth(groups)
     r = np.linspace(0.0, outer_radius, nodes)
     G = mu * hat_matrix(nodes, r[1])
     ring = np.pi * r[1] * 2 * r
     ring[0], ring[-1] = np.pi * r[1] ** 2 / 3, np.pi * r[1] * (r[-1] - r[1] / 3)
-    base = 1 + 0.5 * mu * r * r
-    dt = (depth - last_depth) / groups.rate / steps
+    return retract(
+        problem,
+        began=began,
+        depth=depth,
+        matrix=G,
+        base=1 + 0.5 * mu * r * r,
+        tabor=mu,
+        guess=_jkr_gap(r, mu, depth),
+        force=lambda sigma, gap: _force(ring, sigma, gap),
+        edge=lambda gap: _edge(r, gap),
+        edge_unit=np.pi ** (1 / 3),
+        steps=steps,
+        last_depth=last_depth,
+    )
+
+
+def relaxed_depth(groups: Groups | PunchGroups) -> float:
+    """Return the depth [h0] at which the test of a plain twin begins."""
+    if not isinstance(groups.start, AtDepth):
+        raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
+    if groups.rate is None or groups.moves:
+        raise ValueError("the plain twin retracts and does nothing else")
+    return groups.start.depth
+
+
+def retract(
+    problem: Case,
+    *,
+    began: float,
+    depth: float,
+    matrix: npt.NDArray,
+    base: npt.NDArray,
+    tabor: float,
+    guess: npt.NDArray,
+    force: Callable[[npt.NDArray, npt.NDArray], float],
+    edge: Callable[[npt.NDArray], float],
+    edge_unit: float,
+    steps: int,
+    last_depth: float,
+) -> Result:
+    """March from a relaxed depth to the last one [h0] in equal steps: the loop of Appendix V.
+
+    Displacement [h0] is `matrix` times sigma, `base` the gap [h0] at depth zero, `guess` the gap
+    from which the first Newton starts; `force` tells the force of sigma and gap, `edge` the contact
+    edge, of which speeds count `edge_unit` each. It `began` [s] when its matrix was begun.
+    """
+    groups = problem.groups()
+    rate_of_drive = groups.rate
+    assert rate_of_drive is not None
+    dt = (depth - last_depth) / rate_of_drive / steps
     C = mean_compliance(groups.material, dt, steps)
 
-    gap, iterations = newton(G, base - depth, mu, _jkr_gap(r, mu, depth), 200)
-    first = sigma = lennard_jones(gap, mu)[0]
-    changes = np.zeros((steps, nodes))
-    times, depths, forces, radii = [0.0], [depth], [_force(ring, sigma, gap)], [_edge(r, gap)]
+    gap, iterations = newton(matrix, base - depth, tabor, guess, 200)
+    first = sigma = lennard_jones(gap, tabor)[0]
+    changes = np.zeros((steps, len(gap)))
+    times, depths, forces, edges = [0.0], [depth], [force(sigma, gap)], [edge(gap)]
     status = f"{Outcome.IN_CONTACT} at the end of the travel"
-    lowest, rate = 0, np.zeros(nodes)
+    lowest, rate = 0, np.zeros(len(gap))
     for q in range(1, steps + 1):
-        depth -= groups.rate * dt
+        depth -= rate_of_drive * dt
         past = first + C[q - 1 : 0 : -1] @ changes[: q - 1] if q > 1 else first
-        guess = np.maximum(gap + rate, 0.7 * gap)
-        free = base - depth + G @ (past - C[0] * sigma)
+        predicted = np.maximum(gap + rate, 0.7 * gap)
+        free = base - depth + matrix @ (past - C[0] * sigma)
         try:
-            found, count = newton(C[0] * G, free, mu, guess, 30)
+            found, count = newton(C[0] * matrix, free, tabor, predicted, 30)
         except (ArithmeticError, np.linalg.LinAlgError) as failure:
             status = f"{Outcome.STOPPED} because {failure} at depth {depth:.4g} h0; take more steps"
             break
         rate, gap, iterations = found - gap, found, iterations + count
-        new = lennard_jones(gap, mu)[0]
+        new = lennard_jones(gap, tabor)[0]
         changes[q - 1], sigma = new - sigma, new
         times.append(q * dt)
         depths.append(depth)
-        forces.append(_force(ring, sigma, gap))
-        radii.append(_edge(r, gap))
+        forces.append(force(sigma, gap))
+        edges.append(edge(gap))
         lowest = q if forces[q] < forces[lowest] else lowest
         if q > lowest + 2 and forces[lowest] < 0 and forces[q] > 0.9 * forces[lowest]:
             status = f"{Outcome.IN_CONTACT} just past the pull-off"
@@ -188,13 +234,13 @@ def plain_solve(
         time=np.array(times),
         depth=np.array(depths),
         force=np.array(forces),
-        contact_radius=np.array(radii),
-        edge_speed=np.pi ** (1 / 3) * receding_speed(times, radii),
+        contact_radius=np.array(edges),
+        edge_speed=edge_unit * receding_speed(times, edges),
         status=status,
         statistics={
             "steps": len(times) - 1,
             "newton_iterations": iterations,
-            "nodes": nodes,
+            "nodes": len(gap),
             "wall_time_s": perf_counter() - began,
         },
     )
@@ -207,9 +253,16 @@ def _force(ring: npt.NDArray, sigma: npt.NDArray, gap: npt.NDArray) -> float:
 
 def _edge(r: npt.NDArray, gap: npt.NDArray) -> float:
     """Return the contact radius [(pi R^2 dg/E0*)^(1/3)], nan without an edge."""
-    below = np.flatnonzero(gap < 3 ** (1 / 6))
-    if len(below) == 0 or below[-1] == len(r) - 1:
+    return float("nan") if gap[-1] < EDGE_GAP else crossing(r, gap) / np.pi ** (1 / 3)
+
+
+def crossing(place: npt.NDArray, gap: npt.NDArray) -> float:
+    """Return where the gap last passes that of the largest tension; nan where it never does."""
+    below = np.flatnonzero(gap < EDGE_GAP)
+    if len(below) == 0:
         return float("nan")
     i = below[-1]
-    share = (3 ** (1 / 6) - gap[i]) / (gap[i + 1] - gap[i])
-    return float((r[i] + share * (r[i + 1] - r[i])) / np.pi ** (1 / 3))
+    if i == len(place) - 1:
+        return float(place[-1])
+    share = (EDGE_GAP - gap[i]) / (gap[i + 1] - gap[i])
+    return float(place[i] + share * (place[i + 1] - place[i]))

@@ -27,11 +27,10 @@ import numpy.typing as npt
 from scipy.linalg import toeplitz
 from scipy.special import sici, xlogy
 
-from viscotack.bem.plain import lennard_jones, mean_compliance, newton
+from viscotack.bem.plain import crossing, relaxed_depth, retract
 from viscotack.layer import Base
-from viscotack.protocol import AtDepth
 from viscotack.punch_problem import PunchGroups, PunchProblem
-from viscotack.result import Outcome, Result, receding_speed
+from viscotack.result import Result
 
 # kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.
 _END = 60.0
@@ -96,72 +95,21 @@ def plain_solve(
         Ends early just past the pull-off, where a jump may follow, or with a status "stopped" where
         Newton fails.
     """
-    began = perf_counter()
-    groups = problem.groups()
-    if not isinstance(groups.start, AtDepth):
-        raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
-    if groups.rate is None or groups.moves:
-        raise ValueError("the plain twin retracts and does nothing else")
-    depth, strength = groups.start.depth, groups.traction.strength
+    began, groups = perf_counter(), problem.groups()
+    depth, strength = relaxed_depth(groups), groups.traction.strength
     x = np.linspace(-groups.size, groups.size, triangles + 1)
     G = triangle_matrix(triangles, groups.size, groups.thickness, groups.base)
-    G *= np.pi / (2 * strength**2)
-    dt = (depth - last_depth) / groups.rate / steps
-    C = mean_compliance(groups.material, dt, steps)
-
-    def mean(p: npt.NDArray) -> float:
-        return float(p.sum()) / (triangles * strength)
-
-    gap, iterations = newton(G, np.full(len(x), 1 - depth), 1.0, np.ones(len(x)), 200)
-    first = p = lennard_jones(gap, 1.0)[0]
-    changes = np.zeros((steps, len(x)))
-    times, depths, forces, edges = [0.0], [depth], [mean(p)], [_edge(x, gap)]
-    status = f"{Outcome.IN_CONTACT} at the end of the travel"
-    lowest, rate = 0, np.zeros(len(x))
-    for q in range(1, steps + 1):
-        depth -= groups.rate * dt
-        past = first + C[q - 1 : 0 : -1] @ changes[: q - 1] if q > 1 else first
-        guess = np.maximum(gap + rate, 0.7 * gap)
-        try:
-            found, count = newton(C[0] * G, 1 - depth + G @ (past - C[0] * p), 1.0, guess, 30)
-        except (ArithmeticError, np.linalg.LinAlgError) as failure:
-            status = f"{Outcome.STOPPED} because {failure} at depth {depth:.4g} h0; take more steps"
-            break
-        rate, gap, iterations = found - gap, found, iterations + count
-        new = lennard_jones(gap, 1.0)[0]
-        changes[q - 1], p = new - p, new
-        times.append(q * dt)
-        depths.append(depth)
-        forces.append(mean(p))
-        edges.append(_edge(x, gap))
-        lowest = q if forces[q] < forces[lowest] else lowest
-        if q > lowest + 2 and forces[lowest] < 0 and forces[q] > 0.9 * forces[lowest]:
-            status = f"{Outcome.IN_CONTACT} just past the pull-off"
-            break
-    return Result(
-        problem=problem,
-        time=np.array(times),
-        depth=np.array(depths),
-        force=np.array(forces),
-        contact_radius=np.array(edges),
-        edge_speed=receding_speed(times, edges),
-        status=status,
-        statistics={
-            "steps": len(times) - 1,
-            "newton_iterations": iterations,
-            "nodes": len(x),
-            "wall_time_s": perf_counter() - began,
-        },
+    return retract(
+        problem,
+        began=began,
+        depth=depth,
+        matrix=G * (np.pi / (2 * strength**2)),
+        base=np.ones(len(x)),
+        tabor=1.0,
+        guess=np.ones(len(x)),
+        force=lambda p, _: float(p.sum()) / (triangles * strength),
+        edge=lambda gap: crossing(x, gap),
+        edge_unit=1.0,
+        steps=steps,
+        last_depth=last_depth,
     )
-
-
-def _edge(x: npt.NDArray, gap: npt.NDArray) -> float:
-    """Return the half length of the contact [a0], nan without one."""
-    below = np.flatnonzero(gap < 3 ** (1 / 6))
-    if len(below) == 0:
-        return float("nan")
-    i = below[-1]
-    if i == len(x) - 1:
-        return float(x[-1])
-    share = (3 ** (1 / 6) - gap[i]) / (gap[i + 1] - gap[i])
-    return float(x[i] + share * (x[i + 1] - x[i]))
