@@ -20,6 +20,7 @@ FLOOR = {
     "theory": 4,
     "profile_problem": 4,
     "punch_problem": 4,
+    "problems": 4,
     "record": 4,
     "case_file": 4,
     "outputs": 4,

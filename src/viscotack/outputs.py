@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from .problem import Groups
+from .problems import Case
 from .profile_problem import ProfileGroups, ProfileProblem
-from .punch_problem import Case, PunchGroups, PunchProblem
+from .punch_problem import PunchGroups, PunchProblem
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .geometry import Sphere
-from .materials import Material
+from .materials import Material, checks
 from .protocol import (
     Apart,
     Approach,
@@ -117,15 +117,11 @@ class Problem:
     protocol: Retraction
 
     def __post_init__(self) -> None:
-        check_material(self.material)
-        check_traction(self.traction)
-        for name, kind, example in (
-            ("geometry", Sphere, "Sphere(radius=5e-3)"),
-            ("protocol", Retraction, "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
-        ):
-            if not isinstance(getattr(self, name), kind):
-                given = type(getattr(self, name)).__name__
-                raise ValueError(f"{name} must be a {kind.__name__}, got {given}; try {example}")
+        check_parts(
+            self,
+            geometry=((Sphere,), "Sphere(radius=5e-3)"),
+            protocol=((Retraction,), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
+        )
         self._check_small_strain()
 
     @property
@@ -139,7 +135,7 @@ class Problem:
 
     def groups(self) -> "Groups":
         """Return the dimensionless problem; its time unit is that of the material."""
-        return Groups(**reduced_parts(self))
+        return Groups(tabor=self.tabor, **reduced_parts(self, sphere_units(self.scales())))
 
     def _check_small_strain(self) -> None:
         R = self.geometry.radius
@@ -255,20 +251,14 @@ class Groups:
         else:
             w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
             h0 = (R * w**2 / (E**2 * self.tabor**3)) ** (1 / 3)
-        T, nu = positive("time_unit", time_unit, "s"), finite("poisson_ratio", poisson_ratio, "1")
-        if not 0 <= nu <= 0.5:
-            raise ValueError(f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {nu}")
+        T = positive("time_unit", time_unit, "s")
+        nu = checks.poisson_ratio(finite("poisson_ratio", poisson_ratio, "1"))
         units = Units(h0, 1.5 * np.pi * R * w, (np.pi * R**2 * w / E) ** (1 / 3), T)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
             traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
             geometry=Sphere(radius=R),
-            protocol=Retraction(
-                start=units.start(self.start),
-                speed=units.speed(self.rate),
-                moves=units.moves(self.moves),
-                stiffness=units.stiffness(self.stiffness),
-            ),
+            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
         )
 
 
@@ -294,12 +284,15 @@ def sphere_scales(radius: float, material: Material, traction: Traction) -> Scal
     )
 
 
-def reduced_parts(problem: Any) -> dict[str, Any]:
-    """Return the fields of `Groups` that a problem in SI with a Tabor number and scales has."""
-    unit, protocol = problem.scales(), problem.protocol
-    units = Units(1 / unit.length, 1 / unit.force, 1 / unit.radius, 1 / unit.time)
+def sphere_units(scales: Scales) -> Units:
+    """Return what takes the numbers of a sphere's protocol from SI to those of its groups."""
+    return Units(1 / scales.length, 1 / scales.force, 1 / scales.radius, 1 / scales.time)
+
+
+def reduced_parts(problem: Any, units: Units) -> dict[str, Any]:
+    """Return what the dimensionless groups of all problems have: material, law and test."""
+    protocol = problem.protocol
     return {
-        "tabor": problem.tabor,
         "material": problem.material.reduced(),
         "start": units.start(protocol.start),
         "rate": units.speed(protocol.speed),
@@ -307,6 +300,17 @@ def reduced_parts(problem: Any) -> dict[str, Any]:
         "moves": units.moves(protocol.moves),
         "stiffness": units.stiffness(protocol.stiffness),
     }
+
+
+def check_parts(problem: Any, **parts: tuple[tuple[type, ...], str]) -> None:
+    """Refuse a problem in SI of which a part is of the wrong kind; an example for each."""
+    check_material(problem.material)
+    check_traction(problem.traction)
+    for name, (kinds, example) in parts.items():
+        part = getattr(problem, name)
+        if not isinstance(part, kinds):
+            wanted = " or ".join(kind.__name__ for kind in kinds)
+            raise ValueError(f"{name} must be a {wanted}, got {type(part).__name__}; try {example}")
 
 
 def check_material(material: Any) -> None:

@@ -16,16 +16,16 @@ from dataclasses import dataclass, replace
 from math import exp, log
 
 from .geometry import Cone, PowerLawProfile, profile_exponent
-from .materials import Material
+from .materials import Material, checks
 from .problem import (
     Scales,
-    check_material,
+    check_parts,
     check_reduced,
-    check_traction,
     farthest,
     material_in_si,
     reduced_parts,
     sphere_scales,
+    sphere_units,
     tabor_number,
 )
 from .protocol import Apart, AtDepth, AtForce, Move, Retraction, Start, Units
@@ -81,16 +81,11 @@ class ProfileProblem:
     protocol: Retraction
 
     def __post_init__(self) -> None:
-        check_material(self.material)
-        check_traction(self.traction)
-        for name, kinds, example in (
-            ("profile", (Cone, PowerLawProfile), "Cone(slope=0.1)"),
-            ("protocol", (Retraction,), "Retraction(start=AtForce(force=1e-6), speed=1e-5)"),
-        ):
-            if not isinstance(getattr(self, name), kinds):
-                wanted = " or ".join(kind.__name__ for kind in kinds)
-                given = type(getattr(self, name)).__name__
-                raise ValueError(f"{name} must be a {wanted}, got {given}; try {example}")
+        check_parts(
+            self,
+            profile=((Cone, PowerLawProfile), "Cone(slope=0.1)"),
+            protocol=((Retraction,), "Retraction(start=AtForce(force=1e-6), speed=1e-5)"),
+        )
         self._check_small_strain()
 
     @property
@@ -110,7 +105,11 @@ class ProfileProblem:
 
     def groups(self) -> "ProfileGroups":
         """Return the dimensionless problem; its time unit is that of the material."""
-        return ProfileGroups(**reduced_parts(self), profile_exponent=self.profile.exponent)
+        return ProfileGroups(
+            tabor=self.tabor,
+            profile_exponent=self.profile.exponent,
+            **reduced_parts(self, sphere_units(self.scales())),
+        )
 
     def _check_small_strain(self) -> None:
         from .theory import profiles  # nothing else here needs the theories
@@ -246,9 +245,8 @@ class ProfileGroups:
         profile = PowerLawProfile(coefficient, self.profile_exponent)
         E = positive("contact_modulus", contact_modulus, "Pa")
         w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
-        T, nu = positive("time_unit", time_unit, "s"), finite("poisson_ratio", poisson_ratio, "1")
-        if not 0 <= nu <= 0.5:
-            raise ValueError(f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {nu}")
+        T = positive("time_unit", time_unit, "s")
+        nu = checks.poisson_ratio(finite("poisson_ratio", poisson_ratio, "1"))
         R = _equivalent_radius(profile.coefficient, profile.exponent, w / E)
         h0 = (R * w**2 / E**2) ** (1 / 3) / self.tabor
         material = material_in_si(self.material, E * (1 - nu**2), T, nu)
@@ -259,12 +257,7 @@ class ProfileGroups:
             material=material,
             traction=traction,
             profile=profile,
-            protocol=Retraction(
-                start=units.start(self.start),
-                speed=units.speed(self.rate),
-                moves=units.moves(self.moves),
-                stiffness=units.stiffness(self.stiffness),
-            ),
+            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
         )
 
 

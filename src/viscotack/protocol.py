@@ -266,6 +266,21 @@ class Units:
     contact_radius: float
     time: float
 
+    def retraction(
+        self,
+        start: Start | Apart,
+        speed: float | None,
+        moves: tuple[Move, ...],
+        stiffness: float | None,
+    ) -> Retraction:
+        """Return a test whose parts are given, in the other units."""
+        return Retraction(
+            start=self.start(start),
+            speed=self.speed(speed),
+            moves=self.moves(moves),
+            stiffness=self.stiffness(stiffness),
+        )
+
     def start(self, start: Start | Apart) -> Start | Apart:
         """Return a start in the other units."""
         match start:

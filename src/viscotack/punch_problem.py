@@ -16,16 +16,8 @@ import numpy as np
 
 from .geometry import FlatPunch
 from .layer import Base, Bonded, Frictionless, Layer
-from .materials import Material
-from .problem import (
-    Groups,
-    Problem,
-    check_material,
-    check_reduced,
-    check_traction,
-    material_in_si,
-)
-from .profile_problem import ProfileGroups, ProfileProblem
+from .materials import Material, checks
+from .problem import check_parts, check_reduced, material_in_si, reduced_parts
 from .protocol import Apart, AtRadius, Move, Retraction, Start, Units
 from .traction import LennardJones, Traction
 from .units import finite, positive
@@ -110,16 +102,12 @@ class PunchProblem:
     protocol: Retraction
 
     def __post_init__(self) -> None:
-        check_material(self.material)
-        check_traction(self.traction)
-        for name, kind, example in (
-            ("punch", FlatPunch, "FlatPunch(half_width=1e-3)"),
-            ("layer", Layer, "Layer(thickness=1e-4)"),
-            ("protocol", Retraction, "Retraction(start=AtDepth(1e-6), speed=1e-4)"),
-        ):
-            if not isinstance(getattr(self, name), kind):
-                given = type(getattr(self, name)).__name__
-                raise ValueError(f"{name} must be a {kind.__name__}, got {given}; try {example}")
+        check_parts(
+            self,
+            punch=((FlatPunch,), "FlatPunch(half_width=1e-3)"),
+            layer=((Layer,), "Layer(thickness=1e-4)"),
+            protocol=((Retraction,), "Retraction(start=AtDepth(1e-6), speed=1e-4)"),
+        )
         base, nu = self.layer.base, self.material.poisson_ratio
         if isinstance(base, Bonded) and base.poisson_ratio != nu:
             raise ValueError(
@@ -148,19 +136,14 @@ class PunchProblem:
 
     def groups(self) -> "PunchGroups":
         """Return the dimensionless problem; its time unit is that of the material."""
-        unit, protocol = self.scales(), self.protocol
+        unit = self.scales()
         units = Units(1 / unit.length, 1 / unit.stress, 1 / unit.width, 1 / unit.time)
         return PunchGroups(
             size=self.punch.half_width / unit.width,
             thickness=self.layer.thickness / unit.width,
             cohesion=unit.stress / self.material.contact_modulus,
-            material=self.material.reduced(),
-            start=units.start(protocol.start),
-            rate=units.speed(protocol.speed),
             base=self.layer.base,
-            traction=self.traction.reduced(),
-            moves=units.moves(protocol.moves),
-            stiffness=units.stiffness(protocol.stiffness),
+            **reduced_parts(self, units),
         )
 
 
@@ -270,9 +253,8 @@ class PunchGroups:
         """
         E = positive("contact_modulus", contact_modulus, "Pa")
         w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
-        T, nu = positive("time_unit", time_unit, "s"), finite("poisson_ratio", poisson_ratio, "1")
-        if not 0 <= nu <= 0.5:
-            raise ValueError(f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {nu}")
+        T = positive("time_unit", time_unit, "s")
+        nu = checks.poisson_ratio(finite("poisson_ratio", poisson_ratio, "1"))
         strength = self.cohesion * E
         h0 = self.traction.strength * w / strength
         a0 = np.pi * E * w / (2 * strength**2)
@@ -282,14 +264,5 @@ class PunchGroups:
             traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
             punch=FlatPunch(half_width=self.size * a0),
             layer=Layer(thickness=self.thickness * a0, base=self.base),
-            protocol=Retraction(
-                start=units.start(self.start),
-                speed=units.speed(self.rate),
-                moves=units.moves(self.moves),
-                stiffness=units.stiffness(self.stiffness),
-            ),
+            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
         )
-
-
-# Whatever can be simulated.
-Case = Problem | Groups | PunchProblem | PunchGroups | ProfileProblem | ProfileGroups

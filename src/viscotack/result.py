@@ -28,7 +28,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .outputs import kind_of, si_scales
-from .punch_problem import Case
+from .problems import Case
 from .record import from_dict, to_dict
 from .units import finite
 

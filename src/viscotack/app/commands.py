@@ -24,8 +24,9 @@ from ..case_file import read_case
 from ..observables import summary
 from ..outputs import kind_of
 from ..problem import Problem
+from ..problems import Case
 from ..profile_problem import ProfileProblem
-from ..punch_problem import Case, PunchProblem
+from ..punch_problem import PunchProblem
 from ..result import Outcome, Result, load, save, write_csv
 from .flags import problem_from_flags
 

@@ -21,8 +21,9 @@ from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Material, Modes
 from viscotack.observables import pull_off_force, work_to_pull_off
 from viscotack.problem import Groups
+from viscotack.problems import Case
 from viscotack.profile_problem import ProfileGroups
-from viscotack.punch_problem import Case, PunchGroups
+from viscotack.punch_problem import PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 
 _UNTIL = ("pull-off", "detached")
