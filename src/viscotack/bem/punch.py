@@ -9,7 +9,7 @@ Cracks start at the ends of the punch, so the nodes are finest there and follow 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -24,12 +24,8 @@ from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface, stiffness
 from viscotack.layer import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
-from viscotack.traction import LennardJones, Traction, softening
+from viscotack.traction import Traction
 
-# The law for which numbers of nodes are stated.
-_SOFTENING = softening(LennardJones(1.0, 1.0))
-# Lengths of the relaxed crack's zone that stay fine at the end of the punch, for what remembers.
-_SCAR_ZONES = 2.0
 # A glued layer with a foundation softer than this is squeezed sideways rather than compressed: its
 # nodes tell thicknesses apart everywhere, by default three of them to one.
 _INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
@@ -100,22 +96,13 @@ class PunchContact:
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes; the depth does not matter to it."""
-        zone = self.zone
+        crack = settings.grading(self.zone, self.law, self.size)
         # Nodes lie on a lattice that begins at the end of the punch.
-        nodes = settings.nodes_per_zone * max(1.0, softening(self.law) / _SOFTENING)
-        spacing = min(zone / nodes, self.size / 8)
-        return _EndedGrading(
-            spacing=spacing,
-            half_width=zone * settings.fine_zones,
-            scar_spacing=spacing,
-            scar_half_width=zone * _SCAR_ZONES,
-            growth_inside=settings.growth_inside,
-            growth_outside=settings.growth_outside,
-            outer_radius=self.size,
-            coarsest=_SQUEEZED * self.thickness / settings.nodes_per_zone
-            if self.base.foundation < _INCOMPRESSIBLE
-            else np.inf,
-        )
+        spacing = min(crack.spacing, self.size / 8)
+        squeezed = self.base.foundation < _INCOMPRESSIBLE
+        coarsest = _SQUEEZED * self.thickness / settings.nodes_per_zone if squeezed else np.inf
+        finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
+        return _EndedGrading(**finest, coarsest=coarsest)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start, the whole punch in contact.

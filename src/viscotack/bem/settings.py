@@ -6,10 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viscotack.bem.mesh import Grading
+from viscotack.traction import LennardJones, Traction, softening
+
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
 DEFAULT_ACCURACY = 2e-3
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
+# The law for which numbers of nodes are stated.
+_SOFTENING = softening(LennardJones(1.0, 1.0))
+# Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
+_SCAR_ZONES = 2.0
 
 
 @dataclass(frozen=True)
@@ -82,6 +89,26 @@ class Settings:
             first_travel=2e-4 * s,
             imbalance=3e-5 * s * s,
             mode_tolerance=0.05 * accuracy,
+        )
+
+    def grading(
+        self, zone: float, law: Traction, outer_radius: float, *, more: float = 1.0
+    ) -> Grading:
+        """Return the grading of the nodes around a crack whose gap opens over a zone.
+
+        A law that falls more steeply than that of Lennard-Jones has nodes so much finer; `more`
+        multiplies their number where the geometry asks for it.
+        """
+        steeper = max(1.0, softening(law) / _SOFTENING)
+        spacing = zone / (self.nodes_per_zone * steeper * more)
+        return Grading(
+            spacing=spacing,
+            half_width=zone * self.fine_zones,
+            scar_spacing=spacing,
+            scar_half_width=zone * _SCAR_ZONES,
+            growth_inside=self.growth_inside,
+            growth_outside=self.growth_outside,
+            outer_radius=outer_radius,
         )
 
     def coarser(self, factor: float) -> Settings:

@@ -26,21 +26,17 @@ from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import jkr
-from viscotack.traction import LennardJones, Traction, softening
+from viscotack.traction import Traction
 
 # In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
 _JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 _RADIUS_UNIT = np.pi ** (1 / 3)
-# The law for which lengths and nodes are stated.
-_STRENGTH, _SOFTENING = LennardJones(1.0, 1.0).strength, softening(LennardJones(1.0, 1.0))
 _MOST_MESHES = 200
 # A start by force or radius is found to this part of (mu + 1) h0 in depth.
 _DEPTH_TOLERANCE = 1e-6
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
-# Lengths of the relaxed crack's zone that stay fine around the first edge.
-_SCAR_ZONES = 2.0
 
 
 @dataclass(frozen=True)
@@ -108,24 +104,14 @@ class SphereContact:
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes for a largest depth [h0]."""
-        tabor, zone = self.tabor, self.zone
         # Nodes catch the edge with an energy that falls exponentially with their number, while
         # that by which one place of the edge differs from the next falls like 1/mu^2.
-        catching = 1 + 0.4 * np.log10(max(tabor / 10, 1.0))
-        nodes = settings.nodes_per_zone * max(1.0, softening(self.law) / _SOFTENING) * catching
-        spacing = zone / nodes
+        catching = 1 + 0.4 * float(np.log10(max(self.tabor / 10, 1.0)))
         edge = self.jkr_radius(depth)
         # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
         rise = settings.reach + max(depth, self.rise(edge), 0.0)
-        return Grading(
-            spacing=spacing,
-            half_width=zone * settings.fine_zones,
-            scar_spacing=spacing,
-            scar_half_width=zone * _SCAR_ZONES,
-            growth_inside=settings.growth_inside,
-            growth_outside=settings.growth_outside,
-            outer_radius=max(self.radius_of_rise(rise), 2.5 * edge),
-        )
+        outer = max(self.radius_of_rise(rise), 2.5 * edge)
+        return settings.grading(self.zone, self.law, outer, more=catching)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start; by force, the load-stable contact.
