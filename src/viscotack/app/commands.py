@@ -100,6 +100,28 @@ def flag(name: str, metavar: str, words: str) -> Any:
     return Option(name, metavar=metavar, help=words, show_default=False)
 
 
+CaseFile = Annotated[
+    Path | None,
+    Argument(
+        metavar="CASE.toml",
+        help="A problem in SI with units, instead of the flags of the problem; docs/input.md "
+        "describes it.",
+        show_default=False,
+    ),
+]
+Ratio = Annotated[
+    float | None, flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1].")
+]
+Exponent = Annotated[float | None, flag("--exponent", "N", "Exponent of the power law, in (0, 3].")]
+Rate = Annotated[
+    float | None,
+    flag(
+        "--rate",
+        "RATE",
+        "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be left "
+        "out, and the test ends with the last move.",
+    ),
+]
 Gap = Annotated[
     float | None,
     flag("--apart", "GAP", "Or: start at rest with the surfaces this far apart, in h0."),
@@ -138,15 +160,7 @@ def _viscotack(
 
 @simulate.command("sphere")
 def simulate_sphere(
-    case: Annotated[
-        Path | None,
-        Argument(
-            metavar="CASE.toml",
-            help="A problem in SI with units, instead of the flags of the problem; "
-            "docs/input.md describes it.",
-            show_default=False,
-        ),
-    ] = None,
+    case: CaseFile = None,
     tabor: Annotated[
         float | None,
         flag("--tabor", "MU", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)."),
@@ -165,13 +179,8 @@ def simulate_sphere(
             "material fit` writes it.",
         ),
     ] = None,
-    modulus_ratio: Annotated[
-        float | None,
-        flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1]."),
-    ] = None,
-    exponent: Annotated[
-        float | None, flag("--exponent", "N", "Exponent of the power law, in (0, 3].")
-    ] = None,
+    modulus_ratio: Ratio = None,
+    exponent: Exponent = None,
     preload: Annotated[
         float | None,
         flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the solid."),
@@ -198,15 +207,7 @@ def simulate_sphere(
         float | None,
         flag("--stiffness", "K", "Of the machine, in 1.5 pi R dg0/h0; rigid when left out."),
     ] = None,
-    rate: Annotated[
-        float | None,
-        flag(
-            "--rate",
-            "RATE",
-            "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be "
-            "left out, and the test ends with the last move.",
-        ),
-    ] = None,
+    rate: Rate = None,
     law: LawName = None,
     radius: Annotated[
         str | None,

@@ -127,13 +127,7 @@ def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _start(given: Mapping[str, Any], tabor: float) -> Start | Apart:
-    names = [name for name in _STARTS if name in given]
-    if len(names) != 1:
-        got = " and ".join(f"--{name}" for name in names) or "none"
-        raise ValueError(
-            f"give exactly one of {', '.join(f'--{name}' for name in _STARTS)}, got {got}"
-        )
-    (name,) = names
+    name = one_of(given, _STARTS)
     kind = _STARTS[name]
     checked = positive if kind in (AtRadius, Apart) else finite
     value = checked(f"--{name}", given[name], "1")
@@ -175,6 +169,16 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
     if time_unit is None:
         time_unit = parse(f"1 {unit}", "s")
     return groups.in_si(**scales, time_unit=time_unit)
+
+
+def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
+    """Return which one of some flags is given; refuse none and several."""
+    found = [name for name in names if name in given]
+    if len(found) != 1:
+        got = " and ".join(f"--{name}" for name in found) or "none"
+        known = ", ".join(f"--{name}" for name in names)
+        raise ValueError(f"give exactly one of {known}, got {got}")
+    return found[0]
 
 
 def require(given: Mapping[str, Any], names: Iterable[str], why: str = "") -> None:

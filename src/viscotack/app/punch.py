@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from typer import Argument, Option
+from typer import Option
 
 from .. import plot
 from ..layer import Base, Bonded, Frictionless
@@ -33,7 +33,9 @@ from ..units import finite, parse
 from .commands import (
     Accuracy,
     AsJson,
+    CaseFile,
     CsvFile,
+    Exponent,
     Gap,
     HowFar,
     LawName,
@@ -41,6 +43,8 @@ from .commands import (
     PlotFile,
     PlotKind,
     PlotWhat,
+    Rate,
+    Ratio,
     SaveFile,
     Until,
     carry_out,
@@ -50,7 +54,7 @@ from .commands import (
     stated_problem,
     wrong_input,
 )
-from .flags import material_from_flags, require
+from .flags import material_from_flags, one_of, require
 from .theory import theory
 
 _STARTS = {"preload": AtDepth, "preload-force": AtForce, "apart": Apart}
@@ -59,10 +63,6 @@ _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
 
-Ratio = Annotated[
-    float | None, flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1].")
-]
-Exponent = Annotated[float | None, flag("--exponent", "N", "Exponent of a power law, in (0, 3].")]
 Solid = Annotated[
     str | None,
     flag(
@@ -81,14 +81,6 @@ Glued = Annotated[
         "slides on its base.",
     ),
 ]
-Case = Annotated[
-    Path | None,
-    Argument(
-        metavar="CASE.toml",
-        help="A problem in SI with units, instead of flags; docs/input.md describes it.",
-        show_default=False,
-    ),
-]
 
 
 class Law(StrEnum):
@@ -103,7 +95,7 @@ _LAWS = {Law.GREENWOOD: greenwood, Law.PERSSON_BRENER: persson_brener}
 
 @simulate.command("punch")
 def simulate_punch(
-    case: Case = None,
+    case: CaseFile = None,
     size: Annotated[float | None, flag("--size", "A", "Half width of the punch, a/a0.")] = None,
     thickness: Annotated[
         float | None, flag("--thickness", "B", "Thickness of the layer, b/a0.")
@@ -133,15 +125,7 @@ def simulate_punch(
         float | None,
         flag("--stiffness", "K", "Of the machine, in sigma0/h0; rigid when left out."),
     ] = None,
-    rate: Annotated[
-        float | None,
-        flag(
-            "--rate",
-            "RATE",
-            "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be "
-            "left out, and the test ends with the last move.",
-        ),
-    ] = None,
+    rate: Rate = None,
     law: LawName = None,
     until: HowFar = Until.DETACHED,
     accuracy: Accuracy = 2e-3,
@@ -225,12 +209,7 @@ def _given(flags: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _start(given: Mapping[str, Any]) -> Start | Apart:
-    names = [name for name in _STARTS if name in given]
-    if len(names) != 1:
-        got = " and ".join(f"--{name}" for name in names) or "none"
-        known = ", ".join(f"--{name}" for name in _STARTS)
-        raise ValueError(f"give exactly one of {known}, got {got}")
-    (name,) = names
+    name = one_of(given, _STARTS)
     return _STARTS[name](finite(f"--{name}", given[name], "1"))
 
 
@@ -240,7 +219,7 @@ def _base(given: Mapping[str, Any]) -> Base:
 
 @theory.command("punch")
 def theory_punch(
-    case: Case = None,
+    case: CaseFile = None,
     half_width: Annotated[
         str | None, flag("--half-width", "LENGTH", 'Half width of the punch a, "1 mm".')
     ] = None,

@@ -16,7 +16,15 @@ from ..theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
 from ..theory.modulus_file import read_modulus
 from ..units import parse, positive
 from . import commands
-from .commands import AsJson, PlotFile, application, check_files, wrong_input
+from .commands import (
+    AsJson,
+    Exponent,
+    PlotFile,
+    Ratio,
+    application,
+    check_files,
+    wrong_input,
+)
 from .flags import material_from_flags, problem_from_flags
 
 # Of a table over the range that matters.
@@ -39,13 +47,6 @@ Material = Annotated[
         help="power-law (also when left out), sls, prony:FILE or a passport FILE.toml, as for "
         "simulate sphere.",
     ),
-]
-Ratio = Annotated[
-    float | None,
-    Option("--modulus-ratio", metavar="K", help="Rubbery over glassy modulus, in (0, 1]."),
-]
-Exponent = Annotated[
-    float | None, Option("--exponent", metavar="N", help="Exponent of the power law, in (0, 3].")
 ]
 Speed = Annotated[
     list[float] | None,
