@@ -11,6 +11,7 @@ from viscotack.traction import LennardJones, Traction, softening
 
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
 DEFAULT_ACCURACY = 2e-3
+LOOSEST_ACCURACY = 0.02
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
 # The law for which numbers of nodes are stated.
@@ -70,10 +71,10 @@ class Settings:
     @classmethod
     def for_accuracy(cls, accuracy: float) -> Settings:
         """Return the settings that keep the pull-off force within this relative error."""
-        if not 1e-6 <= accuracy <= 0.02:
+        if not 1e-6 <= accuracy <= LOOSEST_ACCURACY:
             raise ValueError(
-                f"accuracy must be between 1e-6 and 0.02 (relative, on the pull-off force), "
-                f"got {accuracy}"
+                f"accuracy must be between 1e-6 and {LOOSEST_ACCURACY} (relative, on the pull-off "
+                f"force), got {accuracy}"
             )
         s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
         return cls(

@@ -16,7 +16,7 @@ from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.profile import ProfileContact
 from viscotack.bem.punch import PunchContact
-from viscotack.bem.settings import DEFAULT_ACCURACY, Settings
+from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
 from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Material, Modes
 from viscotack.observables import pull_off_force, work_to_pull_off
@@ -138,6 +138,20 @@ def solve(
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
+
+
+def has_start(problem: Case) -> bool:
+    """Return whether the state at rest exists in which a test begins; some milliseconds.
+
+    It is looked for at the loosest accuracy.
+    """
+    with threadpool_limits(limits=1, user_api="blas"):
+        try:
+            groups = problem.groups()
+            contact_of(groups).relaxed(groups.start, Settings.for_accuracy(LOOSEST_ACCURACY))
+        except ValueError:
+            return False
+    return True
 
 
 def _run(

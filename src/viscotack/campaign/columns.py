@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from ..bem import solve
+from ..bem import has_start
 from ..materials import RetardationPowerLaw, StandardSolid
 from ..problem import Groups
 from ..protocol import AtDepth, AtForce, AtRadius
@@ -111,22 +111,7 @@ def has_relaxed_contact(problem: Any) -> bool:
         return True
     if isinstance(start, AtForce) and start.force >= 0:
         return True
-    # A run raises ValueError before its first step where there is nothing to start from.
-    try:
-        solve(problem, accuracy=0.02, estimate_error=False, throw=False, progress=_begun)
-    except _Begun:
-        return True
-    except ValueError:
-        return False
-    return True
-
-
-class _Begun(Exception):
-    """A run has made its first step."""
-
-
-def _begun(_: float) -> None:
-    raise _Begun
+    return has_start(problem)
 
 
 # A kind more is an entry more. The powers of the cost were fitted to the times of 1,000 cases.
