@@ -15,6 +15,7 @@ PARTS = [
     ("The flat punch on a layer", ["punch.py"]),
     ("Tests with a history, and other traction laws", ["histories.py"]),
     ("From the rate to the state at pull-off", ["rate_law.py"]),
+    ("Tabor numbers of 100", ["large_tabor.py"]),
     ("Campaigns: speed, overhead, kills, a cluster, a full disk", ["campaign.py"]),
 ]
 
