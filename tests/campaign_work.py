@@ -29,6 +29,11 @@ def stand_in(problem, settings):
     return words | {"pull_off_force": 1 / problem.rate, "trajectory_force": curve}
 
 
+def rounded(problem, settings):
+    """Repeat an input, as a summary does, with its last digit lost."""
+    return stand_in(problem, settings) | {"modulus_ratio": 0.1 + 1e-16}
+
+
 def slow(problem, settings):
     """Do the same in about 20 ms."""
     sleep(0.02)

@@ -10,7 +10,6 @@ from viscotack import pull_off, pull_off_force, run_id, solve, to_dict
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
     KEY_SHARES,
-    TRAJECTORY_SHARES,
     Unsolved,
     attempt,
     curve,
@@ -41,7 +40,20 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     assert force == pytest.approx(exact_force(depth), abs=1e-3)
     assert synthetic.jkr_depth(radius) == pytest.approx(depth, rel=1e-3, abs=1e-2)
     assert force[-1] == -pull_off_force(result) == force.min()
-    assert np.all(np.diff(TRAJECTORY_SHARES, 2) < 0), "closer to each other at the pull-off"
+    assert np.diff(depth[:9], 2).min() > 0 and np.diff(depth[8:], 2).min() > 0, "ends are gathered"
+    assert force[8] == pytest.approx(0, abs=1e-12) and np.all(force[:8] > 0), "tension has 16"
+
+
+def test_a_start_in_tension_has_a_trajectory_of_one_part():
+    whole = synthetic.jkr_result(steps=400, end=0.7)
+    kept = np.flatnonzero(whole.force < -0.1)
+    names = ("time", "depth", "force", "contact_radius", "edge_speed")
+    late = synthetic.jkr_result(**{name: getattr(whole, name)[kept] for name in names})
+    row = curve(late, pull_off(late))
+    depth, force = np.array(row["trajectory_depth"]), np.array(row["trajectory_force"])
+    assert len(force) == 24 and force[0] == late.force[0] and force[-1] == force.min()
+    assert np.all(np.diff(depth, 2) > 0)
+    assert force == pytest.approx(exact_force(depth), abs=1e-3)
 
 
 def test_the_trajectory_ends_at_the_pull_off_before_a_jump():

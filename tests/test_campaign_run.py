@@ -18,6 +18,7 @@ from campaign_work import (
     interrupting,
     picky,
     plan_of,
+    rounded,
     slow,
     stand_in,
 )
@@ -49,6 +50,14 @@ def test_every_case_is_run_once_and_stored(tmp_path, crew):
     assert sorted(crew.done) == rates(tmp_path / "c") == [float(i + 1) for i in range(20)]
     row = Store(tmp_path / "c").results().to_pylist()[3]
     assert row["pull_off_force"] == 0.25 and row["tabor"] == 1.0 and len(row["trajectory_force"])
+
+
+def test_a_row_keeps_the_inputs_of_its_plan_to_the_last_digit(tmp_path, crew):
+    plan = plan_of(tmp_path, cases=3)
+    run(plan, tmp_path / "c", work=rounded)
+    for case, row in zip(plan.cases, Store(tmp_path / "c").results().to_pylist(), strict=True):
+        assert {name: row[name] for name in case.inputs} == case.inputs
+        assert row["pull_off_force"] == 1 / row["rate"]
 
 
 def test_the_longest_case_comes_first(tmp_path, crew):

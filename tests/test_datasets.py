@@ -11,7 +11,7 @@ from viscotack import datasets, solve  # noqa: E402
 from viscotack.campaign import read_plan  # noqa: E402
 from viscotack.campaign.columns import KINDS  # noqa: E402
 from viscotack.datasets import files  # noqa: E402
-from viscotack.datasets.columns import KEPT, LEAST_ERRORS  # noqa: E402
+from viscotack.datasets.columns import KEPT  # noqa: E402
 from viscotack.datasets.making import Targets, make  # noqa: E402
 from viscotack.observables import pull_off, work_to_pull_off  # noqa: E402
 
@@ -28,6 +28,16 @@ LOGARITHMIC = ("preload", "rate", "modulus_ratio")
 INPUTS = {
     "sphere": ("tabor", "modulus_ratio", "exponent", "preload", "rate"),
     "punch": ("size", "thickness", "cohesion", "modulus_ratio", "preload", "rate"),
+}
+
+
+# What the card says of `broad` and `chosen`: least and largest.
+RANGE = {
+    "tabor": (0.01, 10),
+    "modulus_ratio": (1e-4, 0.7),
+    "exponent": (0.15, 2),
+    "preload": (0.005, 500),
+    "rate": (0.01, 1e10),
 }
 
 
@@ -50,6 +60,10 @@ def test_a_set_has_the_columns_of_its_card(named):
     assert list(datasets.metadata(name)["columns"]) == table.column_names
     card = CARD.read_text(encoding="utf-8")
     assert [column for column in table.column_names if f"`{column}`" not in card] == []
+    (line,) = [
+        line for line in card.splitlines() if line.startswith(f"| `{name}` |") and "MB" in line
+    ]
+    assert f"| {table.num_rows:,} |" in line
 
 
 def test_a_set_is_the_beginning_of_its_plan(named):
@@ -85,15 +99,50 @@ def test_what_a_set_says_is_consistent(named):
     off = np.abs(start - travel - numbers(table, "pull_off_depth"))
     assert np.all(off <= 1e-6 * (np.abs(start) + travel))
     assert np.all(numbers(table, "energy_residual") < 1e-2)
-    for what in ("force", "work"):
-        assert np.all(numbers(table, f"{what}_error") >= np.float32(LEAST_ERRORS[f"{what}_error"]))
 
 
-def test_errors_are_within_their_targets_but_for_a_few(named):
-    _, table = named
+def gathered(count):
+    """Return shares of a part of the trajectory that is kept at so many points."""
+    return 1 - (1 - np.arange(count) / (count - 1)) ** 2
+
+
+def test_a_trajectory_has_eight_points_to_zero_force_and_sixteen_from_there(named):
+    name, table = named
+    sign, force = (-1, "stress") if name == "punch" else (1, "force")
+    line = sign * np.array(table.column(f"trajectory_{force}").to_pylist())
+    left = np.array(table.column("trajectory_travel_left").to_pylist())
+    assert np.all(np.diff(left) < 0)
+    assert left[:, 0] == pytest.approx(numbers(table, "travel_to_pull_off"), rel=1e-6, abs=0)
+    peak = -line[:, -1]
+    assert np.all(line >= -peak[:, None]), "the pull-off is the largest tension"
+    assert np.abs(left[:, -1]) / left[:, 0] == pytest.approx(0, abs=1e-7)
+    pressed = line[:, 0] > 0
+    line, left = line / peak[:, None], left / left[:, :1]
+    assert line[pressed, 8] == pytest.approx(0, abs=1e-9)
+    # where a start is all but free of force the nodes are felt
+    assert np.all(line[pressed, :8] > -2e-3) and np.all(line[pressed, 9:] < 0)
+    assert np.all(line[~pressed] <= 0)
+    zero = left[pressed, 8:9]
+    expected = np.hstack([1 - (1 - zero) * gathered(9), zero * (1 - gathered(16)[1:])])
+    assert left[pressed] == pytest.approx(expected, rel=1e-6, abs=1e-9)
+    assert left[~pressed] == pytest.approx(
+        np.broadcast_to(1 - gathered(24), left[~pressed].shape), rel=1e-6, abs=1e-7
+    )
+
+
+def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targets(named):
+    name, table = named
+    deep = numbers(table, "preload") > 80
+    steep = np.zeros_like(deep)
+    if name != "punch":
+        steep = (numbers(table, "tabor") > 5) & (numbers(table, "modulus_ratio") < 1e-3)
+    force, work = (numbers(table, f"{what}_error") for what in ("force", "work"))
+    least_work = np.where(steep, np.float32(2e-2), np.float32(5e-3))
+    assert np.all(force >= np.where(deep | steep, np.float32(1.5e-3), np.float32(1e-3)))
+    assert np.all(work >= least_work)
     targets = Targets()
-    assert np.mean(numbers(table, "force_error") > targets.force) < 0.01
-    assert np.mean(numbers(table, "work_error") > targets.work) < 0.02
+    assert np.mean(force > targets.force) < 0.01
+    assert np.mean(work > np.maximum(targets.work, least_work)) < 0.01
 
 
 @pytest.mark.parametrize("column", TABLE_A1)
@@ -108,15 +157,44 @@ def test_the_inputs_of_thesis_have_the_statistics_of_table_a1(column):
     assert (x.min(), x.max()) == pytest.approx((low, high), abs=2e-3)
 
 
-@pytest.mark.parametrize("name", ["broad", "punch"])
+@pytest.mark.parametrize("name", ["broad", "fast", "punch"])
 def test_a_filled_set_is_spread_evenly(name):
     table = datasets.load(name)
-    fill = {"broad": INPUTS["sphere"], "punch": INPUTS["punch"]}[name]
-    for column in fill:
+    for column in INPUTS[kind_of(name)]:
         x = np.log(numbers(table, column))
         if np.ptp(x):
             shares = np.histogram(x, bins=4, range=(x.min(), x.max()))[0] / len(x)
             assert shares == pytest.approx(0.25, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["broad", "chosen"])
+def test_a_set_is_within_the_range_of_broad_and_reaches_its_ends(name):
+    table = datasets.load(name)
+    faces = np.zeros(table.num_rows, dtype=bool)
+    for column, (least, largest) in RANGE.items():
+        x = numbers(table, column)
+        assert least <= x.min() < 1.02 * least and 0.98 * largest < x.max() <= largest
+        faces |= np.isin(x, (least, largest))
+    assert faces.sum() == {"broad": 0, "chosen": 542}[name]
+
+
+def test_in_fast_nothing_relaxes():
+    table = datasets.load("fast")
+    assert table.num_rows == 4096
+    assert set(numbers(table, "exponent")) == {2.0} and set(numbers(table, "rate")) == {1e16}
+    quick = np.flatnonzero(numbers(table, "steps") < 100)
+    for place in np.random.default_rng(6).choice(quick, 3, replace=False):
+        (row,) = table.slice(place, 1).to_pylist()
+        other = {name: row[name] for name in INPUTS["sphere"]} | {"exponent": 1.0, "rate": 1e13}
+        result = solve(
+            KINDS["sphere"].problem(other),
+            until="pull-off",
+            accuracy=row["accuracy"],
+            estimate_error=False,
+        )
+        peak, work = pull_off(result).force, work_to_pull_off(result)
+        assert peak == pytest.approx(row["pull_off_force"], rel=row["force_error"], abs=0)
+        assert work == pytest.approx(row["work_to_pull_off"], rel=row["work_error"], abs=0)
 
 
 @pytest.mark.parametrize("name", datasets.NAMES)
@@ -149,7 +227,7 @@ def test_a_damaged_file_is_refused(tmp_path, monkeypatch):
 
 
 def test_an_unknown_set_is_refused():
-    with pytest.raises(ValueError, match="no dataset 'thesys'; there are thesis, broad, punch"):
+    with pytest.raises(ValueError, match="there are thesis, broad, chosen, fast, punch"):
         datasets.load("thesys")
 
 

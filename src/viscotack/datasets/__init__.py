@@ -1,7 +1,7 @@
 """Open datasets of simulated detachments, made by this package: load them, or make them again.
 
-``load("thesis")``, ``load("broad")`` and ``load("punch")`` are tables of pyarrow, which comes with
-``pip install 'viscotack[campaign]'``. docs/datasets.md is their data card; the data are under
+``load("broad")`` is a table of pyarrow, which comes with ``pip install 'viscotack[campaign]'``; so
+are the other sets in NAMES. docs/datasets.md is their data card; the data are under
 CC BY 4.0. ``python -m viscotack.datasets NAME --out DIR`` makes a set again.
 """
 

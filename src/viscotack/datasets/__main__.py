@@ -16,8 +16,10 @@ def _say(progress: Progress) -> None:
 def main() -> None:
     """Run and say where the file is."""
     parser = argparse.ArgumentParser(prog="python -m viscotack.datasets", description=__doc__)
-    parser.add_argument("name", choices=NAMES)
-    parser.add_argument("--out", type=Path, required=True, help="folder of the campaigns")
+    parser.add_argument("name", choices=NAMES, help="which set")
+    parser.add_argument(
+        "--out", type=Path, required=True, help="folder of the campaigns; run again to go on"
+    )
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--cases", type=int, help="only so many, from the beginning of the plan")
     given = parser.parse_args()

@@ -5,7 +5,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-NAMES = ("thesis", "broad", "punch")
+NAMES = ("thesis", "broad", "chosen", "fast", "punch")
 _HERE = Path(__file__).parent
 # Written beside the data by whoever makes them; the format of `sha256sum`.
 _CHECKSUMS = _HERE / "SHA256SUMS"
@@ -47,9 +47,12 @@ def load(name: str) -> Any:
 
     Parameters
     ----------
-    name : {"thesis", "broad", "punch"}
-        8,505 spheres distributed as in Table A.1 of Maghami, PhD thesis (2025); spheres that fill
-        a far wider range evenly; flat punches on a layer.
+    name : {"thesis", "broad", "chosen", "fast", "punch"}
+        ``thesis``: 8,505 spheres distributed as in Table A.1 of Maghami, PhD thesis (2025).
+        ``broad``: 20,000 spheres that fill a far wider range evenly. ``chosen``: 2,000 spheres of
+        that range where models trained on these two agreed least. ``fast``: 4,096 spheres
+        retracted so fast that nothing relaxes, over the same Tabor numbers, modulus ratios and
+        depths. ``punch``: 2,000 flat punches on a layer.
 
     Raises
     ------

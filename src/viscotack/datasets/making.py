@@ -51,7 +51,7 @@ def make(
 
     Parameters
     ----------
-    name : {"thesis", "broad", "punch"}
+    name : {"thesis", "broad", "chosen", "fast", "punch"}
         Whose plan is run.
     folder : path
         Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
@@ -112,7 +112,7 @@ def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
 def write_dataset(name: str, stores: list[Store], target: Path) -> None:
     """Write one file of campaigns with the same cases, each case from the last one that has it.
 
-    Stated errors are the estimates of the solver, but no less than columns.LEAST_ERRORS.
+    Stated errors are the estimates of the solver, but no less than columns.least_errors.
     """
     pa = arrow()
     rows: dict[str, Mapping[str, Any]] = {}
@@ -120,9 +120,8 @@ def write_dataset(name: str, stores: list[Store], target: Path) -> None:
         accuracy = store.settings.accuracy
         for row in store.results().to_pylist():
             rows[row["name"]] = row | {"accuracy": accuracy}
-    planned = {case.name: case.inputs for case in stores[0].plan().cases}
-    # a row repeats inputs that went through the problem, which costs the last digit
-    solved = [{**rows[case], **inputs} for case, inputs in planned.items() if case in rows]
+    planned = [case.name for case in stores[0].plan().cases]
+    solved = [rows[case] for case in planned if case in rows]
     kind = stores[0].provenance["kind"]
     columns = {
         column.name: pa.array([column.value(row) for row in solved], column.type(pa))
