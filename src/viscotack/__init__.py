@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from .bem import solve as solve
     from .case_file import read_case as read_case
     from .dead_load import time_to_detachment as time_to_detachment
+    from .forecast import predict as predict
+    from .forecast_plot import draw_prediction as draw_prediction
+    from .forecast_table import predict_table as predict_table
     from .geometry import Cone as Cone
     from .geometry import FlatPunch as FlatPunch
     from .geometry import PowerLawProfile as PowerLawProfile
@@ -55,6 +58,9 @@ if TYPE_CHECKING:
     from .plot import draw_rates as draw_rates
     from .plot import draw_regimes as draw_regimes
     from .plot import save_figure as save_figure
+    from .prediction import OutOfRange as OutOfRange
+    from .prediction import Prediction as Prediction
+    from .prediction import prediction_summary as prediction_summary
     from .problem import Groups as Groups
     from .problem import Problem as Problem
     from .problem import Scales as Scales
@@ -166,6 +172,15 @@ _NAMES = {
         "Estimate",
         "threshold_contact_radius",
     ),
+    # the answer at once
+    "forecast": ("predict",),
+    "forecast_table": ("predict_table",),
+    "prediction": (
+        "Prediction",
+        "OutOfRange",
+        "prediction_summary",
+    ),
+    "forecast_plot": ("draw_prediction",),
     # its numbers and its pictures
     "dead_load": ("time_to_detachment",),
     "observables": (

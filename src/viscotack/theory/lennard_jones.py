@@ -23,6 +23,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from numpy.lib.mixins import NDArrayOperatorsMixin
 
 from ._checks import Number, plain, positive
 from ._lennard_jones_table import ROWS
@@ -59,7 +60,8 @@ def pull_off_ratio(tabor: npt.ArrayLike) -> Number:
     >>> f"{pull_off_ratio(3.24):.4f}"
     '1.0308'
     """
-    mu = positive(tabor=tabor)
+    # what only stands for an array, as where formulas are exported, has no values to check
+    mu: Any = tabor if isinstance(tabor, NDArrayOperatorsMixin) else positive(tabor=tabor)
     odds = np.exp(_series(mu, _FORCE_SERIES))
     inside = (4 / 3 + odds) / (1 + odds)
     rigid = 4 / 3 - (4 / 3 - _FORCE[0]) * (np.minimum(mu, _LOWEST) / _LOWEST) ** 1.5

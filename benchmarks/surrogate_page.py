@@ -1,0 +1,188 @@
+"""Write what the shipped surrogate is worth into docs/surrogate.md.
+
+`python benchmarks/surrogate_page.py [--write]`: the scores that its file holds, its speed here,
+and, where ../shared is at hand, how far it is from the published rows.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from cases import PUBLISHED
+
+from viscotack import Groups, predict
+from viscotack.materials import RetardationPowerLaw
+from viscotack.protocol import AtDepth
+from viscotack.surrogate import physics, store
+from viscotack.surrogate.store import shipped
+from viscotack.surrogate.table import read_detachments
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = ROOT / "docs" / "surrogate.md"
+
+SETS = {"all": "all", "broad": "`broad`", "thesis": "`thesis`", "chosen": "`chosen`"}
+Scores = dict[str, Any]
+
+
+def percent(value: float) -> str:
+    """Return a share in percent, two digits that matter."""
+    return f"{100 * value:.2g} %" if value < 0.095 else f"{100 * value:.1f} %"
+
+
+def errors(scores: Scores) -> list[str]:
+    """Return the table of errors and covers by set."""
+    lines = [
+        "| rows kept apart | | MSE of log10 | median | 95 % below | largest | "
+        "90 % interval holds | half width, median |",
+        "|---|---|---:|---:|---:|---:|---:|---:|",
+    ]
+    for key, name in SETS.items():
+        if key not in scores:
+            continue
+        for what in ("force", "work"):
+            one = scores[key][what]
+            lines.append(
+                f"| {name}, {scores[key]['rows']} | {what} | {one['mse_log10']:.1e} | "
+                f"{percent(one['median'])} | {percent(one['95 %'])} | {percent(one['largest'])} | "
+                f"{percent(one['cover'])} | {percent(one['half width'])} |"
+            )
+    return lines
+
+
+def covers(scores: Scores) -> str:
+    """Return the sentence about regions."""
+    words = []
+    for what in ("force", "work"):
+        found = scores["all"][what]["cover by region"]
+        words.append(f"{percent(min(found))} to {percent(max(found))} for {what}")
+    return f"In the nine regions the 90 % interval holds {' and '.join(words)}."
+
+
+def grouped(cells: Scores) -> str:
+    """Return the sentence about cells."""
+    words = []
+    for what in ("force", "work"):
+        found = cells[f"{what} by region"]
+        words.append(
+            f"{percent(cells[what])} for {what} ({percent(min(found))} to {percent(max(found))} in "
+            "the regions)"
+        )
+    return (
+        "On whole cells of materials kept apart, 90 % intervals measured on other such cells hold "
+        f"{' and '.join(words)}."
+    )
+
+
+def curves(scores: Scores) -> str:
+    """Return the sentence about curves."""
+    one = scores["all"]["curve"]
+    return (
+        "The force along the part in tension, at the depths of the stored points, is off by "
+        f"{percent(one['median'])} of the pull-off force in the median case (root mean square "
+        f"over the points), by less than {percent(one['90 %'])} in nine of ten and "
+        f"{percent(one['99 %'])} in 99 of 100."
+    )
+
+
+def bands(found: list[Scores]) -> list[str]:
+    """Return the table of bands."""
+    lines = [
+        "| band left out | from | to | rows | R2 of log10 force | MSE |",
+        "|---|---|---|---|---|---|",
+    ]
+    for one in found:
+        name = f"{one['input']}{', an edge' if one['edge'] else ''}"
+        lines.append(
+            f"| {name} | {one['from']:.3g} | {one['to']:.3g} | {one['rows']} | {one['r2']:.5f} | "
+            f"{one['mse_log10']:.1e} |"
+        )
+    return lines
+
+
+def speed() -> str:
+    """Return the sentence about time, of this machine."""
+    random = np.random.default_rng(0)
+    u = random.random((100_000, 5))
+    groups = physics.LOW * (physics.HIGH / physics.LOW) ** u
+    shipped().evaluate(groups[:10])
+    began = perf_counter()
+    said = shipped().evaluate(groups)
+    shipped().intervals(groups, said)
+    bulk = perf_counter() - began
+    material = RetardationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.6, tau0=1.0, poisson_ratio=0.0
+    )
+    one = Groups(tabor=1.0, material=material, start=AtDepth(10.0), rate=100.0)
+    predict(one)
+    began = perf_counter()
+    for _ in range(200):
+        predict(one)
+    single = (perf_counter() - began) / 200
+    size = store.SHIPPED.stat().st_size
+    weights = shipped().force.parameters + shipped().work.networks.parameters
+    return (
+        f"One `viscotack.predict`, with its curve and intervals, takes {1e3 * single:.2f} ms on "
+        f"one core; 100,000 forces and works with intervals {bulk:.2f} s. The file has "
+        f"{size / 1e6:.2f} MB, {weights} weights for force and work."
+    )
+
+
+def published() -> str:
+    """Return the sentence about the published rows; "" where they are not at hand."""
+    if not PUBLISHED.exists():
+        return ""
+    rows = read_detachments(PUBLISHED)
+    groups = np.column_stack([getattr(rows, name) for name in physics.INPUTS])
+    inside = shipped().inside(groups).all(axis=1)
+    said = shipped().evaluate(groups[inside])
+    off = np.abs(said.pull_off_force / rows.pull_off_force[inside] - 1)
+    return (
+        f"Of the {len(rows):,} rows that the authors of the thesis published, {inside.sum():,} lie "
+        f"in the range: the forces differ by {percent(float(np.median(off)))} in the median and by "
+        f"less than {percent(float(np.quantile(off, 0.95)))} in 95 % of them. Where they differ by "
+        "more, [a converged simulation decided](published-data.md)."
+    )
+
+
+def replaced(text: str, start: str, end: str, words: str) -> str:
+    """Return a text with the words between two marks."""
+    before, rest = text.split(start, 1)
+    return f"{before}{start}\n\n{words}\n\n{end}{rest.split(end, 1)[1]}"
+
+
+def main() -> None:
+    """Print, or write into the pages."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--write", action="store_true")
+    chosen = parser.parse_args()
+    facts = store.facts()
+    scores = facts["scores"]
+    at_random, cells = scores["kept apart at random"], scores["cells kept apart"]
+    parts = [
+        "\n".join(errors(at_random)),
+        covers(at_random),
+        grouped(cells),
+        curves(at_random),
+        speed(),
+    ]
+    parts.append(published())
+    if scores.get("bands kept apart"):
+        parts.append(
+            "How well the force of a whole band is told from the others, by one smaller network "
+            "(relaxed start and fast limit are known in the band too; what is told is the way "
+            "between the limits):"
+        )
+        parts.append("\n".join(bands(scores["bands kept apart"])))
+    words = "\n\n".join(part for part in parts if part)
+    print(words)
+    if chosen.write:
+        text = PAGE.read_text(encoding="utf-8")
+        PAGE.write_text(replaced(text, "<!-- scores -->", "<!-- end -->", words), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

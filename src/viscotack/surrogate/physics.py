@@ -1,0 +1,117 @@
+r"""What the networks are told and spared: limits, the relaxed start, and how inputs are scaled.
+
+Inputs of a row are the five groups of a sphere on a power law by retardation, pulled from a relaxed
+start: Tabor number mu, modulus ratio k, exponent n, depth d [h0] and rate [h0/tau0].
+
+A network never says a pull-off force. It says where between its two limits the force is,
+
+.. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \hat G(\mu, k, d) , \qquad 0 < s < 1 ,
+
+the elastic pull-off of the relaxed solid at the slow end and at the fast end that of a solid that
+does not relax at all, from the relaxed start; and that one is between the former and the fast limit
+of the largest contact, :math:`f(\mu k^{1/3})/k` (:mod:`viscotack.theory.bounds`). So no answer
+leaves these two, and slow, fast, JKR and Bradley limits come out right; G between them is learned,
+to 0.15 % where the solver knows it to 0.1 %. The force of the relaxed start is that of Hertz,
+
+.. math:: \hat F_H = \frac{8}{9 \pi} \left( \frac{\hat d}{\mu} \right)^{3/2} ,
+
+and :math:`\sqrt{1 + \hat F_H}` times a network, for adhesion changes a deep contact by that power.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+from ..theory import lennard_jones
+from .network import Networks
+
+Array = npt.NDArray[np.float64]
+
+INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
+TABOR, MODULUS_RATIO, EXPONENT, PRELOAD, RATE = range(5)
+# Of the set `broad`; the few deeper rows of `thesis` help, and are not enough to promise more.
+LIMITS = {
+    "tabor": (0.01, 10.0),
+    "modulus_ratio": (1e-4, 0.7),
+    "exponent": (0.15, 2.0),
+    "preload": (0.005, 500.0),
+    "rate": (0.01, 1e10),
+}
+LOW, HIGH = np.array(list(LIMITS.values())).T
+# Ends that are scaled to -1 and 1: with the deepest rows.
+_LOW, _HIGH = np.log10(LOW), np.log10([*HIGH[:3], 550.0, HIGH[4]])
+# Which of the inputs the relaxed start and the fast limit depend on.
+START, FAST = [TABOR, PRELOAD], [TABOR, MODULUS_RATIO, PRELOAD]
+# A network's output is small where the share of the way between two limits is near one half.
+STEEP = 4.0
+LEAST_WAY = 1e-4
+
+
+def scaled(groups: Array) -> Array:
+    """Return the logarithms of inputs, from -1 to 1 over all rows learned from; shape (n, 5)."""
+    return (2 * np.log10(groups) - (_LOW + _HIGH)) / (_HIGH - _LOW)
+
+
+def slow_limit(groups: Array) -> Array:
+    """Return log10 of the slowest pull-off force [1.5 pi R dg0], shape (n,)."""
+    return np.log10(lennard_jones.pull_off_ratio(groups[:, TABOR]))
+
+
+def largest_fast_limit(groups: Array) -> Array:
+    """Return log10 of the fastest pull-off force from a large contact, shape (n,)."""
+    k = groups[:, MODULUS_RATIO]
+    return np.log10(lennard_jones.pull_off_ratio(groups[:, TABOR] * np.cbrt(k)) / k)
+
+
+def share(output: Array) -> Array:
+    """Return the share s of the way between two limits that the output of a network stands for.
+
+    Examples
+    --------
+    >>> share(np.array([-9.0, 0.0, 9.0])).round(6).tolist()
+    [0.0, 0.5, 1.0]
+    """
+    return 1 / (1 + np.exp(-STEEP * output))
+
+
+def between(low: Array, high: Array, output: Array) -> Array:
+    """Return what lies between two logarithms, by the output of a network."""
+    return low + np.maximum(high - low, LEAST_WAY) * share(output)
+
+
+def way(groups: Array, fast: Networks) -> tuple[Array, Array]:
+    """Return log10 of the slow and the fast limit of the pull-off force, each of shape (n,)."""
+    slow = slow_limit(groups)
+    said = fast(scaled(groups)[:, FAST])[0, :, 0]
+    return slow, between(slow, largest_fast_limit(groups), said)
+
+
+def hertz(groups: Array) -> Array:
+    """Return the force of a relaxed start without adhesion [1.5 pi R dg0], shape (n,)."""
+    return 8 / (9 * np.pi) * (groups[:, PRELOAD] / groups[:, TABOR]) ** 1.5
+
+
+def start_force(groups: Array, output: Array) -> Array:
+    """Return the force of the relaxed start, compression positive, from the output of a network."""
+    without = hertz(groups)
+    return without + np.sqrt(1 + without) * output
+
+
+def start_output(groups: Array, force: Array) -> Array:
+    """Return the output that stands for a force of the relaxed start."""
+    without = hertz(groups)
+    return (force - without) / np.sqrt(1 + without)
+
+
+def with_start(groups: Array, force: Array, radius: Array, *logarithms: Array) -> Array:
+    """Return inputs for a network that is to know more of the case; shape (n, 8 + how many).
+
+    Parameters
+    ----------
+    groups : ndarray, shape (n, 5)
+    force, radius : ndarray, shape (n,)
+        Of the relaxed start.
+    logarithms : ndarray, shape (n,)
+        log10 of what else is known.
+    """
+    start = (np.arcsinh(force) / 5, np.tanh(force), np.log10(radius))
+    return np.column_stack([scaled(groups), *start, *logarithms])

@@ -1,0 +1,427 @@
+"""The answer at once: what it agrees with, where it says no, and how fast it is."""
+
+from dataclasses import replace
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack import advice, forecast_table
+from viscotack.campaign.case import curve
+from viscotack.surrogate import model, store
+from viscotack.theory import lennard_jones
+
+CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
+UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
+
+
+def sphere(start=None, material=None, **changed):
+    """Return the groups of a case, some of its numbers changed."""
+    case = CASE | changed
+    material = material or vt.RetardationPowerLaw(
+        **UNIT, glassy_modulus=1 / case["modulus_ratio"], exponent=case["exponent"], tau0=1.0
+    )
+    return vt.Groups(
+        tabor=case["tabor"],
+        material=material,
+        start=start or vt.AtDepth(case["preload"]),
+        rate=case["rate"],
+    )
+
+
+def in_si(groups):
+    return groups.in_si(
+        radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.1, time_unit=0.02, poisson_ratio=0.5
+    )
+
+
+def best_theory(problem):
+    """Return the estimate with the smallest error among those that apply."""
+    found = [e for e in vt.advise(problem).estimates if e.applies and e.pull_off_force is not None]
+    return min(found, key=lambda e: e.error)
+
+
+def series(**columns):
+    """Return a table of cases, columns that are not given held as in CASE."""
+    count = max(len(values) for values in columns.values())
+    held = (
+        CASE
+        if "preload" in columns or not {"preload_force"} & set(columns)
+        else {name: value for name, value in CASE.items() if name != "preload"}
+    )
+    return {name: np.full(count, value) for name, value in held.items()} | columns
+
+
+# With the solver and the limits --------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {},
+        {"tabor": 0.5, "preload": 5.0, "rate": 100.0},
+        {"tabor": 2.0, "modulus_ratio": 0.01, "exponent": 0.4, "preload": 20.0, "rate": 1.0},
+        {"tabor": 1.0, "exponent": 1.5, "preload": 10.0, "rate": 1e5},
+    ],
+)
+def test_prediction_and_simulation_agree(changed):
+    groups = sphere(**changed)
+    answer = vt.predict(groups)
+    result = vt.solve(groups, until="pull-off")
+    force = vt.pull_off_force(result)
+    # several times the error of the surrogate, and far below what a wrong unit would make
+    assert answer.value == pytest.approx(force, rel=0.01, abs=0)
+    assert answer.work_to_pull_off == pytest.approx(vt.work_to_pull_off(result), rel=0.03, abs=0)
+    row = curve(result, vt.pull_off(result))
+    off = np.abs(np.array(row["trajectory_force"]) - answer.curve.force)
+    assert np.median(off) < 0.03 * force
+    off = np.abs(np.array(row["trajectory_depth"]) - answer.curve.depth)
+    assert np.median(off) < 0.03 * row["travel_to_pull_off"]
+
+
+def test_slow_retraction_tends_to_the_elastic_force():
+    least, _ = store.shipped().limits["rate"]
+    answer = vt.predict(sphere(rate=least, modulus_ratio=0.5, exponent=1.6, tabor=1.0))
+    elastic = float(lennard_jones.pull_off_ratio(1.0))
+    assert answer.value == pytest.approx(elastic, rel=0.02, abs=0)
+
+
+def test_the_curve_begins_at_the_start_and_ends_at_the_pull_off():
+    answer = vt.predict(sphere())
+    found = answer.curve
+    assert found.depth.shape == found.force.shape == found.contact_radius.shape == (24,)
+    assert found.depth[0] == pytest.approx(CASE["preload"], rel=1e-9, abs=0)
+    assert found.force[-1] == pytest.approx(-answer.value, rel=1e-9, abs=0)
+    assert found.force.min() == pytest.approx(-answer.value, rel=1e-9, abs=0)
+    assert np.all(np.diff(found.depth) < 0)
+
+
+def test_the_area_in_tension_is_the_work_by_the_rule_that_the_page_names():
+    answer = vt.predict(sphere())
+    depth, tension = answer.curve.depth[8:], -answer.curve.force[8:]
+    assert tension[0] == pytest.approx(0, abs=1e-12)
+    rule = np.tile([2.0, 3.0, 3.0], 6)[:16]
+    rule[[0, -1]] = 1.0
+    u = np.linspace(0, 1, 16)
+    travel = depth[0] - depth[-1]
+    assert depth == pytest.approx(depth[-1] + travel * (1 - u) ** 2, rel=1e-9, abs=0)
+    area = 3 / 8 / 15 * np.sum(rule * tension * 2 * (1 - u) * travel)
+    assert area == pytest.approx(answer.work_to_pull_off, rel=1e-9, abs=0)
+    assert -0.006 < np.trapezoid(tension, -depth) / area - 1 < -0.001
+
+
+def test_intervals_hold_the_value_and_grow_with_the_confidence():
+    few, many = (vt.predict(sphere(), confidence=c) for c in (0.5, 0.95))
+    for answer in (few, many):
+        assert answer.interval[0] < answer.value < answer.interval[1]
+        assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
+    assert few.value == many.value and few.confidence == 0.5
+    assert many.interval[0] < few.interval[0] and few.interval[1] < many.interval[1]
+    assert (
+        many.work_interval[1] - many.work_interval[0] > few.work_interval[1] - few.work_interval[0]
+    )
+
+
+# Units and starts ----------------------------------------------------------------------------
+
+
+def test_a_problem_in_si_and_its_groups_have_one_answer():
+    groups = sphere()
+    problem = in_si(groups)
+    a, b = vt.predict(groups), vt.predict(problem)
+    assert a.inside and b.inside and a.method == "surrogate"
+    assert b.value == pytest.approx(a.value, rel=1e-9, abs=0)
+    said, scales = vt.prediction_summary(b), problem.scales()
+    assert said["pull_off_force_N"] == pytest.approx(a.value * scales.force, rel=1e-9, abs=0)
+    assert said["interval_N"] == pytest.approx(
+        [x * scales.force for x in a.interval], rel=1e-9, abs=0
+    )
+    work = a.work_to_pull_off * scales.work
+    assert said["work_to_pull_off_J"] == pytest.approx(work, rel=1e-9, abs=0)
+    depth = a.curve.depth[-1] * scales.length
+    assert said["pull_off_depth_m"] == pytest.approx(depth, rel=1e-9, abs=0)
+
+
+def test_the_time_unit_of_the_groups_changes_nothing():
+    groups = sphere()
+    slower = replace(groups, material=replace(groups.material, tau0=50.0), rate=CASE["rate"] / 50)
+    assert vt.predict(slower).value == pytest.approx(vt.predict(groups).value, rel=1e-9, abs=0)
+
+
+@pytest.mark.parametrize("start", [vt.AtForce(5.0), vt.AtRadius(2.0)])
+def test_a_start_by_force_or_radius_is_one_by_depth(start):
+    depth = store.shipped().start_depth(CASE["tabor"], **vars(start))
+    a, b = vt.predict(sphere(start=start)), vt.predict(sphere(preload=depth))
+    assert a.inside and a.value == b.value and a.work_interval == b.work_interval
+    assert a.curve.depth[0] == pytest.approx(depth, rel=1e-9, abs=0)
+
+
+def test_the_summary_has_the_names_of_a_simulation():
+    problem = in_si(sphere())
+    answer = vt.prediction_summary(vt.predict(problem))
+    simulated = vt.summary(vt.solve(problem, until="pull-off", accuracy=1e-2))
+    own = {"interval", "interval_N", "work_interval", "work_interval_J"}
+    assert set(answer) - set(simulated) == own | {"method", "inside", "confidence", "why"}
+    for name in ("problem", "run_id", "tabor", "modulus_ratio", "rate"):
+        assert answer[name] == simulated[name]
+    theory = vt.prediction_summary(vt.predict(in_si(sphere(rate=1e13))))
+    assert set(theory) == set(answer) and theory["work_to_pull_off_J"] is None
+
+
+# Outside -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", model.INPUTS)
+@pytest.mark.parametrize("end", [0, 1])
+def test_outside_the_range_it_is_no_longer_the_surrogate_that_answers(name, end):
+    bound = store.shipped().limits[name][end]
+    case = {name: bound * (0.99, 1.01)[end]}
+    assert vt.predict(sphere(**{name: bound})).inside
+    try:
+        answer = vt.predict(sphere(**case))
+    except vt.OutOfRange as error:
+        why = str(error)
+        assert why.endswith("`viscotack simulate` answers it")
+    else:
+        why, best = answer.why, best_theory(sphere(**case))
+        assert (answer.method, answer.value) == (best.tier, best.pull_off_force)
+        assert not answer.inside and answer.curve is None and answer.work_to_pull_off is None
+        band = (best.pull_off_force * (1 - best.error), best.pull_off_force * (1 + best.error))
+        assert answer.interval == band and best.tier in why
+    assert why.startswith(f"{name} is {case[name]:.4g}") and f"{bound:.4g}" in why
+
+
+def test_what_is_out_of_range_is_said_in_si_too():
+    problem = in_si(sphere(rate=1e13))
+    speed = problem.protocol.speed
+    assert f"rate is 1e+13 h0/tau0 ({speed:.3g} m/s)" in vt.predict(problem).why
+
+
+@pytest.mark.parametrize(
+    "material",
+    [vt.StandardSolid(**UNIT, glassy_modulus=10.0, tau0=1.0), vt.Elastic(**UNIT)],
+    ids=["standard solid", "elastic"],
+)
+def test_another_material_is_answered_by_a_theory(material):
+    groups = sphere(material=material, rate=1.0)
+    answer = vt.predict(groups)
+    assert not answer.inside and answer.method == best_theory(groups).tier
+    assert answer.why.startswith(f"the material is {type(material).__name__}")
+
+
+def test_the_band_of_a_theory_is_not_scaled_to_another_confidence():
+    a, b = (vt.predict(sphere(rate=1e13), confidence=c) for c in (0.9, 0.5))
+    assert a.interval == b.interval and b.confidence == 0.9
+    assert "one for 90% of the cases, not 50%" in b.why and "not 90%" not in a.why
+
+
+def test_the_band_of_a_theory_is_not_claimed_where_it_was_not_measured():
+    solid = vt.StandardSolid(**UNIT, glassy_modulus=10.0, tau0=1.0)
+    assert "its band was measured" not in vt.predict(sphere(material=solid, rate=1.0)).why
+    words = "its band was measured elsewhere, and is not known to hold here: for "
+    for groups, where in (
+        (sphere(rate=1e13), "rate 0.1 to 1e+08, not 1e+13"),
+        (sphere(material=replace(solid, tau0=1e13), rate=1.0), "rate 0.1 to 1e+08, not 1e+13"),
+        (sphere(tabor=12.0, exponent=0.25), "tabor 0.3 to 8, not 12, exponent 0.3 to 1.6, not 0.2"),
+        (sphere(material=vt.Elastic(**UNIT)), "power laws and standard solids, not Elastic"),
+    ):
+        answer = vt.predict(groups)
+        assert not answer.inside and words + where in answer.why
+        assert answer.interval[0] < answer.value < answer.interval[1]
+
+
+def test_the_box_of_the_bands_is_the_one_that_the_advice_states():
+    page = Path(__file__).parents[1] / "docs/predict.md"
+    for text, ratios in ((advice.__doc__, "1e-3"), (page.read_text(encoding="utf-8"), "0.001")):
+        words = " ".join(str(text).split())
+        for name, ends in (
+            ("Tabor numbers", "0.3 to 8"),
+            ("modulus ratios", f"{ratios} to 0.3"),
+            ("exponents", "0.3 to 1.6"),
+            ("rates", "0.1 to 1e8"),
+        ):
+            assert f"{name} {ends}" in words
+
+
+def test_a_start_by_force_is_asked_of_the_surrogate_where_the_tabor_number_is_known():
+    start = vt.AtForce(5.0)
+    why = vt.predict(sphere(start=start, tabor=20.0)).why
+    assert why.startswith("tabor is 20, and") and "relaxed start" not in why
+    why = vt.predict(sphere(start=vt.AtForce(50.0), rate=1e13)).why
+    assert why.startswith("rate is 1e+13 h0/tau0, and") and "relaxed start" not in why
+    why = vt.predict(sphere(start=vt.AtForce(1000.0), rate=1e13)).why
+    assert why.startswith("no relaxed start between depths of") and "; rate is 1e+13 h0/tau0" in why
+
+
+def refused(problem, **options):
+    with pytest.raises(ValueError) as caught:
+        vt.predict(problem, **options)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"moves": (vt.Dwell(3.0),)}, "Dwell(duration=3.0"),
+        ({"stiffness": 2.0}, "a stiffness of 2 x 1.5 pi R dg0/h0"),
+        ({"start": vt.Apart(9.0)}, "Apart(gap=9.0)"),
+        ({"traction": vt.Dugdale(1.0, 1.0)}, "the traction is Dugdale"),
+    ],
+)
+def test_other_tests_and_tractions_are_refused(changed, words):
+    error = refused(replace(sphere(), **changed))
+    assert words in error and error.endswith("`viscotack simulate` answers it")
+
+
+def test_where_nothing_applies_it_says_what_is_out():
+    slow_and_soft = sphere(tabor=0.1, rate=10.0, exponent=2.9)
+    assert all(e.tier == "simulation" for e in vt.advise(slow_and_soft).estimates if e.applies)
+    with pytest.raises(vt.OutOfRange, match=r"^exponent is 2\.9, .*no theory applies either"):
+        vt.predict(slow_and_soft)
+
+
+def test_impossible_questions_are_refused():
+    assert "no relaxed one exists at AtDepth(depth=-50.0)" in refused(sphere(preload=-50.0))
+    assert "asked up to 300" in refused(sphere(start=vt.AtForce(1e9)))
+    for rate in (1.0, 1e13):
+        for confidence in (0.85, 90, np.nan):
+            said = refused(sphere(rate=rate), confidence=confidence)
+            assert said.startswith("confidence must be one of 0.5, ") and "0.98, " in said
+            with pytest.raises(ValueError, match=r"confidence must be one of"):
+                vt.predict_table(series(rate=[rate]), confidence=confidence)
+    material = vt.StandardSolid(**UNIT, glassy_modulus=10.0, tau0=1.0)
+    punch = vt.PunchGroups(
+        size=64.85,
+        thickness=3.24,
+        cohesion=0.05,
+        material=material,
+        start=vt.AtDepth(1.0),
+        rate=1.0,
+    )
+    with pytest.raises(vt.OutOfRange, match="for spheres, got PunchGroups"):
+        vt.predict(punch)
+    with pytest.raises(TypeError, match=r"got 'lens\.toml'; for a file give .*read_case"):
+        vt.predict("lens.toml")
+
+
+# Tables --------------------------------------------------------------------------------------
+
+
+def test_rows_of_a_table_are_those_of_single_predictions_in_their_order():
+    rates = np.array([1e3, 1e13, 1.0, -1.0, np.nan, 1e-2])
+    table = vt.predict_table(series(rate=rates))
+    assert table["inside"].tolist() == [True, False, True, False, False, True]
+    for i in (0, 1, 2, 5):
+        one = vt.predict(sphere(rate=rates[i]))
+        assert table["method"][i] == one.method
+        assert table["why"][i] == ("" if one.inside else one.why)
+        found = [table[f"pull_off_force{end}"][i] for end in ("", "_low", "_high")]
+        assert found == pytest.approx([one.value, *one.interval], rel=1e-9, abs=0)
+        work = [table[f"work_to_pull_off{end}"][i] for end in ("", "_low", "_high")]
+        if one.inside:
+            expected = [one.work_to_pull_off, *one.work_interval]
+            assert work == pytest.approx(expected, rel=1e-9, abs=0)
+        else:
+            assert np.isnan(work).all()
+    for i, words in ((3, "rate must be positive, got -1.0"), (4, "rate must be finite")):
+        assert words in table["why"][i] and table["method"][i] == ""
+        assert np.isnan(table["pull_off_force"][i])
+
+
+def test_a_table_may_start_by_force():
+    table = vt.predict_table(series(preload_force=np.array([5.0, 20.0, 5.0, -9.0])))
+    for i, force in enumerate((5.0, 20.0, 5.0)):
+        one = vt.predict(sphere(start=vt.AtForce(force)))
+        found = table["pull_off_force"][i], table["work_to_pull_off"][i]
+        assert found == pytest.approx((one.value, one.work_to_pull_off), rel=1e-9, abs=0)
+    assert table["method"].tolist() == ["surrogate"] * 3 + [""]
+    assert "no relaxed one exists" in table["why"][3]
+
+
+def test_impossible_tabor_numbers_of_a_table_have_their_reasons():
+    tabors = np.array([-1.0, 0.0, np.nan, 20.0, 3.24])
+    table = vt.predict_table(series(tabor=tabors, preload_force=np.full(5, 5.0)))
+    assert table["inside"].tolist() == [False] * 4 + [True]
+    for i, words in enumerate(("tabor must be positive", "tabor must be positive", "finite")):
+        assert words in table["why"][i] and table["method"][i] == ""
+    assert table["why"][3].startswith("tabor is 20, and") and table["pull_off_force"][3] > 0
+
+
+def test_equal_rows_outside_are_answered_once_and_reported(monkeypatch):
+    asked, told = [], []
+
+    def counted(problem, **options):
+        asked.append(problem.rate)
+        return vt.predict(problem, **options)
+
+    monkeypatch.setattr(forecast_table, "predict", counted)
+    rates = np.array([1e13, 1.0, 1e12, 1e13, 1e13])
+    table = vt.predict_table(series(rate=rates), report=lambda *now: told.append(now))
+    assert asked == [1e13, 1e12] and told == [(4, 5), (5, 5)]
+    for i in (0, 2, 3, 4):
+        one = vt.predict(sphere(rate=rates[i]))
+        assert (table["method"][i], table["why"][i]) == (one.method, one.why)
+        ends = table["pull_off_force_low"][i], table["pull_off_force_high"][i]
+        assert (table["pull_off_force"][i], ends) == (one.value, one.interval)
+
+
+@pytest.mark.parametrize(
+    ("columns", "words"),
+    [
+        ({"tabor": [1.0]}, "exactly one of preload, preload_force, preload_radius"),
+        (series(rate=[1.0]) | {"nonsense": [1.0]}, "nonsense"),
+        (series(rate=[1.0]) | {"tabor": [1.0, 2.0]}, "of one length"),
+        (series(rate=[1.0]) | {"preload_force": [1.0]}, "exactly one of preload"),
+    ],
+)
+def test_tables_with_other_columns_are_refused(columns, words):
+    with pytest.raises(ValueError, match=words):
+        vt.predict_table(columns)
+
+
+# Speed ---------------------------------------------------------------------------------------
+
+
+def least_time(work, times):
+    """Return the shortest time of some repetitions [s], the one that nobody disturbed."""
+    found = []
+    for _ in range(times):
+        began = perf_counter()
+        work()
+        found.append(perf_counter() - began)
+    return min(found)
+
+
+def test_one_prediction_takes_less_than_a_millisecond():
+    problem = in_si(sphere())
+    assert vt.predict(problem).inside
+    assert least_time(lambda: vt.predict(problem), 100) < 1e-3
+
+
+def test_a_second_is_enough_for_a_hundred_thousand_rows():
+    count = 20_000
+    rates = np.geomspace(*store.shipped().limits["rate"], count)
+    table = series(rate=rates)
+    assert vt.predict_table(table)["inside"].all()
+    assert least_time(lambda: vt.predict_table(table), 5) < count / 1e5
+
+
+# Pictures ------------------------------------------------------------------------------------
+
+
+def test_a_picture_has_the_curve_its_interval_and_the_simulation(tmp_path):
+    problem = in_si(sphere())
+    answer, result = vt.predict(problem), vt.solve(problem, until="pull-off", accuracy=1e-2)
+    figure = vt.draw_prediction(answer, result)
+    (axes,) = figure.axes
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["prediction", "simulation", "pull-off, 90% interval"]
+    assert axes.get_xlabel() == "depth [µm]" and axes.get_ylabel() == "force [mN]"
+    drawn = axes.lines[1].get_ydata()
+    assert drawn == pytest.approx(answer.curve.force * problem.scales().force * 1e3, rel=1e-12)
+    vt.save_figure(figure, tmp_path / "curve.png")
+    assert (tmp_path / "curve.png").stat().st_size > 1000
+    with pytest.raises(ValueError, match="no curve to draw"):
+        vt.draw_prediction(vt.predict(sphere(rate=1e13)))

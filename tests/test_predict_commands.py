@@ -1,0 +1,283 @@
+"""viscotack predict: one contact, one file, a table of thousands."""
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from synthetic import jkr_result
+from viscotack import bem
+from viscotack.app import predict_table
+from viscotack.cli import main
+from viscotack.surrogate import physics, store, trust
+
+SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
+RATE = ["--rate", "316.23"]
+LENS = """
+[material]
+model = "power-law"
+rubbery_modulus = "1.458 MPa"
+glassy_modulus = "3089 MPa"
+exponent = 0.2207
+tau0 = "18.76 ms"
+poisson_ratio = 0.5
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.1523 J/m^2"
+equilibrium_gap = "1.55 um"
+
+[sphere]
+radius = "5.19 mm"
+
+[protocol]
+preload_force = "1.5 mN"
+speed = "100 um/s"
+"""
+
+
+@pytest.fixture
+def lens(tmp_path):
+    path = tmp_path / "lens.toml"
+    path.write_text(LENS)
+    return path
+
+
+def call(*arguments):
+    """Return the exit status of a command."""
+    with pytest.raises(SystemExit) as caught:
+        main(["predict", *map(str, arguments)])
+    return caught.value.code or 0
+
+
+def answer(capsys, *arguments):
+    """Return the one JSON object of a command that ends well."""
+    assert call(*arguments, "--json") == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def wrong(capsys, *arguments):
+    """Return the message of a refused command: one paragraph, nothing on standard output."""
+    assert call(*arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and "Traceback" not in err
+    return err
+
+
+def table(path):
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_flags_and_a_file_give_what_python_gives(lens, capsys):
+    material = vt.RetardationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=10.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
+    )
+    groups = vt.Groups(tabor=3.24, material=material, start=vt.AtDepth(73.0), rate=316.23)
+    for problem, words in ((groups, [*SPHERE, *RATE]), (vt.read_case(lens), [lens])):
+        expected = vt.prediction_summary(vt.predict(problem, confidence=0.8))
+        assert expected["inside"]
+        assert answer(capsys, *words, "--confidence", 0.8) == json.loads(json.dumps(expected))
+    assert answer(capsys, "sphere", lens) == answer(capsys, lens)
+
+
+def test_words_have_the_interval_and_si(lens, capsys):
+    assert call(lens) == 0
+    out = capsys.readouterr().out
+    found = answer(capsys, lens)
+    assert out.startswith("every input lies in the range")
+    assert f"= {found['pull_off_force_N']:.4g} N" in out
+    low, high = found["interval_N"]
+    assert "90 % between" in out and f"= {low:.4g} to {high:.4g} N" in out
+    assert "work to pull-off" in out and "contact radius there" in out
+
+
+def test_compare_simulates_and_says_how_far_off_the_prediction_is(capsys):
+    words = [*SPHERE, *RATE, "--compare"]
+    found = answer(capsys, *words)
+    simulated = vt.summary(vt.solve(vt.from_dict(found["problem"]), until="pull-off"))
+    true = simulated["pull_off_force"]
+    assert found["simulation"]["pull_off_force"] == true
+    off = found["difference"]["pull_off_force"]
+    assert off == pytest.approx(found["pull_off_force"] / true - 1, rel=1e-12, abs=1e-15)
+    low, high = found["interval"]
+    assert found["interval_held"]["pull_off_force"] is (low <= true <= high)
+    assert abs(off) < 0.01
+    assert call(*words) == 0
+    out = capsys.readouterr().out
+    assert f"the prediction is {abs(off):.2%}" in out and "simulated in" in out
+
+
+def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simulated(
+    monkeypatch, capsys
+):
+    words = [*SPHERE, *RATE, "--compare"]
+    monkeypatch.setattr(bem, "solve", lambda problem, **options: jkr_result())
+    found = answer(capsys, *words)
+    assert found["simulation"]["pull_off_force"] == pytest.approx(1, rel=1e-4)
+    assert found["difference"]["pull_off_force"] == pytest.approx(
+        found["pull_off_force"] / found["simulation"]["pull_off_force"] - 1, rel=1e-9, abs=0
+    )
+    assert found["interval_held"]["pull_off_force"] is False
+    assert call(*words) == 0
+    assert "% above; outside its interval" in capsys.readouterr().out
+    stopped = "stopped because the step became too small"
+    monkeypatch.setattr(bem, "solve", lambda problem, **options: jkr_result(status=stopped))
+    assert call(*words, "--json") == 1
+    found = json.loads(capsys.readouterr().out)
+    assert found["simulation"]["status"] == stopped and found["inside"]
+    assert found["difference"] == {"pull_off_force": None, "work_to_pull_off": None}
+    assert call(*words) == 1
+    assert stopped in capsys.readouterr().out
+
+
+def test_a_theory_answers_outside_and_is_compared_by_force_alone(capsys):
+    found = answer(capsys, *SPHERE, "--rate", "1e13", "--compare")
+    assert found["method"] != "surrogate" and found["inside"] is False
+    assert found["why"].startswith(
+        "rate is 1e+13 h0/tau0, and 0.01 to 1e+10 h0/tau0 was learned from"
+    )
+    assert found["work_to_pull_off"] is None and found["difference"]["work_to_pull_off"] is None
+    assert abs(found["difference"]["pull_off_force"]) < 0.3
+    assert call(*SPHERE, "--rate", "1e13") == 0
+    out = capsys.readouterr().out
+    assert out.startswith("outside what was learned: rate is 1e+13") and "work" not in out
+    assert f"by the theory {found['method']!r}" in out
+
+
+def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):
+    curve, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
+    found = answer(capsys, lens, "--curve", curve, "--plot", picture, "--compare")
+    rows = table(curve)
+    names = ["depth", "force", "contact_radius", "depth_m", "force_N", "contact_radius_m"]
+    assert list(rows[0]) == names and len(rows) == 24
+    assert float(rows[-1]["force_N"]) == pytest.approx(-found["pull_off_force_N"], rel=1e-9, abs=0)
+    assert float(rows[-1]["depth_m"]) == pytest.approx(found["pull_off_depth_m"], rel=1e-9, abs=0)
+    assert picture.stat().st_size > 1000
+    words = wrong(capsys, *SPHERE, "--rate", "1e13", "--curve", tmp_path / "none.csv")
+    assert "A theory gives no curve" in words and not (tmp_path / "none.csv").exists()
+
+
+def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, capsys):
+    cases, answers = tmp_path / "cases.csv", tmp_path / "answers.csv"
+    rows = [
+        ("b", "3.24", "0.1", "0.8", "73", "316.23"),
+        ("a", "3.24", "0.1", "0.8", "73", "1e13"),
+        ("c", "3.24", "7", "0.8", "73", "10"),
+        ("d", "3.24", "soft", "0.8", "73", "10"),
+        ("e", "3.24", "0.1", "0.8", "73.00", "1"),
+    ]
+    names = ("name", "tabor", "modulus_ratio", "exponent", "preload", "rate")
+    cases.write_text("\n".join(map(",".join, (names, *rows))) + "\n")
+    found = answer(capsys, cases, "--csv", answers)
+    counts = {"rows": 5, "inside": 2, "unanswered": 2}
+    assert {name: found[name] for name in counts} == counts
+    assert found["methods"]["surrogate"] == 2 and sum(found["methods"].values()) == 3
+    written = table(answers)
+    assert [tuple(row[name] for name in names) for row in written] == rows
+    assert [row["inside"] for row in written] == ["true", "false", "false", "false", "true"]
+    one = answer(capsys, *SPHERE, *RATE)
+    columns = ("pull_off_force", "pull_off_force_low", "pull_off_force_high", "work_to_pull_off")
+    assert [float(written[0][name]) for name in columns] == pytest.approx(
+        [one["pull_off_force"], *one["interval"], one["work_to_pull_off"]], rel=1e-9, abs=0
+    )
+    assert written[1]["work_to_pull_off"] == "" and float(written[1]["pull_off_force"]) > 1
+    assert written[2]["pull_off_force"] == "" and "got 7" in written[2]["why"]
+    assert written[3]["why"] == "modulus_ratio is 'soft', not a number"
+    assert call(cases, "--csv", answers) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("5 rows, 2 inside") and "no answer            2" in out
+
+
+def test_thousands_of_rows_are_a_matter_of_seconds(tmp_path, capsys):
+    count = 5000
+    limits = store.shipped().limits
+    draws = np.random.default_rng(0).uniform(size=(count, len(limits)))
+    low, high = np.log10(np.array(list(limits.values()))).T
+    cases, answers = tmp_path / "cases.csv", tmp_path / "answers.csv"
+    numbers = 10 ** (low + (high - low) * draws)
+    np.savetxt(cases, numbers, delimiter=",", header=",".join(limits), comments="")
+    found = answer(capsys, cases, "--csv", answers)
+    assert found["inside"] == count and found["methods"] == {"surrogate": count}
+    written = table(answers)
+    forces = np.array(
+        [[float(r[f"pull_off_force{e}"]) for e in ("_low", "", "_high")] for r in written]
+    )
+    assert len(written) == count and np.all(np.diff(forces, axis=1) > 0)
+
+
+def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys):
+    cases, other = tmp_path / "cases.csv", tmp_path / "other.csv"
+    cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n")
+    other.write_text("tabor,rate\n1,10\n")
+    ragged = tmp_path / "ragged.csv"
+    ragged.write_text("tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5\n")
+    again = tmp_path / "again.csv"
+    again.write_text("tabor,modulus_ratio,exponent,preload,rate,why\n1,0.1,0.8,5,10,x\n")
+    out = ["--csv", tmp_path / "out.csv"]
+    for words, arguments in (
+        ("--csv answers.csv", [cases]),
+        ("leave out --compare", [cases, *out, "--compare"]),
+        ("leave out --tabor", [cases, *out, "--tabor", "1"]),
+        ("has the inputs tabor, modulus_ratio, exponent, rate", [other, *out]),
+        ("line 2: 4 values for 5 columns", [ragged, *out]),
+        ("has the columns why already", [again, *out]),
+        ("there is no file", [tmp_path / "none.csv", *out]),
+        ("no folder", [cases, "--csv", tmp_path / "none" / "out.csv"]),
+        ("--curve writes the curve", [lens, *out]),
+        ("states the whole problem; leave out --rate", [lens, *RATE]),
+        ("give one file", [lens, lens]),
+        ("for 'sphere', a file CASE.toml or a table CASES.csv, got 'punch'", ["punch"]),
+        ("--rate missing", SPHERE),
+        ("the machine has a stiffness of 2", [*SPHERE, *RATE, "--stiffness", "2"]),
+        ("the traction is Dugdale", [*SPHERE, *RATE, "--law", "dugdale"]),
+        ("confidence must be one of 0.5", [*SPHERE, *RATE, "--confidence", "90"]),
+        ("confidence must be one of 0.5", [*SPHERE, "--rate", "1e13", "--confidence", "0.85"]),
+        ("its ending must be one of", [*SPHERE, *RATE, "--plot", tmp_path / "a.xyz"]),
+        ("--rate must be finite", [*SPHERE, "--rate", "inf"]),
+    ):
+        assert words in wrong(capsys, *arguments), words
+    assert not (tmp_path / "out.csv").exists()
+
+
+def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(predict_table, "predict_table", lambda *given, **options: 1 / 0)
+    cases, again, link = (tmp_path / name for name in ("cases.CSV", "again.csv", "link.csv"))
+    text = "tabor,modulus_ratio,exponent,preload,rate\n1,0.1,0.8,5,10\n"
+    cases.write_text(text)
+    link.symlink_to(cases)
+    again.write_text("tabor,modulus_ratio,exponent,preload,rate,why\n1,0.1,0.8,5,10,x\n")
+    out = tmp_path / "out.csv"
+    assert "has the columns why already" in wrong(capsys, again, "--csv", out)
+    for same in (cases, tmp_path / "." / "cases.CSV", link):
+        assert "is the table of cases itself" in wrong(capsys, cases, "--csv", same)
+    assert cases.read_text() == text and not out.exists()
+
+
+def test_an_ending_in_capitals_and_the_count_of_rows(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(predict_table, "_LINES", -1.0)
+    cases, out = tmp_path / "CASES.CSV", tmp_path / "out.csv"
+    rows = "1,0.1,0.8,5,10\n1,0.1,0.8,5,-1\n1,0.1,0.8,5,-2\n"
+    cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n" + rows)
+    assert call(cases, "--csv", out) == 0
+    said, told = capsys.readouterr()
+    assert said.startswith("3 rows, 1 inside")
+    assert told.startswith("2 of 3 rows answered\n3 of 3 rows answered\n")
+
+
+def test_help_names_the_flags_and_the_confidences_that_there_are(capsys):
+    assert call("--help") == 0
+    out = capsys.readouterr().out
+    for word in ("--tabor", "--compare", "--curve", "CASES.csv", *map(str, trust.CONFIDENCES)):
+        assert word in out
+
+
+def test_the_page_states_the_ranges_that_there_are():
+    page = (Path(__file__).parents[1] / "docs/predict.md").read_text(encoding="utf-8")
+    for name, ends in physics.LIMITS.items():
+        words = " | ".join(f"{end:g}".replace("+", "") for end in ends)
+        title = "Tabor number" if name == "tabor" else name.replace("_", " ")
+        assert f"| {title} | {words} |" in page

@@ -1,0 +1,304 @@
+"""The learned answer: inside its bounds, one with its curve, and as good as its file says."""
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import PchipInterpolator
+
+from viscotack import solve
+from viscotack.campaign.columns import KINDS
+from viscotack.observables import pull_off_force, work_to_pull_off
+from viscotack.surrogate import line, physics, store
+from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
+from viscotack.surrogate.network import Networks, together
+from viscotack.surrogate.store import shipped
+from viscotack.surrogate.trust import CONFIDENCES, REGIONS, Trust, region
+from viscotack.theory import lennard_jones
+
+LOW, HIGH = physics.LOW, physics.HIGH
+
+
+def random_groups(count, seed=1):
+    u = np.random.default_rng(seed).random((count, 5))
+    return LOW * (HIGH / LOW) ** u
+
+
+def random_networks(rng, *sizes, members=1):
+    pairs = list(zip(sizes[:-1], sizes[1:], strict=True))
+    return Networks(
+        tuple(rng.normal(size=(members, a, b)) / np.sqrt(a) for a, b in pairs),
+        tuple(0.1 * rng.normal(size=(members, 1, b)) for _, b in pairs),
+    )
+
+
+def random_surrogate(seed=0):
+    """Return a surrogate that has learned nothing: what holds for it holds by construction."""
+    rng = np.random.default_rng(seed)
+    centre = np.zeros(line.OUTPUTS)
+    centre[line.SHAPE] = np.linspace(0.1, 0.99, line.TENSILE - 2)
+    centre[line.PRESSING] = np.linspace(0.8, 0.1, line.PRESSED - 1)
+    centre[line.RADII] = np.linspace(0.95, 0.4, line.POINTS - 1)
+    return Surrogate(
+        start=Scaled(random_networks(rng, 2, 6, 2), np.array([-1.0, 0.3]), np.full(2, 0.1)),
+        fast=random_networks(rng, 3, 6, 1),
+        force=random_networks(rng, 5, 8, 8, 1, members=3),
+        work=Scaled(random_networks(rng, 9, 8, 1, members=3), np.zeros(1), np.full(1, 0.2)),
+        give=Scaled(random_networks(rng, 10, 8, 1, members=2), np.zeros(1), np.full(1, 0.2)),
+        line=Scaled(random_networks(rng, 10, 8, line.OUTPUTS), centre, np.full(line.OUTPUTS, 0.02)),
+        trust=Trust(
+            force=np.cumsum(np.ones((REGIONS, len(CONFIDENCES))), axis=1),
+            work=np.cumsum(np.ones((REGIONS, len(CONFIDENCES))), axis=1),
+            floors=np.array([1e-3, 1e-2]),
+        ),
+    )
+
+
+# identity
+
+
+def test_networks_side_by_side_say_what_each_says_alone():
+    rng = np.random.default_rng(3)
+    one, two = (random_networks(rng, 5, 7, 7, 2) for _ in range(2))
+    x = rng.normal(size=(4100, 5))
+    both = together([one, two])(x)
+    assert both[0] == pytest.approx(one(x)[0], rel=1e-12)
+    assert both[1] == pytest.approx(two(x)[0], rel=1e-12)
+    hidden = np.tanh(
+        np.tanh(x[:1] @ one.weights[0][0] + one.biases[0][0]) @ one.weights[1][0] + one.biases[1][0]
+    )
+    assert both[0, 0] == pytest.approx((hidden @ one.weights[2][0] + one.biases[2][0])[0])
+
+
+def test_ranges_are_scaled_to_one():
+    assert physics.scaled(LOW[None]) == pytest.approx(-1)
+    # some rows are deeper than the range
+    assert physics.scaled(HIGH[None])[0] == pytest.approx([1, 1, 1, 1, 1], abs=0.02)
+    assert physics.scaled(np.sqrt(LOW * HIGH)[None])[0] == pytest.approx(0, abs=0.01)
+
+
+def test_the_force_of_a_start_and_what_stands_for_it_are_inverse():
+    groups = random_groups(50)
+    force = np.random.default_rng(0).normal(size=50)
+    assert physics.start_force(groups, physics.start_output(groups, force)) == pytest.approx(
+        force, abs=1e-6 * physics.hertz(groups).max()
+    )
+
+
+def test_hertz_is_that_of_the_theory():
+    from viscotack.theory import hertz
+
+    # R, w, h0 and the modulus of which the Tabor number is 2
+    R, w, h0, mu, depth = 1e-3, 0.1, 1e-7, 2.0, 30.0
+    modulus = np.sqrt(R * w**2 / (mu * h0) ** 3)
+    radius = hertz.contact_radius_at_depth(depth * h0, radius=R)
+    force = hertz.force(radius, radius=R, contact_modulus=modulus)
+    groups = np.array([[mu, 0.1, 1.0, depth, 1.0]])
+    assert physics.hertz(groups)[0] == pytest.approx(force / (1.5 * np.pi * R * w))
+
+
+@pytest.mark.parametrize("made", [random_surrogate, shipped])
+def test_no_force_leaves_its_bounds(made):
+    groups = random_groups(3000)
+    force = made().evaluate(groups).pull_off_force
+    k, mu = groups[:, 1], groups[:, 0]
+    assert np.all(force >= lennard_jones.pull_off_ratio(mu) * (1 - 1e-12))
+    largest = lennard_jones.pull_off_ratio(mu * np.cbrt(k)) / k
+    # where both limits are one, the way between them has a least length
+    assert np.all(force <= largest * 10**2e-4)
+
+
+@pytest.mark.parametrize("made", [random_surrogate, shipped])
+def test_the_curve_ends_at_the_force_and_its_area_is_the_work(made):
+    surrogate, groups = made(), random_groups(400)
+    said = surrogate.evaluate(groups)
+    curves = surrogate.curves(groups, said)
+    assert curves.force.min(axis=1) == pytest.approx(-said.pull_off_force, rel=1e-9)
+    assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
+    assert np.all(np.diff(curves.depth, axis=1) <= 0)
+    assert np.all(np.diff(curves.force, axis=1) <= 1e-9 * np.abs(curves.force).max(axis=1)[:, None])
+    start, _ = surrogate.relaxed(groups)
+    assert curves.depth[:, 0] == pytest.approx(groups[:, 3])
+    usable = start > -0.99 * said.pull_off_force
+    assert curves.force[usable, 0] == pytest.approx(start[usable], rel=1e-9)
+    areas = [_area(d, f) for d, f in zip(curves.depth, curves.force, strict=True)]
+    # by another rule of integration, and the shapes of random networks are not smooth
+    limit = 2e-4 if made is shipped else 2e-3
+    assert np.median(np.abs(areas / said.work_to_pull_off - 1)) < limit
+    assert np.quantile(np.abs(areas / said.work_to_pull_off - 1), 0.95) < 20 * limit
+
+
+def _area(depth, force):
+    first = 8 if force[0] > 0 else 0
+    travel = depth[first] - depth[first:]
+    return -PchipInterpolator(travel, force[first:]).integrate(0, travel[-1])
+
+
+def test_wider_confidence_is_a_wider_interval():
+    surrogate, groups = shipped(), random_groups(200)
+    said = surrogate.evaluate(groups)
+    widths = [
+        np.diff(np.log(surrogate.intervals(groups, said, confidence=c).pull_off_force))
+        for c in CONFIDENCES
+    ]
+    assert np.all(np.diff(widths, axis=0) >= 0)
+    between = surrogate.intervals(groups, said)
+    assert np.all(between.work_to_pull_off[:, 0] < said.work_to_pull_off)
+    assert np.all(between.work_to_pull_off[:, 1] > said.work_to_pull_off)
+    with pytest.raises(ValueError, match="one of 0.5, .*; got 0.42"):
+        surrogate.intervals(groups, said, confidence=0.42)
+
+
+def test_regions_are_all_used():
+    assert set(region(random_groups(2000)).tolist()) == set(range(REGIONS))
+
+
+def test_inside_says_which_input_is_out():
+    surrogate = random_surrogate()
+    assert np.all(surrogate.inside([LOW, HIGH]))
+    for i in range(5):
+        groups = np.sqrt(LOW * HIGH)
+        groups[i] = 1.01 * HIGH[i]
+        assert list(surrogate.inside([groups])[0]) == [j != i for j in range(5)]
+
+
+def test_a_start_by_force_or_radius_is_found_again():
+    surrogate = shipped()
+    for mu, depth in ((0.05, 3.0), (1.0, 0.3), (8.0, 200.0), (8.0, 3.0)):
+        groups = np.array([[mu, 0.1, 1.0, depth, 1.0]])
+        force, radius = (float(a[0]) for a in surrogate.relaxed(groups))
+        assert surrogate.start_depth(mu, force=force) == pytest.approx(depth, rel=1e-4)
+        assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, rel=1e-4)
+    # there the force hardly depends on the depth, so the depth is told less well, but always told
+    for mu, depth in itertools.product((6.0, 8.0, 10.0), np.geomspace(0.006, 1.0, 12)):
+        radius = float(surrogate.relaxed(np.array([[mu, 0.1, 1.0, depth, 1.0]]))[1][0])
+        assert surrogate.start_depth(mu, contact_radius=radius) == pytest.approx(depth, abs=0.1)
+    with pytest.raises(ValueError, match="no relaxed start .* contact radius of 1e"):
+        surrogate.start_depth(1.0, contact_radius=1e9)
+    with pytest.raises(ValueError, match="either"):
+        surrogate.start_depth(1.0)
+
+
+# files
+
+
+def test_a_surrogate_comes_back_from_its_file(tmp_path):
+    one, path = random_surrogate(), tmp_path / "one.npz"
+    store.save(one, path, {"made": "today"})
+    again = store.load(path)
+    groups = random_groups(20)
+    for name in ("pull_off_force", "work_to_pull_off", "force_spread", "work_spread"):
+        said = getattr(one.evaluate(groups), name)
+        assert np.array_equal(getattr(again.evaluate(groups), name), said)
+    a, b = (s.curves(groups, s.evaluate(groups)) for s in (one, again))
+    assert np.array_equal(a.force, b.force)
+    assert store.facts(path)["made"] == "today"
+
+
+def test_a_damaged_or_foreign_file_is_refused(tmp_path):
+    path = tmp_path / "one.npz"
+    store.save(random_surrogate(), path, {})
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files}
+    arrays["trust.floors"] = arrays["trust.floors"] * 2
+    np.savez(path, **arrays)
+    with pytest.raises(ValueError, match="checksum"):
+        store.load(path)
+    np.savez(path, a=np.ones(3))
+    with pytest.raises(ValueError, match="not the file of a surrogate"):
+        store.load(path)
+    whole = store.SHIPPED.read_bytes()
+    for content in (b"nothing", whole[: len(whole) // 2], whole[:5000] + b"x" + whole[5001:]):
+        path.write_bytes(content)
+        with pytest.raises(ValueError, match="not the file of a surrogate|checksum"):
+            store.load(path)
+    np.save(tmp_path / "one.npy", np.ones(3))
+    with pytest.raises(ValueError, match="not the file of a surrogate"):
+        store.load(tmp_path / "one.npy")
+
+
+def test_the_shipped_file_is_small_and_says_what_it_is_worth():
+    assert store.SHIPPED.stat().st_size < 5e6
+    facts = store.facts()
+    assert {"sets", "rows", "recipe", "scores", "libraries"} <= set(facts)
+
+
+def test_the_shipped_surrogate_is_as_good_as_was_asked():
+    scores = store.facts()["scores"]
+    at_random, cells = scores["kept apart at random"], scores["cells kept apart"]
+    # drawn as the two sets are; of `chosen`, where the networks erred most, the errors are larger
+    for name in ("broad", "thesis"):
+        assert at_random[name]["force"]["mse_log10"] < 1e-6
+        assert at_random[name]["work"]["mse_log10"] < 2e-5
+    assert at_random["all"]["curve"]["median"] < 0.01
+    for what in ("force", "work"):
+        assert 0.88 < at_random["all"][what]["cover"] < 0.93
+        assert min(at_random["all"][what]["cover by region"]) > 0.8
+        assert 0.88 < cells[what] < 0.93
+    for one in scores["bands kept apart"]:
+        assert one["r2"] > (0.99 if one["edge"] else 0.999)
+
+
+def test_the_published_rows_are_told():
+    from viscotack.surrogate.table import read_detachments
+
+    file = Path(__file__).parents[2] / "shared" / "data" / "sphere_bem_published" / "rows.csv"
+    if not file.exists():
+        pytest.skip("the published rows are in ../shared, which is not here")
+    rows = read_detachments(file)
+    groups = np.column_stack([getattr(rows, name) for name in INPUTS])
+    inside = shipped().inside(groups).all(axis=1)
+    said = shipped().evaluate(groups[inside]).pull_off_force
+    assert np.median(np.abs(said / rows.pull_off_force[inside] - 1)) < 5e-3
+
+
+# peer: the simulation
+
+
+@pytest.mark.parametrize(
+    "groups",
+    [
+        (0.3, 0.1, 0.6, 5.0, 1e4),
+        (3.24, 0.1, 0.6, 20.0, 100.0),
+        (0.02, 0.01, 1.5, 50.0, 10.0),
+        (8.0, 0.3, 0.3, 0.1, 1e6),
+    ],
+)
+def test_the_shipped_surrogate_agrees_with_the_simulation(groups):
+    result = solve(
+        KINDS["sphere"].problem(dict(zip(INPUTS, groups, strict=True))),
+        accuracy=2e-3,
+        until="pull-off",
+        estimate_error=False,
+    )
+    said = shipped().evaluate([groups])
+    assert said.pull_off_force[0] == pytest.approx(pull_off_force(result), rel=6e-3)
+    assert said.work_to_pull_off[0] == pytest.approx(work_to_pull_off(result), rel=2.5e-2)
+
+
+def test_the_slowest_retraction_is_elastic():
+    groups = random_groups(500)
+    groups[:, physics.RATE], groups[:, physics.EXPONENT] = 0.01, 2.0
+    groups[:, physics.PRELOAD] = np.minimum(groups[:, physics.PRELOAD], 5.0)
+    groups[:, physics.TABOR] = np.clip(groups[:, physics.TABOR], 0.1, 1.0)
+    groups[:, physics.MODULUS_RATIO] = 0.5
+    force = shipped().evaluate(groups).pull_off_force
+    assert force == pytest.approx(lennard_jones.pull_off_ratio(groups[:, 0]), rel=2e-2)
+
+
+def test_the_kept_rows_are_as_the_file_says():
+    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+    from viscotack.surrogate.__main__ import kept_apart
+    from viscotack.surrogate.rows import LEARNED, read
+    from viscotack.surrogate.scores import scores
+
+    rows = read(*LEARNED)
+    found = scores(shipped(), rows.chosen(kept_apart(len(rows))))
+    said = store.facts()["scores"]["kept apart at random"]
+    for name in ("force", "work"):
+        for key in ("mse_log10", "median", "cover"):
+            assert found["all"][name][key] == pytest.approx(said["all"][name][key], rel=1e-3)
+    assert found["all"]["curve"]["median"] == pytest.approx(
+        said["all"]["curve"]["median"], rel=1e-3
+    )

@@ -1,0 +1,188 @@
+"""What networks learn from, and how: rows from the datasets, fits, folds, intervals."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+
+from viscotack.surrogate import line, physics  # noqa: E402
+from viscotack.surrogate.choosing import choose  # noqa: E402
+from viscotack.surrogate.fitting import Fit, Task, fit  # noqa: E402
+from viscotack.surrogate.rows import BANDED, BANDS, band, cells, read  # noqa: E402
+from viscotack.surrogate.store import shipped  # noqa: E402
+from viscotack.surrogate.trust import CONFIDENCES, REGIONS, region  # noqa: E402
+
+SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return read("chosen")
+
+
+def test_what_a_network_should_say_gives_the_stored_curve_again(rows):
+    found = line.curves(
+        np.where(rows.known > 0, rows.line, 0.0),
+        give=rows.give,
+        preload=rows.groups[:, physics.PRELOAD],
+        force=rows.start_force,
+        radius=rows.start_radius,
+        pull_off=rows.force,
+        work=rows.work,
+    )
+    scale = np.maximum(np.abs(rows.trajectory_force).max(axis=1), 1)[:, None]
+    off = np.abs(found.force - rows.trajectory_force) / scale
+    # a start in tension is learned at sixteen of its 24 points
+    assert np.quantile(off, 0.99) < 6e-3 and np.median(off) < 1e-5
+    left = found.depth - found.depth[:, -1:]
+    travel = rows.trajectory_left[:, :1]
+    # the travel follows from the work, which is known to half a percent
+    assert np.quantile(np.abs(left - rows.trajectory_left) / travel, 0.95) < 1e-2
+
+
+def test_areas_are_exact_for_a_parabola():
+    u = np.linspace(0, 1, line.TENSILE)
+    t = line.gathered(line.TENSILE)
+    assert line.AREA @ t == pytest.approx(0.5, rel=1e-12)
+    assert line.AREA @ np.ones(line.TENSILE) == pytest.approx(1, rel=1e-12)
+    assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, line.POINTS) ** 3, abs=1e-12)
+
+
+def test_rows_of_a_cell_are_neighbours(rows):
+    cell = cells(rows)
+    for column in BANDED:
+        of_row = band(rows, column)
+        assert 0 <= of_row.min() and of_row.max() == BANDS - 1
+        for one in np.unique(cell)[:20]:
+            assert len(np.unique(of_row[cell == one])) == 1
+
+
+def test_unknown_numbers_are_not_learned(rows):
+    tense = rows.start_force <= 0
+    assert tense.any() and (~tense).any()
+    assert np.all(rows.known[tense][:, line.PRESSING] == 0)
+    assert np.all(rows.give[tense] == 1.0)
+    assert np.all(rows.known[~tense][:, line.SHAPE] == 1)
+
+
+@pytest.mark.parametrize("name", ["broad", "thesis", "chosen"])
+def test_all_that_is_to_be_learned_is_finite(name):
+    rows = read(name)
+    for values in (rows.line, rows.known, rows.give, rows.force, rows.work, rows.start_radius):
+        assert np.all(np.isfinite(values))
+
+
+def test_gaps_in_the_rows_are_refused():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    x = np.linspace(-1, 1, 20)[:, None]
+    target = np.where(x > 0.9, np.nan, x)
+    with pytest.raises(ValueError, match="not finite"):
+        fit(Task(x, target, np.ones_like(x)), SMALL, seed=0)
+
+
+def test_a_network_learns_what_it_is_told_and_again_the_same():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    x = np.random.default_rng(0).uniform(-1, 1, (300, 2))
+    target = (np.sin(2 * x[:, 0]) * x[:, 1])[:, None]
+    task = Task(x, target, np.ones_like(target))
+    one, two = (fit(task, SMALL, seed=1) for _ in range(2))
+    assert np.sqrt(np.mean((one(x)[0] - target) ** 2)) < 0.02
+    assert np.array_equal(one.weights[0], two.weights[0])
+    assert not np.array_equal(one.weights[0], fit(task, SMALL, seed=2).weights[0])
+
+
+def test_what_is_fitted_between_limits_is_what_numpy_puts_between_them():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    x = np.random.default_rng(0).uniform(-1, 1, (300, 1))
+    low, high = np.zeros(300), 1 + x[:, 0] ** 2
+    target = (high * physics.share(0.3 * x[:, 0] - 0.1))[:, None]
+    task = Task(x, target, np.ones_like(target), (low, high))
+    found = fit(task, Fit(hidden=(6,), steps=300), seed=0)
+    assert physics.between(low, high, found(x)[0, :, 0]) == pytest.approx(target[:, 0], abs=2e-3)
+
+
+def test_rows_without_weight_do_not_count():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    x = np.linspace(-1, 1, 80)[:, None]
+    target = np.where(x > 0.5, 100.0, x)
+    weight = np.where(x > 0.5, 0.0, 1.0)
+    found = fit(Task(x, target, weight), SMALL, seed=0)
+    assert found(x)[0][x <= 0.5] == pytest.approx(target[x <= 0.5], abs=0.02)
+
+
+def test_a_shop_does_not_fit_twice(tmp_path):
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    from viscotack.surrogate.shop import Shop
+
+    x = np.linspace(-1, 1, 50)[:, None]
+    task = Task(x, x**2, np.ones_like(x))
+    with Shop(tmp_path) as shop:
+        one = shop.fit(task, SMALL).result()
+        (file,) = tmp_path.glob("*.npz")
+        written = file.stat().st_mtime_ns
+        again = shop.fit(task, SMALL).result()
+        assert file.stat().st_mtime_ns == written
+        shop.fit(task, SMALL, seed=1).result()
+    assert np.array_equal(one(x), again(x))
+    assert len(list(tmp_path.glob("*.npz"))) == 2
+
+
+def test_intervals_hold_the_share_that_they_promise():
+    pytest.importorskip("crepes", reason="intervals are measured with crepes")
+    from viscotack.surrogate.calibration import Apart, trusted
+
+    random = np.random.default_rng(0)
+
+    def apart(count):
+        groups = np.column_stack([10 ** random.uniform(-2, 1, count), *np.ones((3, count)),
+                                  10 ** random.uniform(-2, 10, count)])  # fmt: skip
+        spread = 10 ** random.uniform(-4, -2, count)
+        error = random.standard_t(4, (2, count)) * (spread + 1e-3)
+        return Apart(groups, error[0], error[1], spread, spread)
+
+    trust = trusted(shipped(), apart(20_000)).trust
+    new = apart(20_000)
+    where = region(new.groups)
+    for confidence in CONFIDENCES:
+        factors = trust.factors(new.groups, (new.force_spread, new.work_spread), confidence)
+        for errors, factor in zip((new.force, new.work), factors, strict=True):
+            held = np.abs(errors) <= np.log10(factor)
+            assert held.mean() == pytest.approx(confidence, abs=0.015)
+            for one in range(REGIONS):
+                assert held[where == one].mean() == pytest.approx(confidence, abs=0.05)
+
+
+def test_cells_are_kept_whole(rows):
+    pytest.importorskip("crepes", reason="intervals are measured with crepes")
+    from viscotack.surrogate.calibration import kept_cells
+
+    cell, kept = cells(rows), kept_cells(rows, seed=0)
+    assert all(len(np.unique(kept[cell == one])) == 1 for one in np.unique(cell))
+    assert len(np.unique(cell[kept])) == len(np.unique(cell)) // 8
+
+
+def test_cases_are_chosen_where_the_networks_disagree():
+    groups = choose(shipped(), 500, seed=3)
+    u = np.random.default_rng(0).random((500, 5))
+    everywhere = physics.LOW * (physics.HIGH / physics.LOW) ** u
+    spreads = [shipped().evaluate(g).force_spread.mean() for g in (groups, everywhere)]
+    assert spreads[0] > 2 * spreads[1]
+    assert np.all(shipped().inside(groups))
+    assert np.array_equal(groups, choose(shipped(), 500, seed=3))
+    with pytest.raises(ValueError, match="81920 points .* 100000 were asked"):
+        choose(shipped(), 100_000)
+
+
+@pytest.mark.slow
+def test_the_whole_training_runs_on_few_rows(tmp_path):
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    pytest.importorskip("crepes", reason="intervals are measured with crepes")
+    from viscotack.surrogate import store
+    from viscotack.surrogate.__main__ import make
+
+    found = make(tmp_path, workers=2, quick=True)
+    assert len(found["bands kept apart"]) == 3 * BANDS
+    assert found["kept apart at random"]["all"]["force"]["mse_log10"] < 0.05
+    assert store.facts(tmp_path / "surrogate.npz")["scores"]["bands kept apart"]
+    again = make(tmp_path, workers=1, quick=True)
+    assert again["kept apart at random"] == found["kept apart at random"]
