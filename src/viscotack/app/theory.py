@@ -1,10 +1,9 @@
 """The commands that answer at once: ``viscotack theory jkr ...`` and ``viscotack advise ...``."""
 
-import inspect
 import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, get_type_hints
+from typing import Annotated, Any
 
 import numpy as np
 import typer
@@ -26,6 +25,7 @@ from .commands import (
     wrong_input,
 )
 from .flags import material_from_flags, problem_from_flags
+from .same_flags import as_flags, with_sphere_flags
 
 # Of a table over the range that matters.
 _ROWS = 41
@@ -211,7 +211,9 @@ def theory_greenwood(
     _crack("greenwood", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
 
 
-def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
+@application.command("advise")
+@with_sphere_flags
+def _advise(as_json: AsJson = False, **flags: Any) -> None:
     """Say which regime a contact is in, and which answer to trust.
 
     The problem is stated as for simulate sphere, by flags or by a file in SI.
@@ -221,9 +223,9 @@ def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
     """
     from ..advice import advise
 
-    given = {name.replace("_", "-"): value for name, value in flags.items()}
+    case = flags.pop("case")
     with wrong_input():
-        problem = commands.stated_problem(case, given, problem_from_flags, Problem)
+        problem = commands.stated_problem(case, as_flags(flags), problem_from_flags, Problem)
         assert isinstance(problem, Problem | Groups)
         advice = advise(problem)
     if as_json:
@@ -231,31 +233,6 @@ def _advise(case: Path | None, as_json: bool, **flags: Any) -> None:
         typer.echo(json.dumps(found, indent=2, allow_nan=False))
     else:
         typer.echo("\n".join(advice.sentences))
-
-
-def _problem_flags() -> list[inspect.Parameter]:
-    """Return the parameters of simulate sphere that state the problem: all before --until."""
-    hints = get_type_hints(commands.simulate_sphere, include_extras=True)
-    found = []
-    for name, parameter in inspect.signature(commands.simulate_sphere).parameters.items():
-        if name == "until":
-            break
-        found.append(parameter.replace(annotation=hints[name]))
-    return found
-
-
-def _register_advise() -> None:
-    """Add the command with the flags of simulate sphere, so that they are written once."""
-    as_json = inspect.Parameter(
-        "as_json", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=AsJson
-    )
-    parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in _problem_flags()]
-    _advise.__signature__ = inspect.Signature([*parameters, as_json])  # type: ignore[attr-defined]
-    _advise.__annotations__ = {p.name: p.annotation for p in [*parameters, as_json]}
-    application.command("advise")(_advise)
-
-
-_register_advise()
 
 
 def _sphere(radius: str, contact_modulus: str, work_of_adhesion: str) -> dict[str, float]:
