@@ -39,6 +39,7 @@ FLOOR = {
     "surrogate": 7,
     "advice": 8,
     "prediction": 8,
+    "forecast_theory": 8,
     "forecast": 8,
     "forecast_table": 8,
     "forecast_plot": 8,
