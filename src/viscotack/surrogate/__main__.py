@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from threadpoolctl import threadpool_limits
 
 from .. import __version__, datasets
 from . import rows, scores, store
@@ -50,7 +51,7 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
     kept = kept_apart(len(all_rows))
     learned, test = all_rows.chosen(~kept), all_rows.chosen(kept)
     recipe, smaller = (QUICK, QUICK) if quick else (Recipe(), SMALLER)
-    with Shop(folder / "networks", workers) as shop:
+    with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         limits = learn_limits(learned, fast, recipe, shop)
         _say(began, "limits")
         whole = learn(learned, limits, recipe, shop)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize
+from threadpoolctl import threadpool_limits
 
 from . import physics
 from .network import Networks
@@ -110,7 +111,10 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
         "ftol": 0,
         "gtol": 0,
     }
-    found = minimize(evaluate, _first(sizes, seed), jac=True, method="L-BFGS-B", options=limits)
+    # sums of several threads come in another order, and steps go another way
+    with threadpool_limits(1):
+        first = _first(sizes, seed)
+        found = minimize(evaluate, first, jac=True, method="L-BFGS-B", options=limits)
     if not np.isfinite(found.fun):
         raise ValueError(
             "what is to be learned is not finite everywhere; look for gaps in the rows"
