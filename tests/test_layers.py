@@ -12,6 +12,7 @@ FLOOR = {
     "traction": 1,
     "geometry": 1,
     "protocol": 1,
+    "trajectory": 1,
     "materials": 2,
     "layer": 1,
     "quantity_table": 1,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from viscotack import solve
+from viscotack import solve, trajectory
 from viscotack.campaign.columns import KINDS
 from viscotack.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import line, physics, store
@@ -37,9 +37,9 @@ def random_surrogate(seed=0):
     """Return a surrogate that has learned nothing: what holds for it holds by construction."""
     rng = np.random.default_rng(seed)
     centre = np.zeros(line.OUTPUTS)
-    centre[line.SHAPE] = np.linspace(0.1, 0.99, line.TENSILE - 2)
-    centre[line.PRESSING] = np.linspace(0.8, 0.1, line.PRESSED - 1)
-    centre[line.RADII] = np.linspace(0.95, 0.4, line.POINTS - 1)
+    centre[line.SHAPE] = np.linspace(0.1, 0.99, trajectory.TENSILE - 2)
+    centre[line.PRESSING] = np.linspace(0.8, 0.1, trajectory.PRESSED - 1)
+    centre[line.RADII] = np.linspace(0.95, 0.4, trajectory.POINTS - 1)
     return Surrogate(
         start=Scaled(random_networks(rng, 2, 6, 2), np.array([-1.0, 0.3]), np.full(2, 0.1)),
         fast=random_networks(rng, 3, 6, 1),

@@ -5,6 +5,7 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
+from viscotack import trajectory  # noqa: E402
 from viscotack.surrogate import line, physics  # noqa: E402
 from viscotack.surrogate.choosing import choose  # noqa: E402
 from viscotack.surrogate.fitting import Fit, Task, fit  # noqa: E402
@@ -41,11 +42,11 @@ def test_what_a_network_should_say_gives_the_stored_curve_again(rows):
 
 
 def test_areas_are_exact_for_a_parabola():
-    u = np.linspace(0, 1, line.TENSILE)
-    t = line.gathered(line.TENSILE)
+    u = np.linspace(0, 1, trajectory.TENSILE)
+    t = trajectory.gathered(trajectory.TENSILE)
     assert line.AREA @ t == pytest.approx(0.5, rel=1e-12)
-    assert line.AREA @ np.ones(line.TENSILE) == pytest.approx(1, rel=1e-12)
-    assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, line.POINTS) ** 3, abs=1e-12)
+    assert line.AREA @ np.ones(trajectory.TENSILE) == pytest.approx(1, rel=1e-12)
+    assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, trajectory.POINTS) ** 3, abs=1e-12)
 
 
 def test_rows_of_a_cell_are_neighbours(rows):

@@ -13,6 +13,7 @@ import typer
 
 from ..campaign.columns import KINDS
 from ..campaign.parts import write_whole
+from ..campaign.plan import read_words
 from ..forecast_table import ANSWERS, predict_table
 
 # Seconds between two lines of progress, while theories answer.
@@ -82,20 +83,7 @@ def _teller() -> Callable[[int, int], None]:
 
 def read_table(path: Path) -> dict[str, list[str]]:
     """Return the columns of a CSV file as words; the first row names them."""
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            names = [name.strip() for name in next(reader, [])]
-            rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    if not rows or len(set(names)) != len(names):
-        raise ValueError(
-            f"{path}: needs a first row of different column names and a case a row below it"
-        )
-    for line, row in rows:
-        if len(row) != len(names):
-            raise ValueError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+    names, rows = read_words(path)
     return {name: [row[i].strip() for _, row in rows] for i, name in enumerate(names)}
 
 

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from .. import trajectory
 from ..bem import solve
 from ..observables import PullOff, pull_off, summary
 from ..record import from_dict
@@ -25,10 +26,6 @@ Array = npt.NDArray[np.float64]
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
-# The trajectory is kept at 24 points. From a deep start to zero force it is long and its tension
-# only a sliver of the travel, so the two parts have points of their own: the last 16 lie between
-# zero force and pull-off. A start in tension has the second part only.
-TRAJECTORY_POINTS, TENSILE_POINTS = 24, 16
 # What the summary says for a reader, not for a table.
 _LEFT_OUT = ("problem", "versions", "run_id", "events", "statistics", "error_estimate")
 _COST = ("steps", "nodes", "modes", "newton_iterations")
@@ -157,8 +154,8 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     -------
     dict
         ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
-        ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at
-        the places of :func:`trajectory_shares`; dimensionless as in `Result`. Forces follow a
+        ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
+        of :func:`viscotack.trajectory.shares`; dimensionless as in `Result`. Forces follow a
         monotone cubic between the steps of the run, radii a straight line; None without an edge.
     """
     depths, steps, edge = retraction(result)
@@ -170,7 +167,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     row |= {f"force_at_{name}": float(force(share)) for name, share in KEY_SHARES.items()}
     pressing = np.flatnonzero((steps > 0) & (x < 1))
     zero = _crossing(force, x, pressing[-1]) if pressing.size else 0.0
-    shares = trajectory_shares(zero)
+    shares = trajectory.shares(zero)
     forces = force(shares)
     # The force minimum is located between steps; the last point is that very number.
     forces[-1] = -found.force
@@ -191,34 +188,6 @@ def retraction(result: Result) -> tuple[Array, Array, Array]:
     first = int(np.flatnonzero(result.depth == result.depth.max())[-1])
     moved = first + np.flatnonzero(np.append(np.diff(result.depth[first:]) < 0, True))
     return result.depth[moved], result.force[moved], result.contact_radius[moved]
-
-
-def trajectory_shares(zero: float) -> Array:
-    """Return the shares of the travel to the pull-off at which a trajectory is kept, shape (24,).
-
-    Parameters
-    ----------
-    zero : float
-        The share at which the force is zero for the last time; 0 where it starts in tension.
-
-    Returns
-    -------
-    ndarray
-        Eight points from the start to zero force and sixteen from there to the pull-off, or all 24
-        in tension; closer to each other at the end of each part, :math:`1 - (1 - i/n)^2` of it.
-
-    Examples
-    --------
-    >>> trajectory_shares(0.9)[[0, 7, 8, 9, 23]].round(4).tolist()
-    [0.0, 0.8859, 0.9, 0.9129, 1.0]
-    """
-    tensile = TENSILE_POINTS if zero > 0 else TRAJECTORY_POINTS
-    pressing = _gathered(TRAJECTORY_POINTS - tensile + 1)[:-1]
-    return np.append(zero * pressing, zero + (1 - zero) * _gathered(tensile))
-
-
-def _gathered(count: int) -> Array:
-    return 1 - (1 - np.linspace(0.0, 1.0, count)) ** 2 if count > 1 else np.zeros(count)
 
 
 def _crossing(force: PchipInterpolator, x: Array, last: int) -> float:

@@ -140,8 +140,8 @@ def restored_kind(name: str, base: dict[str, Any] | None, columns: Iterable[str]
     return KINDS[name]
 
 
-def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
-    """Return the rows of a CSV file of numbers, each with its line; a first row names columns."""
+def read_words(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Return the names in the first row of a CSV file, and the other rows with their lines."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.reader(file)
@@ -153,10 +153,17 @@ def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
         raise ValueError(
             f"{path}: needs a first row of different column names and a case a row below it"
         )
-    found = []
     for line, row in rows:
         if len(row) != len(names):
             raise ValueError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+    return names, rows
+
+
+def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
+    """Return the rows of a CSV file of numbers, each with its line; a first row names columns."""
+    names, rows = read_words(path)
+    found = []
+    for line, row in rows:
         try:
             found.append((line, {n: float(v) for n, v in zip(names, row, strict=True)}))
         except ValueError as error:

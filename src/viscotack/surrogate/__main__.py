@@ -8,7 +8,7 @@ import argparse
 import json
 import platform
 import sys
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -24,7 +24,7 @@ from . import rows, scores, store
 from .calibration import covers, judged, kept_cells, trusted
 from .rows import FAST, LEARNED
 from .shop import Shop
-from .training import QUICK, SMALLER, Recipe, learn, learn_limits
+from .training import BANDED, QUICK, Recipe, learn, learn_limits
 
 # Rows drawn at random that no network learns from.
 _KEPT, _SEED = 0.06, 2026
@@ -50,14 +50,14 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
         all_rows, fast = (r.chosen(slice(None, None, _THINNED)) for r in (all_rows, fast))
     kept = kept_apart(len(all_rows))
     learned, test = all_rows.chosen(~kept), all_rows.chosen(kept)
-    recipe, smaller = (QUICK, QUICK) if quick else (Recipe(), SMALLER)
+    recipe, banded = (QUICK, QUICK.force) if quick else (Recipe(), BANDED)
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         limits = learn_limits(learned, fast, recipe, shop)
         _say(began, "limits")
         whole = learn(learned, limits, recipe, shop)
         held = kept_cells(learned, seed=_SEED)
         sister = learn(learned.chosen(~held), limits, recipe, shop, curves=QUICK)
-        bands = scores.begin_bands(learned, limits, replace(smaller, members=1), shop)
+        bands = scores.begin_bands(learned, limits, banded, shop)
         surrogate = whole.surrogate()
         _say(began, "networks")
         apart = judged(sister.surrogate(), learned.chosen(held))

@@ -107,17 +107,17 @@ def covers(apart: Apart, cell: npt.NDArray[np.intp], *, confidence: float = 0.9)
     Half of the cells measure the intervals of the other half, and the other way round. The share is
     that of all rows, and of the rows of each region.
     """
-    level = CONFIDENCES.index(confidence)
     half = np.isin(cell, np.random.default_rng(0).permutation(np.unique(cell))[::2])
-    where = region(apart.groups)
+    where, spreads = region(apart.groups), (apart.force_spread, apart.work_spread)
+    by_half = [
+        (some, _measured(apart.chosen(~some)).factors(apart.groups, spreads, confidence))
+        for some in (half, ~half)
+    ]
     answer: dict[str, Any] = {}
     for index, name in enumerate(("force", "work")):
-        error, spread = np.abs(getattr(apart, name)), getattr(apart, f"{name}_spread")
-        held = np.empty(len(error), dtype=bool)
-        for some in (half, ~half):
-            trust = _measured(apart.chosen(~some))
-            wide = getattr(trust, name)[where, level] * (spread + trust.floors[index])
-            held[some] = (error <= wide)[some]
+        error, held = np.abs(getattr(apart, name)), np.empty(len(cell), dtype=bool)
+        for some, factors in by_half:
+            held[some] = (error <= np.log10(factors[index]))[some]
         answer[name] = float(held.mean())
         answer[f"{name} by region"] = [float(held[where == r].mean()) for r in range(REGIONS)]
     return answer

@@ -19,27 +19,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..trajectory import POINTS, PRESSED, TENSILE, gathered
+
 Array = npt.NDArray[np.float64]
 
-# Points of a stored trajectory, of its part in tension, and of the part before it.
-POINTS, TENSILE = 24, 16
-PRESSED = POINTS - TENSILE
 # What a network says of a row: inner points of both shapes, and radii but the first over that.
 SHAPE = slice(0, TENSILE - 2)
 PRESSING = slice(SHAPE.stop, SHAPE.stop + PRESSED - 1)
 RADII = slice(PRESSING.stop, PRESSING.stop + POINTS - 1)
 OUTPUTS = RADII.stop
-
-
-def gathered(count: int) -> Array:
-    """Return shares from 0 to 1, closer to each other at the end.
-
-    Examples
-    --------
-    >>> gathered(3).tolist()
-    [0.0, 0.75, 1.0]
-    """
-    return 1 - (1 - np.linspace(0.0, 1.0, count)) ** 2
 
 
 def _weights() -> Array:

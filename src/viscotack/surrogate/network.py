@@ -1,5 +1,6 @@
 """Small networks side by side, evaluated with NumPy."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -52,10 +53,31 @@ class Networks:
             x = np.tanh(x @ weight + bias)
         return x @ self.weights[-1] + self.biases[-1]
 
+    def arrays(self, before: str = "") -> dict[str, Array]:
+        """Return weights and biases by names for a file, with something before each name."""
+        named = [("weight", self.weights), ("bias", self.biases)]
+        return {f"{before}{name}.{i}": a for name, some in named for i, a in enumerate(some)}
+
     @property
     def parameters(self) -> int:
         """Number of weights and biases of all networks together."""
         return sum(a.size for a in (*self.weights, *self.biases))
+
+
+def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
+    """Return the networks whose :meth:`Networks.arrays` a file has.
+
+    Examples
+    --------
+    >>> one = Networks((np.ones((1, 2, 1)),), (np.ones((1, 1, 1)),))
+    >>> from_arrays(one.arrays("a."), "a.").biases[0].tolist()
+    [[[1.0]]]
+    """
+    layers = range(sum(key.startswith(f"{before}weight.") for key in arrays))
+    weights, biases = (
+        tuple(arrays[f"{before}{name}.{i}"] for i in layers) for name in ("weight", "bias")
+    )
+    return Networks(weights, biases)
 
 
 def together(networks: list[Networks]) -> Networks:

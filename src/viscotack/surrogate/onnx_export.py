@@ -18,7 +18,7 @@ import numpy as np
 
 from .. import __version__
 from ..outputs import SPHERE
-from . import line
+from ..trajectory import POINTS
 from .model import Surrogate
 from .onnx_graph import IR_VERSION, OPSET, Graph
 from .store import shipped
@@ -42,9 +42,9 @@ OUTPUTS = {
     "force_interval": ((2,), f"between which the simulated pull-off force is [{_FORCE}]"),
     "work_interval": ((2,), f"between which the simulated work to pull-off is [{_WORK}]"),
     "inside": ((5,), "which inputs are in the range learned from, in their order"),
-    "curve_depth": ((line.POINTS,), f"depth from start to pull-off [{_LENGTH}]"),
-    "curve_force": ((line.POINTS,), f"force at these depths [{_FORCE}], compression positive"),
-    "curve_contact_radius": ((line.POINTS,), f"contact radius at these depths [{_RADIUS}]"),
+    "curve_depth": ((POINTS,), f"depth from start to pull-off [{_LENGTH}]"),
+    "curve_force": ((POINTS,), f"force at these depths [{_FORCE}], compression positive"),
+    "curve_contact_radius": ((POINTS,), f"contact radius at these depths [{_RADIUS}]"),
 }
 
 

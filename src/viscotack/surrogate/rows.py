@@ -8,6 +8,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from .. import datasets
+from ..trajectory import POINTS, PRESSED, TENSILE
 from . import line, physics
 
 Array = npt.NDArray[np.float64]
@@ -92,7 +93,7 @@ def _of_set(name: str, number: int) -> Rows:
     radius = column("trajectory_contact_radius")
     peak = column("pull_off_force")
     said, known = _curves(force, radius)
-    travel = left[:, 0] - left[:, line.PRESSED]
+    travel = left[:, 0] - left[:, PRESSED]
     return Rows(
         groups=groups,
         force=peak,
@@ -111,21 +112,20 @@ def _of_set(name: str, number: int) -> Rows:
 def _curves(force: Array, radius: Array) -> tuple[Array, Array]:
     """Return what a network should say of stored curves, and where the curves say it."""
     start, peak = force[:, :1], -force[:, -1:]
-    pressed = start[:, 0] > 0
+    p = start[:, 0] > 0
     n = len(force)
     said, known = np.zeros((n, line.OUTPUTS)), np.zeros((n, line.OUTPUTS))
-    shape = np.empty((n, line.TENSILE))
+    shape = np.empty((n, TENSILE))
     radii = radius / radius[:, :1]
-    p = pressed
-    shape[p] = force[p, line.PRESSED :] / -peak[p]
+    shape[p] = force[p, PRESSED:] / -peak[p]
     shape[~p], tense_radii = (
         _coarser(values[~p]) for values in ((start - force) / (peak + start), radii)
     )
     said[:, line.SHAPE], known[:, line.SHAPE] = shape[:, 1:-1], 1.0
-    said[p, line.PRESSING], known[p, line.PRESSING] = (force / start)[p, 1 : line.PRESSED], 1.0
+    said[p, line.PRESSING], known[p, line.PRESSING] = (force / start)[p, 1:PRESSED], 1.0
     said[p, line.RADII], known[p, line.RADII] = radii[p, 1:], 1.0
     # a start in tension has the radii of the second part only
-    second = slice(line.RADII.stop - line.TENSILE + 1, line.RADII.stop)
+    second = slice(line.RADII.stop - TENSILE + 1, line.RADII.stop)
     said[~p, second], known[~p, second] = tense_radii[:, 1:], 1.0
     # where the surfaces are apart, or nearly, there is no radius
     absent = ~np.isfinite(said)
@@ -135,5 +135,5 @@ def _curves(force: Array, radius: Array) -> tuple[Array, Array]:
 
 def _coarser(values: Array) -> Array:
     """Return values at 16 even steps of those at 24."""
-    old, new = (np.linspace(0.0, 1.0, count) for count in (line.POINTS, line.TENSILE))
+    old, new = (np.linspace(0.0, 1.0, count) for count in (POINTS, TENSILE))
     return PchipInterpolator(old, values, axis=1)(new)

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from . import line, physics
-from .model import Surrogate
+from ..trajectory import PRESSED
+from . import physics
+from .fitting import Fit
+from .model import Answers, Surrogate
 from .network import Networks, together
 from .physics import Array
 from .rows import BANDED, BANDS, LEARNED, Rows, band
 from .shop import Shop
-from .training import Limits, Recipe, begin_forces
+from .training import Limits, begin_forces
 from .trust import REGIONS, region
 
 _CONFIDENCE = 0.9
@@ -48,21 +50,21 @@ def _of(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
             ],
             "half width": float(np.median(ends[:, 1] / ends[:, 0]) ** 0.5 - 1),
         }
-    return answer | {"curve": _curve(surrogate, rows)}
+    return answer | {"curve": _curve(surrogate, rows, said)}
 
 
-def _curve(surrogate: Surrogate, rows: Rows) -> dict[str, float]:
+def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
     """Return how far predicted curves are off at the depths of the stored points.
 
     The part in tension is compared with the pull-off force, root mean square over its points.
     """
-    found = surrogate.curves(rows.groups, surrogate.evaluate(rows.groups))
+    found = surrogate.curves(rows.groups, said)
     depth = rows.groups[:, physics.PRELOAD, None] - (
         rows.trajectory_left[:, :1] - rows.trajectory_left
     )
     error = np.empty(len(rows))
     for i in range(len(rows)):
-        first = line.PRESSED if rows.start_force[i] > 0 else 0
+        first = PRESSED if rows.start_force[i] > 0 else 0
         force = _at(depth[i, first:], found.depth[i], found.force[i])
         off = (force - rows.trajectory_force[i, first:]) / rows.force[i]
         error[i] = np.sqrt(np.mean(off**2))
@@ -90,14 +92,14 @@ class Band:
     forces: list[Future[Networks]]
 
 
-def begin_bands(rows: Rows, limits: Limits, recipe: Recipe, shop: Shop) -> list[Band]:
+def begin_bands(rows: Rows, limits: Limits, how: Fit, shop: Shop) -> list[Band]:
     """Begin to learn the force without each band of Tabor number, modulus ratio and exponent."""
     found = []
     for column in BANDED:
         of_row = band(rows, column)
         for number in range(BANDS):
             held = of_row == number
-            forces = begin_forces(rows.chosen(~held), limits, recipe, shop)
+            forces = begin_forces(rows.chosen(~held), limits, how, shop)
             found.append(Band(column, number, rows.chosen(held), forces))
     return found
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from . import physics
 from .fitting import Fit, Task, fit
-from .network import Networks
+from .network import Networks, from_arrays
 
 
 @dataclass
@@ -59,15 +59,10 @@ def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:
     path = folder / f"{_name(task, how, seed)}.npz"
     if path.exists():
         with np.load(path, allow_pickle=False) as file:
-            layers = range(len(file.files) // 2)
-            return Networks(
-                tuple(file[f"weight.{i}"] for i in layers),
-                tuple(file[f"bias.{i}"] for i in layers),
-            )
+            return from_arrays(file)
     found = fit(task, how, seed=seed)
-    arrays: dict[str, Any] = {f"weight.{i}": a for i, a in enumerate(found.weights)}
-    arrays |= {f"bias.{i}": a for i, a in enumerate(found.biases)}
     whole = path.with_suffix(".part.npz")
+    arrays: dict[str, Any] = {**found.arrays()}
     np.savez(whole, **arrays)
     whole.rename(path)
     return found

@@ -13,7 +13,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from .model import Scaled, Surrogate
-from .network import Networks
+from .network import from_arrays
 from .trust import Trust
 
 SHIPPED = Path(__file__).with_name("shipped.npz")
@@ -39,8 +39,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
         networks = part.networks if isinstance(part, Scaled) else part
         if isinstance(part, Scaled):
             arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
-        for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
-            arrays |= {f"{name}.weight.{i}": weight, f"{name}.bias.{i}": bias}
+        arrays |= networks.arrays(f"{name}.")
     trust = surrogate.trust
     arrays |= {"trust.force": trust.force, "trust.work": trust.work, "trust.floors": trust.floors}
     words = {"form": _FORM, "sha256": _digest(arrays), **facts}
@@ -95,20 +94,14 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     if digest != _digest(arrays):
         raise ValueError(f"{path} is damaged: its arrays do not have the checksum beside them")
     scaled = {
-        name: Scaled(_networks(arrays, name), arrays[f"{name}.centre"], arrays[f"{name}.spread"])
+        name: Scaled(
+            from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]
+        )
         for name in ("start", "work", "give", "line")
     }
     trust = Trust(arrays["trust.force"], arrays["trust.work"], arrays["trust.floors"])
-    fast, force = _networks(arrays, "fast"), _networks(arrays, "force")
+    fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
     return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
-
-
-def _networks(arrays: dict[str, np.ndarray], name: str) -> Networks:
-    layers = range(sum(key.startswith(f"{name}.weight.") for key in arrays))
-    return Networks(
-        tuple(arrays[f"{name}.weight.{i}"] for i in layers),
-        tuple(arrays[f"{name}.bias.{i}"] for i in layers),
-    )
 
 
 def _digest(arrays: dict[str, np.ndarray]) -> str:

@@ -37,8 +37,8 @@ class Recipe:
     line: Fit = Fit(hidden=(48, 48, 48), steps=5000, scale=1.0)
 
 
-# Of surrogates that are made to be judged, many times over.
-SMALLER = Recipe(members=2, force=Fit(steps=3000), work=Fit(steps=2500, scale=1.0, penalty=1e-9))
+# Of a force that is learned without a band, many times over.
+BANDED = Fit(steps=3000)
 # Of a trial: to see that everything runs.
 QUICK = Recipe(
     members=2,
@@ -114,7 +114,7 @@ def learn(
     curves : Recipe, optional
         Another recipe for the curves, where they are not to be judged.
     """
-    forces = begin_forces(rows, limits, recipe, shop)
+    forces = begin_forces(rows, limits, recipe.force, shop, members=recipe.members)
     task, *of_work = _work(rows)
     works = [shop.fit(task, recipe.work, seed=i) for i in range(recipe.members)]
     curves = curves or recipe
@@ -126,12 +126,14 @@ def learn(
     return Pending(limits, forces, works, gives, shapes, ((a, b), (c, d), (e, f)))
 
 
-def begin_forces(rows: Rows, limits: Limits, recipe: Recipe, shop: Shop) -> list[Future[Networks]]:
+def begin_forces(
+    rows: Rows, limits: Limits, how: Fit, shop: Shop, *, members: int = 1
+) -> list[Future[Networks]]:
     """Begin to learn the force alone."""
     target = np.log10(rows.force)[:, None]
     way = physics.way(rows.groups, limits.fast)
     task = Task(physics.scaled(rows.groups), target, np.ones_like(target), way)
-    return [shop.fit(task, recipe.force, seed=i) for i in range(recipe.members)]
+    return [shop.fit(task, how, seed=i) for i in range(members)]
 
 
 def untested() -> Trust:
