@@ -19,7 +19,7 @@ from scipy.interpolate import PchipInterpolator
 from viscotack import Result, datasets, solve
 from viscotack.campaign.case import retraction
 from viscotack.campaign.columns import KINDS
-from viscotack.observables import crack_speed_at_pull_off, pull_off, work_to_pull_off
+from viscotack.result.observables import crack_speed_at_pull_off, pull_off, work_to_pull_off
 
 FINER = 10.0
 # The solver's finest accuracy.

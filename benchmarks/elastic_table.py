@@ -1,8 +1,8 @@
 """Remake the table of elastic pull-off of a Lennard-Jones sphere: force and work against mu.
 
 Runs the solver at the Chebyshev points of ln mu between 0.01 and 10 from zero force to the force
-minimum, and prints the rows of `viscotack.theory._lennard_jones_table`; with --check also the
-difference between table and solver halfway between the points.
+minimum, and prints the rows of `viscotack.theory.elastic._lennard_jones_table`; with --check also
+the difference between table and solver halfway between the points.
 
 Time: about ten minutes on one core, nearly all of it for mu above 3.
 """

@@ -15,10 +15,10 @@ import test_histories as histories  # noqa: E402
 import test_traction_laws as laws  # noqa: E402
 
 from viscotack.bem import solve  # noqa: E402
-from viscotack.dead_load import time_to_detachment  # noqa: E402
-from viscotack.observables import pull_off_force  # noqa: E402
 from viscotack.problem import Groups  # noqa: E402
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo  # noqa: E402
+from viscotack.result.dead_load import time_to_detachment  # noqa: E402
+from viscotack.result.observables import pull_off_force  # noqa: E402
 from viscotack.theory import lennard_jones  # noqa: E402
 
 

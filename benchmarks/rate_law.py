@@ -17,7 +17,7 @@ from cases import power_law, spread_out, standard_solid
 from scipy.stats import qmc
 
 from viscotack import AtRadius, Groups, advise, solve
-from viscotack.observables import pull_off
+from viscotack.result.observables import pull_off
 from viscotack.theory import detachment, jkr, lennard_jones, persson_brener, rate, unloading
 
 # Ranges of Tabor number, modulus ratio, exponent, rate, and start over the full glassy contact.

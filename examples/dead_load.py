@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.dead_load import time_to_detachment
 from viscotack.protocol import Dwell, LoadTo
+from viscotack.result.dead_load import time_to_detachment
 from viscotack.theory import jkr, lennard_jones, persson_brener
 
 RUBBER = vt.StandardSolid(rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5)

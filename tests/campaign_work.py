@@ -112,5 +112,5 @@ def employ(monkeypatch, crew):
         yield crew
 
     # the package has a function of the same name as the module
-    monkeypatch.setattr(import_module("viscotack.campaign.run"), "local", local)
+    monkeypatch.setattr(import_module("viscotack.campaign.running"), "local", local)
     return crew

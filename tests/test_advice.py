@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.cli import main
+from viscotack.app.cli import main
 from viscotack.protocol import Dwell
 from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
 

@@ -6,11 +6,11 @@ import sys
 import pytest
 
 from campaign_work import InlineCrew, employ, picky, plan_of
-from viscotack.app.campaign import _progress_words
+from viscotack.app.cli import main
+from viscotack.app.cli.campaign import _progress_words
 from viscotack.campaign import Store, run
-from viscotack.campaign.lock import locked
-from viscotack.campaign.run import Progress
-from viscotack.cli import main
+from viscotack.campaign.running import Progress
+from viscotack.files.lock import locked
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from viscotack import AtDepth, StandardSolid, read_case
-from viscotack.app.flags import problem_from_flags
+from viscotack.app.cli.flags import problem_from_flags
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import fill, grid
-from viscotack.campaign.run import expected_cost
-from viscotack.punch_problem import PunchGroups
-from viscotack.record import from_dict, run_id, to_dict
+from viscotack.campaign.running import expected_cost
+from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem.record import from_dict, run_id, to_dict
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
 HEADER = "tabor,modulus_ratio,exponent,preload,rate\n"

@@ -24,7 +24,7 @@ from campaign_work import (
 )
 from viscotack.campaign import AllCrashed, Store, read_plan, run
 from viscotack.campaign.crew import Gone
-from viscotack.campaign.run import PASSING
+from viscotack.campaign.running import PASSING
 
 HERE = Path(__file__).parent
 

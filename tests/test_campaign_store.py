@@ -11,8 +11,8 @@ from scipy.io import loadmat
 
 from campaign_work import plan_of
 from viscotack.campaign import CaseSettings, Store, export
-from viscotack.campaign.lock import FolderInUse, locked
 from viscotack.campaign.parts import Parts, table_of
+from viscotack.files.lock import FolderInUse, locked
 
 
 def names(parts):
@@ -144,7 +144,7 @@ def test_a_file_that_may_not_grow_is_named_too(tmp_path):
 
 HOLD = (
     "import sys, time; from pathlib import Path\n"
-    "from viscotack.campaign.lock import locked\n"
+    "from viscotack.files.lock import locked\n"
     "with locked(Path(sys.argv[1])):\n    print('held', flush=True)\n    time.sleep(60)\n"
 )
 

@@ -3,7 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from viscotack.case_file import read_case, read_prony
 from viscotack.geometry import Sphere
 from viscotack.materials import (
     Elastic,
@@ -13,6 +12,7 @@ from viscotack.materials import (
     StandardSolid,
 )
 from viscotack.problem import Problem
+from viscotack.problem.case_file import read_case, read_prony
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
 

@@ -10,8 +10,8 @@ import pytest
 import viscotack
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
-from viscotack.app.flags import problem_from_flags
-from viscotack.cli import main
+from viscotack.app.cli import main
+from viscotack.app.cli.flags import problem_from_flags
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -314,7 +314,7 @@ def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
 
 @pytest.mark.parametrize("kind", ["force", "radius", "overview"])
 def test_every_kind_of_plot_is_drawn(kind, fake, tmp_path, monkeypatch):
-    from viscotack import plot
+    from viscotack.pictures import plot
 
     drawn = []
     monkeypatch.setattr(plot, "save_figure", lambda figure, path: drawn.append((figure, path)))

@@ -13,7 +13,10 @@ from viscotack.campaign.columns import KINDS  # noqa: E402
 from viscotack.datasets import files  # noqa: E402
 from viscotack.datasets.columns import KEPT  # noqa: E402
 from viscotack.datasets.making import Targets, make  # noqa: E402
-from viscotack.observables import pull_off, work_to_pull_off  # noqa: E402
+from viscotack.result.observables import (
+    pull_off,
+    work_to_pull_off,  # noqa: E402
+)
 
 CARD = Path(__file__).parents[1] / "docs" / "datasets.md"
 # Table A.1 of Maghami, PhD thesis (2025): mean, median, standard deviation, least and largest.

@@ -6,18 +6,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from viscotack.lab import fit, master_curve, read_dma, read_relaxation
+from viscotack.lab.fit_passport import issued
+from viscotack.lab.fit_power_law import fit_constants
+from viscotack.lab.fit_prony import fit_series
+from viscotack.lab.observed import observed
+from viscotack.lab.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest
 from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.materials.library import published
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.shift import WLF
-from viscotack.measured import master_curve, read_dma, read_relaxation
-from viscotack.measured.draw import draw_fit
-from viscotack.measured.fit import fit
-from viscotack.measured.fit_passport import issued
-from viscotack.measured.fit_power_law import fit_constants
-from viscotack.measured.fit_prony import fit_series
-from viscotack.measured.observed import observed
-from viscotack.measured.sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest
+from viscotack.pictures.lab import draw_fit
 
 DATA = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 PDMS = published("pdms-10-1").material

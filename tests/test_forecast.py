@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack import advice, forecast_table
 from viscotack.campaign.case import curve
+from viscotack.forecast import advice
+from viscotack.forecast import table as forecast_table
 from viscotack.surrogate import model, store
 from viscotack.theory import lennard_jones
 

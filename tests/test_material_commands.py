@@ -6,7 +6,7 @@ import shlex
 import numpy as np
 import pytest
 
-from viscotack.cli import main
+from viscotack.app.cli import main
 from viscotack.materials import Prony
 from viscotack.materials.library import published
 from viscotack.materials.passport_file import read_passport, write_passport

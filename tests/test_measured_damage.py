@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import lab_files
-from viscotack.measured import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
+from viscotack.lab import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
 
 PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 TEXTS = {**lab_files.TEXTS, "reptate": lab_files.reptate()}

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from viscotack.materials import RetardationPowerLaw
-from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.measured import (
+from viscotack.lab import (
     FrequencySweeps,
     MasterCurve,
     ShiftTable,
@@ -21,6 +19,8 @@ from viscotack.measured import (
     read_shifts,
     shift_factors,
 )
+from viscotack.materials import RetardationPowerLaw
+from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
 PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 published = pytest.mark.skipif(

@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import lab_files
-from viscotack.measured import (
+from viscotack.lab import (
     FORMATS,
     FrequencySweeps,
     MasterCurve,
@@ -19,9 +19,9 @@ from viscotack.measured import (
     read_relaxation,
     read_shifts,
 )
-from viscotack.measured.grouping import grouped
-from viscotack.measured.lab_file import LARGEST
-from viscotack.measured.quantities import kelvin, radians_per_second, recognise, scale
+from viscotack.lab.grouping import grouped
+from viscotack.lab.lab_file import LARGEST
+from viscotack.lab.quantities import kelvin, radians_per_second, recognise, scale
 
 PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 published = pytest.mark.skipif(

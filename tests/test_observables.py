@@ -17,7 +17,8 @@ from synthetic import (
     jkr_force,
     jkr_result,
 )
-from viscotack.observables import (
+from viscotack.result import Event, Result
+from viscotack.result.observables import (
     contact_radius_at_pull_off,
     crack_speed_at_pull_off,
     pull_off,
@@ -27,7 +28,6 @@ from viscotack.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.result import Event, Result
 
 # Observable, its exact value for a JKR retraction, and its order in the steps.
 EXACT = [

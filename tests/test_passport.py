@@ -5,8 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from viscotack.app.flags import problem_from_flags
-from viscotack.case_file import read_case
+from viscotack.app.cli.flags import problem_from_flags
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -19,6 +18,7 @@ from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.problem.case_file import read_case
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {

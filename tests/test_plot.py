@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from synthetic import PULL_OFF_DEPTH, PULL_OFF_RADIUS, SI, jkr_detachment, jkr_result
-from viscotack.plot import (
+from viscotack.pictures.plot import (
     check_format,
     draw_force,
     draw_overview,
@@ -115,7 +115,7 @@ def test_drawing_leaves_no_trace():
     # In a fresh interpreter: here other tests may have left theirs. To read the backend would
     # choose one, and so import pyplot.
     code = (
-        "import sys, matplotlib, synthetic, viscotack.plot as p\n"
+        "import sys, matplotlib, synthetic, viscotack.pictures.plot as p\n"
         "state = lambda: {k: str(matplotlib.rcParams[k]) for k in keys}\n"
         "keys = [k for k in matplotlib.rcParams if k != 'backend']\n"
         "before = state()\n"

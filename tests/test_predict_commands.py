@@ -10,8 +10,7 @@ import pytest
 import viscotack as vt
 from synthetic import jkr_result
 from viscotack import bem
-from viscotack.app import predict_table
-from viscotack.cli import main
+from viscotack.app.cli import main, predict_table
 from viscotack.surrogate import physics, store, trust
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()

@@ -16,8 +16,8 @@ from viscotack.materials import (
     StandardSolid,
 )
 from viscotack.problem import Groups, Problem
+from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
-from viscotack.record import from_dict, run_id, to_dict
 from viscotack.traction import LennardJones
 
 E, NU = 1.458e6, 0.5

@@ -7,16 +7,15 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from viscotack.advice import advise
+from viscotack.app.cli import application
 from viscotack.bem import solve
-from viscotack.case_file import read_case
-from viscotack.cli import application
-from viscotack.dead_load import time_to_detachment
+from viscotack.forecast.advice import advise
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
-from viscotack.observables import pull_off_force, summary
 from viscotack.problem import Problem
-from viscotack.profile_problem import ProfileGroups, ProfileProblem
+from viscotack.problem.case_file import read_case
+from viscotack.problem.profile_problem import ProfileGroups, ProfileProblem
+from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -28,8 +27,9 @@ from viscotack.protocol import (
     Retract,
     Retraction,
 )
-from viscotack.record import from_dict, run_id, to_dict
 from viscotack.result import columns, load, save
+from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.observables import pull_off_force, summary
 from viscotack.theory import profiles
 from viscotack.traction import LennardJones
 

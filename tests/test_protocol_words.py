@@ -5,8 +5,10 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from viscotack.app.commands import application
-from viscotack.case_file import read_case
+from viscotack.app.cli.commands import application
+from viscotack.files.quantities import read_quantities
+from viscotack.problem.case_file import read_case
+from viscotack.problem.traction_file import law_from_words
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -18,7 +20,7 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
-from viscotack.protocol_words import (
+from viscotack.protocol.words import (
     PUNCH_UNITS,
     PURE_NUMBERS,
     SPHERE_UNITS,
@@ -26,9 +28,7 @@ from viscotack.protocol_words import (
     move_from_words,
     start_from_words,
 )
-from viscotack.quantity_table import read_quantities
 from viscotack.traction import Dugdale, Exponential, Tabulated
-from viscotack.traction_file import law_from_words
 
 CASE = """
 [material]

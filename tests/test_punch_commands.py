@@ -5,14 +5,14 @@ import json
 import numpy as np
 import pytest
 
-from viscotack.app.punch import punch_from_flags
-from viscotack.case_file import read_case
-from viscotack.cli import main
-from viscotack.layer import Bonded, Frictionless
+from viscotack.app.cli import main
+from viscotack.app.cli.punch import punch_from_flags
+from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.problem.case_file import read_case
+from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+from viscotack.problem.record import from_dict, run_id
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
-from viscotack.punch_problem import PunchGroups, PunchProblem
-from viscotack.record import from_dict, run_id
 from viscotack.result import columns, load
 
 PUNCH = ["simulate", "punch"]

@@ -69,7 +69,7 @@ def test_python_of_the_pages_runs(page, anywhere):
 
 @pytest.mark.parametrize("page", simulations())
 def test_commands_of_the_pages_run(page, anywhere):
-    from viscotack.cli import application
+    from viscotack.app.cli import application
 
     for line in simulations()[page]:
         arguments = shlex.split(line)[1:]

@@ -13,7 +13,7 @@ from test_study import made_rows, write_rows
 pytest.importorskip("sklearn")
 pytest.importorskip("xgboost")
 
-from viscotack.cli import main  # noqa: E402
+from viscotack.app.cli import main  # noqa: E402
 from viscotack.surrogate.study import study  # noqa: E402
 from viscotack.surrogate.study_published import TABLES  # noqa: E402
 from viscotack.surrogate.study_validation import Trial, scores  # noqa: E402

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from viscotack import solve, trajectory
+from viscotack import solve
 from viscotack.campaign.columns import KINDS
-from viscotack.observables import pull_off_force, work_to_pull_off
+from viscotack.result import trajectory
+from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import line, physics, store
 from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
 from viscotack.surrogate.network import Networks, together

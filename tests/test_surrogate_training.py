@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
-from viscotack import trajectory  # noqa: E402
+from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import line, physics  # noqa: E402
 from viscotack.surrogate.choosing import choose  # noqa: E402
 from viscotack.surrogate.fitting import Fit, Task, fit  # noqa: E402

@@ -1,6 +1,6 @@
 """``python -m viscotack``: the command line."""
 
-from .cli import main
+from viscotack.app.cli import main
 
 if __name__ == "__main__":
     main()

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
-from viscotack.dead_load import time_to_detachment
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.observables import pull_off_force
 from viscotack.problem import Groups
+from viscotack.problem.punch_problem import PunchGroups
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -21,7 +20,8 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
-from viscotack.punch_problem import PunchGroups
+from viscotack.result.dead_load import time_to_detachment
+from viscotack.result.observables import pull_off_force
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale
 

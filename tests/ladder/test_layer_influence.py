@@ -9,7 +9,7 @@ import pytest
 from scipy.special import sici, xlogy
 
 from viscotack.bem.layer import layer_influence, nodal_lengths
-from viscotack.layer import Bonded, Frictionless
+from viscotack.geometry import Bonded, Frictionless
 from viscotack.theory import punch_crossover
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"

@@ -19,9 +19,9 @@ from viscotack.materials.conversion import (
 from viscotack.materials.library import pdms_10_1, published
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import WLF
-from viscotack.observables import pull_off_force
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
+from viscotack.result.observables import pull_off_force
 
 E0 = 1.2e6
 PDMS = published("pdms-10-1").material

@@ -8,10 +8,14 @@ from viscotack.bem import Settings, solve
 from viscotack.bem.profile import ProfileContact
 from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Elastic, StandardSolid
-from viscotack.observables import contact_radius_at_pull_off, pull_off_force, work_to_pull_off
 from viscotack.problem import Groups
-from viscotack.profile_problem import ProfileGroups
+from viscotack.problem.profile_problem import ProfileGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
+from viscotack.result.observables import (
+    contact_radius_at_pull_off,
+    pull_off_force,
+    work_to_pull_off,
+)
 from viscotack.theory import profiles
 from viscotack.traction import LennardJones
 

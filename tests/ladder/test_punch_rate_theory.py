@@ -22,7 +22,7 @@ from viscotack.theory import (
     punch_rate,
     punch_unloading,
 )
-from viscotack.theory.punch import Bonded, Frictionless
+from viscotack.theory.punch.punch import Bonded, Frictionless
 from viscotack.traction import LennardJones
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"

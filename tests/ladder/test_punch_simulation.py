@@ -13,10 +13,11 @@ from viscotack.bem import Settings, solve
 from viscotack.bem.layer import layer_influence
 from viscotack.bem.plain_punch import plain_solve, triangle_matrix
 from viscotack.bem.punch import PunchContact
-from viscotack.geometry import FlatPunch
-from viscotack.layer import Bonded, Frictionless, Layer
+from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.observables import (
+from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+from viscotack.protocol import Approach, AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
+from viscotack.result.observables import (
     crack_speed_at_pull_off,
     effective_surface_energy,
     ligament_at_pull_off,
@@ -26,8 +27,6 @@ from viscotack.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.protocol import Approach, AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
-from viscotack.punch_problem import PunchGroups, PunchProblem
 from viscotack.theory import punch, punch_crossover, punch_curve
 from viscotack.traction import LennardJones
 

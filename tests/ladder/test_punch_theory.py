@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.special import jv
 
 from viscotack.theory import greenwood, punch, punch_crossover
-from viscotack.theory.punch import Bonded, Frictionless
+from viscotack.theory.punch.punch import Bonded, Frictionless
 
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 

@@ -20,7 +20,7 @@ from viscotack.theory import (
     rate,
     unloading,
 )
-from viscotack.theory.tabulated import TabulatedSpectrum
+from viscotack.theory.crack.tabulated import TabulatedSpectrum
 
 LENS = dict(radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15)
 CASE = LENS | dict(equilibrium_gap=1e-6)

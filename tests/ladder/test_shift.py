@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.constants import gas_constant
 
+from viscotack.lab import loss_from_storage
 from viscotack.materials import Prony, RetardationPowerLaw, StandardSolid
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.measured import loss_from_storage
 
 GLASS = 158.15  # PDMS, -115 C
 ROOM = 293.15

@@ -13,9 +13,11 @@ from viscotack.bem.layer import layer_influence, nodal_lengths
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.plain import hat_matrix, mean_compliance, plain_solve
 from viscotack.bem.surface import stiffness
-from viscotack.layer import Frictionless
+from viscotack.geometry import Frictionless
 from viscotack.materials import Elastic, Modes, Prony, RetardationPowerLaw, StandardSolid
-from viscotack.observables import (
+from viscotack.problem import Groups, Problem
+from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
+from viscotack.result.observables import (
     contact_radius_at_pull_off,
     crack_speed_at_pull_off,
     pull_off,
@@ -24,8 +26,6 @@ from viscotack.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.problem import Groups, Problem
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.theory import bradley, jkr
 from viscotack.traction import LennardJones
 

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, modulus_file, persson_brener, tabulated_modulus
-from viscotack.theory.tabulated_modulus import TabulatedModulus
+from viscotack.theory.crack.tabulated_modulus import TabulatedModulus
 
 RUBBER = RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.6, tau0=1e-3, poisson_ratio=0.5

@@ -12,9 +12,9 @@ from threadpoolctl import threadpool_limits
 from viscotack.bem import Settings, solve
 from viscotack.bem.sphere import SphereContact
 from viscotack.materials import Elastic
-from viscotack.observables import pull_off
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
+from viscotack.result.observables import pull_off
 from viscotack.theory import maugis
 from viscotack.traction import (
     LAWS,

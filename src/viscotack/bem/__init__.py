@@ -1,6 +1,6 @@
 """Simulation: boundary elements in space, retardation modes in time, tractions across the gap."""
 
 from viscotack.bem.settings import Settings
-from viscotack.bem.solve import SimulationError, has_start, solve
+from viscotack.bem.solver import SimulationError, has_start, solve
 
 __all__ = ["Settings", "SimulationError", "has_start", "solve"]

@@ -49,7 +49,7 @@ import numpy.typing as npt
 from scipy.interpolate import PPoly
 from scipy.special import xlogy, zeta
 
-from viscotack.layer import Base
+from viscotack.geometry import Base
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
 _NEAR, _FAR = 1.0, 48.0
@@ -91,7 +91,7 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
     A flat punch on a thin layer meets a stiffness of 2a/b and two edges of 0.177 each:
 
     >>> import numpy as np
-    >>> from viscotack.layer import Frictionless
+    >>> from viscotack.geometry import Frictionless
     >>> x = 1 - np.linspace(1, 0, 101) ** 2  # crowded at the end
     >>> G = layer_influence(x, 0.1, Frictionless())
     >>> pressure = np.linalg.solve(G, np.ones(101))

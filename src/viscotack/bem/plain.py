@@ -30,9 +30,9 @@ from scipy.special import ellipkm1
 
 from viscotack.materials import Material
 from viscotack.problem import Groups, Problem
-from viscotack.problems import Case
+from viscotack.problem.problems import Case
+from viscotack.problem.punch_problem import PunchGroups
 from viscotack.protocol import AtDepth
-from viscotack.punch_problem import PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 
 EDGE_GAP = 3 ** (1 / 6)

@@ -28,8 +28,8 @@ from scipy.linalg import toeplitz
 from scipy.special import sici, xlogy
 
 from viscotack.bem.plain import crossing, relaxed_depth, retract
-from viscotack.layer import Base
-from viscotack.punch_problem import PunchGroups, PunchProblem
+from viscotack.geometry import Base
+from viscotack.problem.punch_problem import PunchGroups, PunchProblem
 from viscotack.result import Result
 
 # kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.

@@ -22,7 +22,7 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface, stiffness
-from viscotack.layer import Base
+from viscotack.geometry import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction
 

@@ -1,10 +1,11 @@
 """Campaigns: many problems, what to run, where it is kept, and running it here or on a cluster."""
 
+from viscotack.files.lock import FolderInUse
+
 from .case import CaseSettings, measure
-from .export import export
-from .lock import FolderInUse
+from .exporting import export
 from .plan import Plan, read_plan
-from .run import AllCrashed, Progress, run
+from .running import AllCrashed, Progress, run
 from .store import Store
 
 __all__ = [

@@ -15,10 +15,11 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from .. import trajectory
+from viscotack.problem.record import from_dict
+from viscotack.result import trajectory
+from viscotack.result.observables import PullOff, pull_off, summary
+
 from ..bem import solve
-from ..observables import PullOff, pull_off, summary
-from ..record import from_dict
 from ..result import Outcome, Result
 from .limits import LimitExceeded, Watch, peak_memory
 
@@ -155,7 +156,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     dict
         ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
         ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
-        of :func:`viscotack.trajectory.shares`; dimensionless as in `Result`. Forces follow a
+        of :func:`viscotack.result.trajectory.shares`; dimensionless as in `Result`. Forces follow a
         monotone cubic between the steps of the run, radii a straight line; None without an edge.
     """
     depths, steps, edge = retraction(result)

@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem.record import from_dict, to_dict
+
 from ..bem import has_start
 from ..materials import RetardationPowerLaw, StandardSolid
 from ..problem import Groups
 from ..protocol import AtDepth, AtForce, AtRadius
-from ..punch_problem import PunchGroups
-from ..record import from_dict, to_dict
 from ..units import positive
 
 Inputs = Mapping[str, float]

@@ -1,7 +1,7 @@
 """Who does the cases: processes of this machine, or a Dask cluster, behind one small submit.
 
 A crew takes one case at a time and returns a future. What to run next, what to store and what
-to try again is decided in :mod:`viscotack.campaign.run`.
+to try again is decided in :mod:`viscotack.campaign.running`.
 """
 
 import multiprocessing

@@ -9,8 +9,9 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from ..case_file import read_case
-from ..record import from_dict, run_id, to_dict
+from viscotack.problem.case_file import read_case
+from viscotack.problem.record import from_dict, run_id, to_dict
+
 from ..units import parse, positive
 from .case import CaseSettings
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem

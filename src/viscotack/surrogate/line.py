@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..trajectory import POINTS, PRESSED, TENSILE, gathered
+from viscotack.result.trajectory import POINTS, PRESSED, TENSILE, gathered
 
 Array = npt.NDArray[np.float64]
 

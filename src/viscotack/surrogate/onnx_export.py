@@ -16,9 +16,10 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.result.outputs import SPHERE
+from viscotack.result.trajectory import POINTS
+
 from .. import __version__
-from ..outputs import SPHERE
-from ..trajectory import POINTS
 from .model import Surrogate
 from .onnx_graph import IR_VERSION, OPSET, Graph
 from .store import shipped

@@ -9,9 +9,10 @@ A network never says a pull-off force. It says where between its two limits the 
 
 the elastic pull-off of the relaxed solid at the slow end and at the fast end that of a solid that
 does not relax at all, from the relaxed start; and that one is between the former and the fast limit
-of the largest contact, :math:`f(\mu k^{1/3})/k` (:mod:`viscotack.theory.bounds`). So no answer
-leaves these two, and slow, fast, JKR and Bradley limits come out right; G between them is learned,
-to 0.15 % where the solver knows it to 0.1 %. The force of the relaxed start is that of Hertz,
+of the largest contact, :math:`f(\mu k^{1/3})/k` (:mod:`viscotack.theory.sphere.bounds`). So no
+answer leaves these two, and slow, fast, JKR and Bradley limits come out right; G between them is
+learned, to 0.15 % where the solver knows it to 0.1 %. The force of the relaxed start is that of
+Hertz,
 
 .. math:: \hat F_H = \frac{8}{9 \pi} \left( \frac{\hat d}{\mu} \right)^{3/2} ,
 

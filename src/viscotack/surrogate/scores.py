@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ..trajectory import PRESSED
+from viscotack.result.trajectory import PRESSED
+
 from . import physics
 from .fitting import Fit
 from .model import Answers, Surrogate

@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.result.observables import pull_off
+
 from ..bem import solve
 from ..materials import RetardationPowerLaw
-from ..observables import pull_off
 from ..problem import Groups
 from ..protocol import AtDepth
 from .features import Descriptor, Target, crack_amplification, features, target

@@ -9,7 +9,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .. import plot
+from viscotack.pictures import plot
+
 from .study import Study
 from .study_figures import figures
 from .study_sheet import Sheet

@@ -8,22 +8,16 @@ and may be an array; the parameters are keywords, and arrays of them broadcast. 
 float. A value outside the domain of a formula, in any element, raises ``ValueError``.
 """
 
-from . import (
-    adhesion_map,
-    bounds,
-    bradley,
+from .crack import (
     crack_regimes,
-    detachment,
-    dmt,
-    empirical,
     greenwood,
-    hertz,
-    jkr,
-    lennard_jones,
-    maugis,
     modulus_file,
     persson_brener,
-    profiles,
+    tabulated,
+    tabulated_modulus,
+)
+from .elastic import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles
+from .punch import (
     punch,
     punch_crossover,
     punch_curve,
@@ -32,12 +26,8 @@ from . import (
     punch_map,
     punch_rate,
     punch_unloading,
-    rate,
-    tabulated,
-    tabulated_modulus,
-    transition,
-    unloading,
 )
+from .sphere import bounds, detachment, empirical, rate, transition, unloading
 
 __all__ = [
     "adhesion_map",

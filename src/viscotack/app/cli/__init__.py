@@ -1,0 +1,25 @@
+"""The command line: ``viscotack simulate sphere ...``. Words in, words and pictures out."""
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+# Each of these modules adds its commands to the one application.
+_COMMANDS = ("predict", "theory", "punch", "material", "campaign", "study")
+
+
+def application() -> Any:
+    """Return the application with all its commands.
+
+    The library of the command line takes a while to import; ``import viscotack`` never pays it.
+    """
+    from .commands import application
+
+    for name in _COMMANDS:
+        import_module(f"viscotack.app.cli.{name}")
+    return application
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line with these arguments, or with those of the process."""
+    application()(None if arguments is None else list(arguments), prog_name="viscotack")

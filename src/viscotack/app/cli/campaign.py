@@ -1,0 +1,343 @@
+"""The commands ``viscotack campaign plan | run | status | export``: many problems at once."""
+
+import json
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+from typing import Annotated, Any
+
+import typer
+from typer import Argument, Option
+
+from .commands import AsJson, application, check_files, wrong_input
+
+campaign = typer.Typer(
+    help="Run many problems: a plan, a folder that survives every stop, a table.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+application.add_typer(campaign, name="campaign")
+
+PlanFile = Annotated[
+    Path,
+    Argument(
+        metavar="PLAN",
+        help="A plan in TOML, or a CSV file with the columns tabor, modulus_ratio, exponent, "
+        "preload and rate, as for simulate sphere; docs/campaigns.md describes both.",
+        show_default=False,
+    ),
+]
+Folder = Annotated[
+    Path, Argument(metavar="DIR", help="The folder of a campaign.", show_default=False)
+]
+# Seconds between two lines of progress where nobody watches a bar.
+_LINES = 10.0
+
+
+@campaign.command("plan")
+def plan_command(
+    plan_file: PlanFile,
+    csv_file: Annotated[
+        Path | None, Option("--csv", metavar="FILE", help="Write the cases as a table.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Say what a plan stands for, without running it.
+
+    Example: viscotack campaign plan study.toml --csv cases.csv
+    """
+    with _words_for_what_is_missing():
+        from viscotack.campaign import export, read_plan
+        from viscotack.campaign.parts import table_of
+
+        check_files(None, csv_file)
+        plan = read_plan(plan_file)
+        if csv_file is not None:
+            export(table_of([case.inputs for case in plan.cases]), csv_file)
+            typer.echo(f"wrote {csv_file}", err=True)
+    ranges = {
+        name: [min(values), max(values)]
+        for name in plan.cases[0].inputs
+        if (values := [case.inputs[name] for case in plan.cases if name in case.inputs])
+    }
+    answer: dict[str, Any] = {
+        "kind": plan.kind.name,
+        "cases": len(plan.cases),
+        "rejected": plan.rejected,
+        "repeated": plan.repeated,
+        "accuracy": plan.settings.accuracy,
+        "until": plan.settings.until,
+        "time_limit_s": plan.settings.time_limit,
+        "memory_limit_bytes": plan.settings.memory_limit,
+        "ranges": ranges,
+    }
+    if as_json:
+        typer.echo(json.dumps(answer, indent=2))
+        return
+    typer.echo(
+        f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points are no contacts "
+        f"and are left out, {plan.repeated} are stated more than once and run once"
+    )
+    for name, (low, high) in ranges.items():
+        typer.echo(f"  {name:<24}{low:>12.5g} to {high:.5g}")
+    limits = plan.settings
+    typer.echo(
+        f"  to {limits.until}, accuracy {limits.accuracy:g}; at most {limits.time_limit:g} s and "
+        f"{limits.memory_limit / 1e6:g} MB a case"
+    )
+
+
+@campaign.command("run")
+def run_command(
+    plan_file: Annotated[
+        Path | None,
+        Argument(
+            metavar="[PLAN]",
+            help="A plan in TOML, or a CSV file with the columns tabor, modulus_ratio, exponent, "
+            "preload and rate, as for simulate sphere. Leave it out to go on with what is in DIR.",
+            show_default=False,
+        ),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        Option(
+            "--out",
+            metavar="DIR",
+            help="Folder that keeps the campaign; made if missing. What is in it is not run again.",
+        ),
+    ] = None,
+    workers: Annotated[
+        int, Option(metavar="N", help="Processes on this machine, one thread each.", min=1)
+    ] = 1,
+    scheduler: Annotated[
+        str | None,
+        Option(
+            metavar="ADDRESS",
+            help='A Dask scheduler, "tcp://host:8786": its workers do the cases instead.',
+        ),
+    ] = None,
+    accuracy: Annotated[
+        float | None,
+        Option(
+            metavar="RELATIVE",
+            help="Accuracy wanted of the pull-off force, in place of the plan's.",
+        ),
+    ] = None,
+    until: Annotated[
+        str | None,
+        Option(
+            metavar="pull-off|detached",
+            help="How far to pull, in place of the plan's; pull-off if nobody says.",
+        ),
+    ] = None,
+    time_limit: Annotated[
+        str | None,
+        Option(metavar="TIME", help='Longest time of a case, "10 min", in place of the plan\'s.'),
+    ] = None,
+    memory_limit: Annotated[
+        str | None,
+        Option(
+            metavar="MEMORY",
+            help='Most memory of a case beside its worker, "400 MB", in place of the plan\'s.',
+        ),
+    ] = None,
+    retry: Annotated[
+        bool, Option("--retry", help="Run the cases that failed for a lasting reason once more.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Run the cases of a plan that are not in the folder yet.
+
+    It may be stopped at any time and goes on when called again; ctrl-C finishes the cases in
+    flight, a second one does not. Exit status 0: nothing is left; 1: stopped before; failures are
+    listed by viscotack campaign status.
+
+    Example: viscotack campaign run cases.csv --out study --workers 2
+    """
+    changed = {
+        "accuracy": accuracy,
+        "until": until,
+        "time_limit": time_limit,
+        "memory_limit": memory_limit,
+    }
+    with _words_for_what_is_missing():
+        from viscotack.campaign import AllCrashed, read_plan, run
+
+        if out is None:
+            raise ValueError("--out is missing: the folder that keeps the campaign")
+        if plan_file is None and any(value is not None for value in changed.values()):
+            raise ValueError("settings are those of the folder; give the plan to change limits")
+        plan = None if plan_file is None else read_plan(plan_file, **changed)
+        end, trouble = None, ""
+        try:
+            with _shown() as report:
+                end = run(
+                    plan, out, workers=workers, scheduler=scheduler, retry=retry, report=report
+                )
+        except (KeyboardInterrupt, AllCrashed) as error:
+            trouble = str(error) or "ended at once"
+    if end is None:
+        typer.echo(f"viscotack: {trouble}; what is stored in {out} is safe", err=True)
+        raise typer.Exit(1)
+    _tell(out, end, as_json)
+    if end.stopped:
+        raise typer.Exit(1)
+
+
+@campaign.command("status")
+def status_command(folder: Folder, as_json: AsJson = False) -> None:
+    """Say how far a campaign is, and why cases failed; also while it runs.
+
+    Example: viscotack campaign status study
+    """
+    with _words_for_what_is_missing():
+        from viscotack.campaign import Progress, Store
+
+        store = Store(folder)
+        planned = {case.name for case in store.plan().cases}
+        done, failed = (planned.intersection(names) for names in store.finished())
+        failures = store.failures()
+    reasons = failures.select(["failure", "reason"]).to_pylist() if failures.num_rows else []
+    _tell(folder, Progress(len(planned), len(done), len(failed)), as_json, reasons)
+
+
+@campaign.command("export")
+def export_command(
+    folder: Folder,
+    csv_file: Annotated[Path | None, Option("--csv", metavar="FILE", help="Write a table.")] = None,
+    parquet_file: Annotated[
+        Path | None, Option("--parquet", metavar="FILE", help="Write a Parquet file.")
+    ] = None,
+    mat_file: Annotated[
+        Path | None, Option("--mat", metavar="FILE", help="Write a MATLAB file.")
+    ] = None,
+    failures_file: Annotated[
+        Path | None,
+        Option("--failures", metavar="FILE", help="Write the failures, as a .csv table."),
+    ] = None,
+    trajectories: Annotated[
+        bool,
+        Option(
+            "--trajectories",
+            help="Write the 24 points of each curve to the CSV file as well; the others have them.",
+        ),
+    ] = False,
+) -> None:
+    """Write the results as a table: inputs, pull-off force, work, error estimate and the rest.
+
+    Rows come in the order of the plan. A case that failed is not among them.
+
+    Example: viscotack campaign export study --csv study.csv
+    """
+    wanted = [csv_file, parquet_file, mat_file, failures_file]
+    with _words_for_what_is_missing():
+        from viscotack.campaign import Store, export
+
+        if not any(wanted):
+            raise ValueError("say what to write: --csv, --parquet, --mat or --failures FILE")
+        check_files(None, *wanted)
+        for file, ending in ((csv_file, ".csv"), (parquet_file, ".parquet"), (mat_file, ".mat")):
+            if file is not None and file.suffix != ending:
+                raise ValueError(f"{file}: the ending must be {ending}")
+        store = Store(folder)
+        table = store.results()
+        for file in filter(None, wanted[:3]):
+            export(table, file, trajectories=trajectories or file.suffix != ".csv")
+            typer.echo(f"wrote {table.num_rows} cases to {file}", err=True)
+        if failures_file is not None:
+            export(store.failures(), failures_file)
+            typer.echo(f"wrote {failures_file}", err=True)
+
+
+def _tell(
+    folder: Path, end: Any, as_json: bool, reasons: list[dict[str, str]] | None = None
+) -> None:
+    """Print how far a campaign is, as one object or as words."""
+    left = end.cases - end.done - end.failed
+    answer: dict[str, Any] = {
+        "cases": end.cases,
+        "done": end.done,
+        "failed": end.failed,
+        "left": left,
+    }
+    if end.elapsed_s:
+        answer |= {
+            "elapsed_s": end.elapsed_s,
+            "cases_per_second": end.rate,
+            "worker_use": end.worker_use,
+            "peak_memory_bytes": end.peak_memory,
+            "stopped": end.stopped,
+        }
+    if reasons is not None:
+        answer["failures"] = [
+            {"failure": kind, "reason": reason, "cases": count}
+            for (kind, reason), count in Counter(
+                (r["failure"], r["reason"]) for r in reasons
+            ).most_common()
+        ]
+    if as_json:
+        typer.echo(json.dumps(answer, indent=2))
+        return
+    typer.echo(f"{end.done} of {end.cases} cases done, {end.failed} failed, {left} left")
+    if end.elapsed_s:
+        typer.echo(
+            f"  {end.elapsed_s:.1f} s, {end.rate:.2f} cases/s; the workers were busy "
+            f"{100 * end.worker_use:.0f} % of the time, {end.peak_memory / 1e6:.0f} MB at most each"
+        )
+    for why in answer.get("failures", []):
+        typer.echo(f"  {why['cases']:6d} {why['failure']}: {why['reason']}")
+    if left:
+        typer.echo(f"  go on with: viscotack campaign run --out {folder}")
+
+
+@contextmanager
+def _shown() -> Iterator[Callable[[Any], None]]:
+    """Show progress on standard error: a bar where somebody looks, else a line now and then."""
+    if not sys.stderr.isatty():
+        last = perf_counter()
+
+        def line(now: Any) -> None:
+            nonlocal last
+            if perf_counter() - last > _LINES or now.stopped:
+                last = perf_counter()
+                typer.echo(_progress_words(now), err=True)
+
+        yield line
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn
+
+    looks = (BarColumn(), TextColumn("{task.description}"))
+    with Progress(*looks, console=Console(stderr=True)) as bar:
+        task = bar.add_task("starting", total=None)
+
+        def move(now: Any) -> None:
+            bar.update(
+                task,
+                total=now.cases,
+                completed=now.done + now.failed,
+                description=_progress_words(now),
+            )
+
+        yield move
+
+
+def _progress_words(now: Any) -> str:
+    text = f"{now.done} of {now.cases} stored, {now.failed} failed, {now.rate:.1f} cases/s"
+    if now.remaining_s is not None:
+        minutes, seconds = divmod(round(now.remaining_s), 60)
+        text += f", about {minutes} min {seconds:02d} s left"
+    return text + ("; finishing the cases in flight" if now.stopped else "")
+
+
+@contextmanager
+def _words_for_what_is_missing() -> Iterator[None]:
+    """Tell of wrong input and of a missing extra in a paragraph, with exit status 2."""
+    with wrong_input():
+        try:
+            yield
+        except ModuleNotFoundError as error:
+            raise ValueError(str(error)) from None

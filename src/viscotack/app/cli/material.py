@@ -1,0 +1,505 @@
+"""The commands ``viscotack material fit | show | convert | export``: from a test to a material."""
+
+import json
+from dataclasses import asdict, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from typer import Argument, Option
+
+from viscotack import __version__
+from viscotack.materials.conversion import PronyForm, prony_form
+from viscotack.materials.exchange import Units, exported, imported
+from viscotack.materials.library import MATERIALS, published
+from viscotack.materials.passport import Origin, Passport
+from viscotack.materials.passport_file import read_passport, write_passport
+from viscotack.materials.passport_tables import passport_text
+from viscotack.materials.passport_words import in_words
+from viscotack.materials.shift import WLF
+from viscotack.materials.words import word_of
+from viscotack.pictures import plot
+from viscotack.units import parse
+
+from .commands import AsJson, PlotFile, application, check_files, wrong_input
+
+material = typer.Typer(
+    help="From a laboratory's file to a material, and on to other programs.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+application.add_typer(material, name="material")
+
+
+class Test(StrEnum):
+    """What a file holds."""
+
+    DMA = "dma"
+    RELAXATION = "relaxation"
+    CREEP = "creep"
+
+
+class Model(StrEnum):
+    """What to fit."""
+
+    BEST = "best"
+    POWER_LAW = "power-law"
+    RELAXATION_POWER_LAW = "relaxation-power-law"
+    SLS = "sls"
+    PRONY = "prony"
+
+
+class Code(StrEnum):
+    """Programs whose input is written and read."""
+
+    ABAQUS = "abaqus"
+    ANSYS = "ansys"
+    COMSOL = "comsol"
+    RADIOSS = "radioss"
+    TAMAAS = "tamaas"
+
+
+_HELP_PASSPORT = (
+    f"A material passport, or the name of a published material: {', '.join(MATERIALS)}."
+)
+Known = Annotated[str, Argument(metavar="PASSPORT", help=_HELP_PASSPORT, show_default=False)]
+Output = Annotated[
+    Path | None, Option("-o", "--output", metavar="FILE", help="Write to this file.")
+]
+Temperature = Annotated[
+    str | None,
+    Option("--temperature", metavar="T", help='At this temperature, "0 degC" or "273 K".'),
+]
+Pressure = Annotated[
+    str | None, Option("--pressure-unit", metavar="UNIT", help="Unit of moduli there, MPa.")
+]
+Time = Annotated[str | None, Option("--time-unit", metavar="UNIT", help="Unit of times there, s.")]
+
+
+@material.command("fit")
+def fit_command(
+    file: Annotated[
+        Path, Argument(metavar="FILE", help="What the instrument wrote.", show_default=False)
+    ],
+    poisson_ratio: Annotated[
+        float,
+        Option("--poisson-ratio", metavar="NU", help="0.5 for rubber, about 0.35 for a glass."),
+    ],
+    output: Output = None,
+    plot_file: PlotFile = None,
+    test: Annotated[Test, Option(help="What the file holds.")] = Test.DMA,
+    model: Annotated[
+        Model, Option(help="What to fit; best: all, and an information criterion chooses.")
+    ] = Model.BEST,
+    arms: Annotated[
+        int | None,
+        Option(metavar="N", help="Relaxation times of a Prony series; else the data decide."),
+    ] = None,
+    reference: Annotated[
+        str | None,
+        Option(
+            "--reference-temperature",
+            metavar="T",
+            help='Temperature of the master curve, "20 degC"; needed for sweeps at several.',
+        ),
+    ] = None,
+    glass_transition: Annotated[
+        str | None,
+        Option(
+            "--glass-transition",
+            metavar="T",
+            help='Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "-115 degC". '
+            "Without any shift it is found from the overlap of the sweeps.",
+        ),
+    ] = None,
+    wlf: Annotated[
+        str | None,
+        Option(
+            metavar="C1,C2",
+            help='Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
+        ),
+    ] = None,  # fmt: skip
+    shift_file: Annotated[
+        Path | None, Option("--shift-file", metavar="FILE", help="Shift by this table of log_aT.")
+    ] = None,
+    kind: Annotated[
+        str | None, Option(metavar="E|G", help="Tensile or shear, where the file does not say.")
+    ] = None,
+    measured_at: Annotated[
+        str | None,
+        Option("--temperature", metavar="T", help="Of the test, where the file does not say."),
+    ] = None,
+    frequency_unit: Annotated[
+        str | None, Option("--frequency-unit", help="Hz or rad/s, where the file does not say.")
+    ] = None,
+    modulus_unit: Annotated[
+        str | None, Option("--modulus-unit", help="Such as MPa, where the file does not say.")
+    ] = None,
+    glassy_modulus: Annotated[
+        str | None,
+        Option(
+            "--glassy-modulus",
+            metavar="PRESSURE",
+            help='Known from elsewhere and not fitted, "3 GPa"; not for a Prony series.',
+        ),
+    ] = None,
+    rubbery_modulus: Annotated[
+        str | None, Option("--rubbery-modulus", metavar="PRESSURE", help="In the same way.")
+    ] = None,
+    loss: Annotated[
+        bool, Option("--loss/--no-loss", help="Whether the loss modulus counts.")
+    ] = True,
+    name: Annotated[
+        str | None, Option(metavar="WORDS", help="Name of the material; else that of the file.")
+    ] = None,
+    reference_words: Annotated[
+        str, Option("--source", metavar="WORDS", help="Who measured it, for the passport.")
+    ] = "",
+    level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
+    as_json: AsJson = False,
+) -> None:
+    """Fit a material to a DMA, relaxation or creep test, and issue its passport.
+
+    Sweeps at several temperatures become a master curve first.
+
+    Example: viscotack material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC"
+    --glass-transition "-115 degC" -o pdms.toml --plot fit.png
+    """
+    with wrong_input():
+        check_files(plot_file, output)
+        from viscotack.lab import fit
+        from viscotack.lab.fit_passport import issued
+        from viscotack.pictures.lab import draw_fit
+
+        given = {"kind": kind, "modulus_unit": modulus_unit, "temperature": _kelvin(measured_at)}
+        shifting = {"glass-transition": glass_transition, "wlf": wlf, "shift-file": shift_file}
+        if test is Test.DMA:
+            given["frequency_unit"] = frequency_unit
+            data, shift = _master_curve(file, given, _kelvin(reference), shifting)
+        else:
+            _refuse(
+                f"for --test {test}",
+                {"frequency-unit": frequency_unit, "reference-temperature": reference} | shifting,
+            )
+            data, shift = _over_time(file, test, given), None
+        known = {"glassy_modulus": glassy_modulus, "rubbery_modulus": rubbery_modulus}
+        report = fit(
+            data,
+            poisson_ratio=poisson_ratio,
+            model=str(model),
+            arms=arms,
+            known={k: parse(v, "Pa") for k, v in known.items() if v is not None},
+            loss=loss,
+            level=level,
+        )
+        passport = issued(
+            report,
+            name=name or file.stem,
+            shift=shift,
+            reference=reference_words,
+            made_by=f"viscotack {__version__}",
+        )
+        passport = _by_file_name(passport, file)
+        if output is not None:
+            write_passport(passport, output)
+            typer.echo(f"wrote {output}", err=True)
+        if plot_file is not None:
+            plot.save_figure(draw_fit(report), plot_file)
+            typer.echo(f"drew {plot_file}", err=True)
+    if as_json:
+        _print_json(passport, criterion=dict(report.compared), median_error=report.median_error)
+        return
+    typer.echo("\n".join(f"  Read: {note}" for note in passport.origin.notes), err=True)
+    typer.echo(report.words())
+
+
+@material.command("show")
+def show_command(passport_file: Known, as_json: AsJson = False) -> None:
+    """Show a material passport in words, or a published material.
+
+    Example: viscotack material show pdms-10-1
+    """
+    with wrong_input():
+        passport = _passport(passport_file)
+    if as_json:
+        _print_json(passport)
+    else:
+        typer.echo(in_words(passport))
+
+
+@material.command("convert")
+def convert_command(
+    source: Annotated[
+        str,
+        Argument(
+            metavar="PASSPORT|FILE",
+            help=f"{_HELP_PASSPORT} Or, with --from, another program's input.",
+            show_default=False,
+        ),
+    ],
+    output: Output = None,
+    temperature: Temperature = None,
+    prony: Annotated[
+        bool, Option("--prony", help="As a Prony series; of a power law with a stated error.")
+    ] = False,
+    frequencies: Annotated[
+        str | None,
+        Option(
+            metavar="LOW,HIGH",
+            help='Where the series must hold, "1 mHz,1 MHz"; else the measured range.',
+        ),
+    ] = None,  # fmt: skip
+    tolerance: Annotated[float, Option(help="Relative error allowed to the series.")] = 3e-4,
+    code: Annotated[
+        Code | None, Option("--from", help="The file is input of this program.")
+    ] = None,
+    pressure_unit: Pressure = None,
+    time_unit: Time = None,
+    rubbery_modulus: Annotated[
+        str | None,
+        Option(
+            "--rubbery-modulus",
+            metavar="PRESSURE",
+            help="Long-term Young's modulus, where that input does not hold it.",
+        ),
+    ] = None,  # fmt: skip
+    poisson_ratio: Annotated[
+        float | None, Option("--poisson-ratio", metavar="NU", help="In the same way.")
+    ] = None,
+) -> None:
+    """Convert a passport: to another temperature, to a Prony series, from another program.
+
+    Without -o the passport goes to standard output.
+
+    Examples: viscotack material convert pdms-10-1 --temperature "0 degC" -o cold.toml, or:
+    viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s -o pad.toml
+    """
+    with wrong_input():
+        check_files(None, output)
+        also = {"rubbery-modulus": rubbery_modulus, "poisson-ratio": poisson_ratio}
+        if code is None:
+            _refuse(
+                "without --from", also | {"pressure-unit": pressure_unit, "time-unit": time_unit}
+            )
+            passport = _passport(source)
+        else:
+            passport = _imported(source, code, pressure_unit, time_unit, also)
+        if temperature is not None:
+            passport = passport.moved_to(parse(temperature, "K"))
+        if prony:
+            form = _series(passport, frequencies, tolerance)
+            note = f"Prony series of the {word_of(passport.material)}, error {form.error:.1e}"
+            origin = replace(passport.origin, notes=(*passport.origin.notes, note))
+            passport = replace(
+                passport, material=form.material, frequencies=form.frequencies, origin=origin
+            )
+        elif frequencies is not None:
+            raise ValueError("--frequencies go with --prony")
+        if output is not None:
+            write_passport(passport, output)
+            typer.echo(f"wrote {output}", err=True)
+        else:
+            typer.echo(passport_text(passport), nl=False)
+
+
+@material.command("export")
+def export_command(
+    passport_file: Known,
+    code: Annotated[Code, Option("--to", help="The program to write for.", show_default=False)],
+    output: Output = None,
+    temperature: Temperature = None,
+    frequencies: Annotated[
+        str | None,
+        Option(
+            metavar="LOW,HIGH",
+            help='Where the series of a power law must hold, "1 mHz,1 MHz"; '
+            "else the measured range.",
+        ),
+    ] = None,  # fmt: skip
+    tolerance: Annotated[
+        float, Option(help="Relative error allowed to the series of a power law.")
+    ] = 3e-4,
+    pressure_unit: Pressure = None,
+    time_unit: Time = None,
+) -> None:
+    """Write a material as input of another program, in its convention and in stated units.
+
+    Without units: Pa and s. Without -o it goes to standard output.
+
+    Example: viscotack material export pdms-10-1 --to abaqus --pressure-unit MPa
+    --frequencies "1 mHz,1 GHz" -o pdms.inp
+    """
+    with wrong_input():
+        check_files(None, output)
+        passport = _passport(passport_file)
+        if temperature is not None:
+            passport = passport.moved_to(parse(temperature, "K"))
+        form = _series(passport, frequencies, tolerance)
+        text = exported(
+            form.material,
+            str(code),
+            units=Units(pressure_unit or "Pa", time_unit or "s"),
+            notes=_notes(passport, form),
+        )
+        if output is not None:
+            output.write_text(text, encoding="utf-8")
+            typer.echo(f"wrote {output}", err=True)
+        else:
+            typer.echo(text, nl=False)
+
+
+def _passport(name: str) -> Passport:
+    """Return the passport in a file, or that of a published material."""
+    if name in MATERIALS:
+        return published(name)
+    if not name.endswith(".toml") and not Path(name).exists():
+        raise ValueError(
+            f"{name!r} is neither a passport (FILE.toml) nor a published material "
+            f"({', '.join(MATERIALS)})"
+        )
+    return read_passport(name)
+
+
+def _master_curve(
+    file: Path, given: dict[str, Any], reference: float | None, shifting: dict[str, Any]
+) -> tuple[Any, Any]:
+    """Return the master curve of a DMA, and how times shift."""
+    from viscotack.lab import master_curve, read_dma, read_shifts
+
+    named = [name for name, value in shifting.items() if value is not None]
+    if len(named) > 1:
+        raise ValueError(f"give one shift, got {' and '.join(f'--{n}' for n in named)}")
+    if named and reference is None:
+        raise ValueError(f"--{named[0]} needs --reference-temperature")
+    sweeps = read_dma(file, **given)
+    shift: Any = None
+    if shifting["glass-transition"] is not None:
+        shift = WLF.from_glass_transition(parse(shifting["glass-transition"], "K"))
+    elif shifting["wlf"] is not None and reference is not None:
+        c1, c2 = _two(shifting["wlf"], "--wlf")
+        shift = WLF(reference, parse(c1, "1"), parse(c2, "K"))
+    elif shifting["shift-file"] is not None:
+        shift = read_shifts(shifting["shift-file"])
+    known = sweeps.temperature[np.isfinite(sweeps.temperature)]
+    if reference is None and known.size and np.ptp(known) > 3:
+        raise ValueError(
+            f"{file} has sweeps from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} C; "
+            'say at which temperature the material is wanted, --reference-temperature "20 degC"'
+        )
+    if not named and np.ptp(sweeps.angular_frequency) == 0 and known.size and np.ptp(known) > 3:
+        raise ValueError(
+            f"{file} is a temperature ramp at one frequency: nothing overlaps that could tell the "
+            'shift; give --glass-transition "-115 degC", --wlf or --shift-file'
+        )
+    curve = master_curve(sweeps, reference_temperature=reference, shift=shift)
+    return curve, shift if isinstance(shift, WLF) else curve.shifts
+
+
+def _over_time(file: Path, test: Test, given: dict[str, Any]) -> Any:
+    from viscotack.lab import read_creep, read_relaxation
+
+    return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
+
+
+def _imported(
+    file: str, code: Code, pressure: str | None, time: str | None, also: dict[str, Any]
+) -> Passport:
+    if (pressure is None) != (time is None):
+        raise ValueError("give both --pressure-unit and --time-unit")
+    constants: dict[str, float] = {}
+    if also["rubbery-modulus"] is not None:
+        constants["rubbery_modulus"] = parse(also["rubbery-modulus"], "Pa")
+    if also["poisson-ratio"] is not None:
+        constants["poisson_ratio"] = also["poisson-ratio"]
+    if constants and code not in (Code.COMSOL, Code.RADIOSS):
+        raise ValueError(f"input of {code} holds modulus and Poisson ratio; leave them out")
+    units = Units(pressure, time) if pressure and time else None
+    try:
+        text = Path(file).read_text(encoding="utf-8")
+        solid = imported(text, str(code), units=units, **constants)
+    except (ValueError, UnicodeDecodeError) as error:
+        raise ValueError(f"{file}: {error}") from None
+    origin = Origin(file=Path(file).name, format=str(code), made_by=f"viscotack {__version__}")
+    return Passport(name=Path(file).stem, material=solid, origin=origin)
+
+
+def _series(passport: Passport, frequencies: str | None, tolerance: float) -> PronyForm:
+    """Return the Prony series of a passport's material."""
+    if frequencies is not None:
+        low, high = (parse(word, "rad/s") for word in _in_radians(frequencies))
+        bounds = low, high
+    elif passport.frequencies is not None:
+        bounds = passport.frequencies
+    elif word_of(passport.material) in ("prony", "sls"):
+        unit = passport.material.time_unit
+        bounds = 1e-3 / unit, 1e3 / unit
+    else:
+        raise ValueError(
+            f"{passport.name} does not say where it was measured; say where the series must hold, "
+            '--frequencies "1 mHz,1 MHz"'
+        )
+    return prony_form(passport.material, frequencies=bounds, tolerance=tolerance)
+
+
+def _in_radians(text: str) -> list[str]:
+    """Return two angular frequencies in words: a hertz is 2 pi radians a second."""
+    found = []
+    for word in _two(text, "--frequencies"):
+        if "rad" in word:
+            found.append(word)
+        else:
+            # the unit library takes hertz for 1/s: the factor is set here, where it is seen
+            found.append(f"{2 * np.pi * parse(word, '1/s')!r} rad/s")
+    return found
+
+
+def _two(text: str, flag: str) -> list[str]:
+    words = [word.strip() for word in text.split(",")]
+    if len(words) != 2:
+        raise ValueError(f"{flag} needs two values with a comma between them, got {text!r}")
+    return words
+
+
+def _notes(passport: Passport, form: PronyForm) -> tuple[str, ...]:
+    low, high = (w / (2 * np.pi) for w in form.frequencies)
+    at = "" if passport.temperature is None else f", at {passport.temperature - 273.15:.4g} C"
+    source = passport.origin.reference or passport.origin.file
+    return (
+        f"{' '.join(passport.name.split())}{at}; written by viscotack {__version__}",
+        *([f"source: {' '.join(source.split())}"] if source else []),
+        f"Prony series with {len(form.material.branches)} branches, constant Poisson ratio; "
+        f"largest error {form.error:.1e} of the complex modulus from {low:.3g} to {high:.3g} Hz",
+    )
+
+
+def _by_file_name(passport: Passport, file: Path) -> Passport:
+    """Return the passport with the bare name of the file: a path says nothing elsewhere."""
+    return replace(passport, origin=replace(passport.origin, file=file.name))
+
+
+def _kelvin(text: str | None) -> float | None:
+    return None if text is None else parse(text, "K")
+
+
+def _refuse(why: str, flags: dict[str, Any]) -> None:
+    given = [f"--{name}" for name, value in flags.items() if value is not None]
+    if given:
+        raise ValueError(f"{' and '.join(given)} cannot be used {why}; leave it out")
+
+
+def _print_json(passport: Passport, **more: Any) -> None:
+    solid = passport.material
+    answer = asdict(passport) | {"material": {"model": word_of(solid)} | asdict(solid)}
+    answer["modulus_ratio"] = solid.modulus_ratio
+    typer.echo(json.dumps(_finite(answer | more), indent=2, allow_nan=False))
+
+
+def _finite(value: Any) -> Any:
+    """Return a record without infinities, which JSON has not: null stands for no bound."""
+    if isinstance(value, dict):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value

@@ -1,0 +1,240 @@
+"""The command ``viscotack predict``: one contact, or a table of thousands, answered at once."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from typer import Argument, Option
+
+from viscotack.forecast import predict
+from viscotack.forecast.prediction import Prediction, prediction_summary
+from viscotack.pictures import plot
+from viscotack.problem import Groups, Problem
+from viscotack.result import Outcome, Result
+from viscotack.result.observables import summary
+from viscotack.result.outputs import SPHERE, si_scales
+
+from .commands import AsJson, application, check_files, stated_problem, wrong_input
+from .flags import problem_from_flags
+from .same_flags import as_flags, with_sphere_flags
+
+# What a simulation would only repeat.
+_SAID_ONCE = ("problem", "run_id", *SPHERE.inputs)
+# Of both answers, what is compared.
+_COMPARED = {"pull_off_force": "interval", "work_to_pull_off": "work_interval"}
+
+
+def _predict(
+    what: Annotated[
+        str,
+        Argument(
+            metavar="sphere|CASE.toml|CASES.csv",
+            help="The word sphere, and flags as for simulate sphere; or a problem in SI; or a "
+            "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
+            "preload, preload_force, preload_radius, in the units of the flags.",
+            show_default=False,
+        ),
+    ],
+    confidence: Annotated[
+        float,
+        Option(
+            "--confidence",
+            metavar="PART",
+            help="Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, "
+            "0.95 or 0.98.",
+        ),
+    ] = 0.9,
+    compare: Annotated[
+        bool, Option("--compare", help="Simulate as well, and say how far off the prediction is.")
+    ] = False,
+    curve_file: Annotated[
+        Path | None,
+        Option("--curve", metavar="FILE", help="Write the predicted unloading curve as a table."),
+    ] = None,
+    plot_file: Annotated[
+        Path | None,
+        Option("--plot", metavar="FILE", help="Draw that curve to a .png, .pdf or .svg file."),
+    ] = None,
+    csv_file: Annotated[
+        Path | None,
+        Option("--csv", metavar="FILE", help="Where the rows of CASES.csv go, with their answers."),
+    ] = None,
+    as_json: AsJson = False,
+    **flags: Any,
+) -> None:
+    """Say at once how hard one must pull, and how sure that is.
+
+    It has learned from simulations. In their range the answer takes a millisecond, and has force,
+    work and curve. Outside a theory gives the force, with its own band, or the command says which
+    input is out and that simulating answers it.
+
+    One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+
+    In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
+
+    Thousands: viscotack predict cases.csv --csv answers.csv
+    """
+    case = flags.pop("case")
+    with wrong_input():
+        check_files(plot_file, curve_file, csv_file)
+        if Path(what).suffix.lower() == ".csv":
+            others = {
+                "--compare": compare,
+                "--curve": curve_file,
+                "--plot": plot_file,
+                "the second file": case,
+            }
+            others |= {f"--{name}": value for name, value in as_flags(flags).items()}
+            _refuse(others, f"{what} is a table of cases")
+            from .predict_table import predict_file
+
+            answer = predict_file(Path(what), csv_file, confidence)
+            typer.echo(json.dumps(answer, indent=2) if as_json else _counts(answer))
+            return
+        _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
+        problem = _problem(what, case, as_flags(flags))
+        found = predict(problem, confidence=confidence)
+        if found.curve is None and (curve_file or plot_file):
+            raise ValueError(
+                f"{found.why}. A theory gives no curve; leave out --curve and --plot, or simulate"
+            )
+        result = _simulated(problem) if compare else None
+    _write(found, result, curve_file, plot_file)
+    answer = prediction_summary(found)
+    if result is not None:
+        answer |= _comparison(found, result)
+    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(found, answer))
+    if result is not None and result.outcome is Outcome.STOPPED:
+        raise typer.Exit(1)
+
+
+application.command("predict")(with_sphere_flags(_predict))
+
+
+def _refuse(others: dict[str, Any], why: str) -> None:
+    given = [name for name, value in others.items() if value is not None and value is not False]
+    if given:
+        raise ValueError(f"{why}; leave out {', '.join(given)}")
+
+
+def _problem(what: str, case: Path | None, flags: dict[str, Any]) -> Problem | Groups:
+    if what != "sphere":
+        if case is not None:
+            raise ValueError(f"give one file, got {what} and {case}")
+        if not Path(what).suffix:
+            raise ValueError(
+                f"predictions are for 'sphere', a file CASE.toml or a table CASES.csv, got {what!r}"
+            )
+        case = Path(what)
+    problem = stated_problem(case, flags, problem_from_flags, Problem)
+    assert isinstance(problem, Problem | Groups)
+    return problem
+
+
+def _simulated(problem: Problem | Groups) -> Result:
+    from viscotack.bem import solve
+
+    return solve(problem, until="pull-off", throw=False)
+
+
+def _comparison(found: Prediction, result: Result) -> dict[str, Any]:
+    """Return the simulated numbers, how far off the predicted ones are, and what the interval did.
+
+    `difference` is prediction over simulation, less 1.
+    """
+    simulated = summary(result)
+    answer: dict[str, Any] = {
+        "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
+    }
+    predicted = prediction_summary(found)
+    difference: dict[str, float | None] = dict.fromkeys(_COMPARED)
+    held: dict[str, bool | None] = dict.fromkeys(_COMPARED)
+    for name, interval in _COMPARED.items():
+        true = simulated[name]
+        if predicted[name] is not None and true is not None:
+            low, high = predicted[interval]
+            difference[name] = predicted[name] / true - 1
+            held[name] = low <= true <= high
+    return answer | {"difference": difference, "interval_held": held}
+
+
+def _write(
+    found: Prediction, result: Result | None, curve_file: Path | None, plot_file: Path | None
+) -> None:
+    if curve_file is not None:
+        from .predict_table import write_table
+
+        write_table(_curve(found), curve_file)
+        typer.echo(f"wrote {curve_file}", err=True)
+    if plot_file is not None:
+        from viscotack.pictures.forecast import draw_prediction
+
+        plot.save_figure(draw_prediction(found, result), plot_file)
+        typer.echo(f"drew {plot_file}", err=True)
+
+
+def _curve(found: Prediction) -> dict[str, Any]:
+    """Return the columns of the curve, as `simulate --csv` names them."""
+    assert found.curve is not None, "checked before anything is written"
+    names = ("depth", "force", "contact_radius")
+    table = {name: np.asarray(getattr(found.curve, name)) for name in names}
+    if (scales := si_scales(found.problem)) is not None:
+        units = {name: SPHERE.series[name].unit for name in names}
+        table |= {f"{n}_{u.tail}": table[n] * getattr(scales, u.scale) for n, u in units.items()}
+    return table
+
+
+def _words(found: Prediction, answer: dict[str, Any]) -> str:
+    """Return a prediction as lines a person reads."""
+    lines = [found.why if found.inside else f"outside what was learned: {found.why}"]
+    held = f"{100 * found.confidence:.4g}"
+    for name, observable in SPHERE.observables.items():
+        value, unit = answer.get(name), observable.unit
+        if value is None:
+            continue
+        line = f"  {observable.words:<21}{value:>12.5g}  {unit.text:<30}"
+        if f"{name}_{unit.tail}" in answer:
+            line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+        lines.append(line.rstrip())
+        interval = _COMPARED.get(name)
+        if interval is None or answer[interval] is None:
+            continue
+        low, high = answer[interval]
+        line = f"    {held + ' % between':<19}{low:>12.5g}  and {high:<26.5g}"
+        if f"{interval}_{unit.tail}" in answer:
+            low, high = answer[f"{interval}_{unit.tail}"]
+            line += f"= {low:.4g} to {high:.4g} {unit.si}"
+        lines.append(line.rstrip())
+    if "simulation" in answer:
+        lines += _comparison_words(answer)
+    return "\n".join(lines)
+
+
+def _comparison_words(answer: dict[str, Any]) -> list[str]:
+    simulated = answer["simulation"]
+    took = simulated["wall_time_s"]
+    lines = ["simulated" + ("" if took is None else f" in {took:.2g} s")]
+    for name in _COMPARED:
+        words, true = SPHERE.observables[name].words, simulated[name]
+        if true is None:
+            lines.append(f"  {words:<21}{'none':>12}  {simulated['status']}")
+            continue
+        line = f"  {words:<21}{true:>12.5g}"
+        if (off := answer["difference"][name]) is not None:
+            where = "inside" if answer["interval_held"][name] else "outside"
+            way = "above" if off >= 0 else "below"
+            line += f"  the prediction is {abs(off):.2%} {way}; {where} its interval"
+        lines.append(line)
+    return lines
+
+
+def _counts(answer: dict[str, Any]) -> str:
+    lines = [f"{answer['rows']} rows, {answer['inside']} inside what was learned from"]
+    for method, count in answer["methods"].items():
+        lines.append(f"  {method:<14}{count:>8}")
+    if answer["unanswered"]:
+        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  the column why says it")
+    return "\n".join(lines)

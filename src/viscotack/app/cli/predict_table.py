@@ -1,0 +1,120 @@
+"""Tables of cases from files, and back into files with their predictions."""
+
+import csv
+import io
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import typer
+
+from viscotack.campaign.columns import KINDS
+from viscotack.campaign.parts import write_whole
+from viscotack.campaign.plan import read_words
+from viscotack.forecast.table import ANSWERS, predict_table
+
+# Seconds between two lines of progress, while theories answer.
+_LINES = 10.0
+
+
+def predict_file(path: Path, out: Path | None, confidence: float) -> dict[str, Any]:
+    """Predict the cases of a CSV file, write them with their answers, return what there was.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If nobody says where to write, or it is the file itself, or columns or rows are not those of
+        a table of spheres.
+    """
+    if out is None:
+        raise ValueError(f"say where the answers to {path} are to go: --csv answers.csv")
+    given = read_table(path)
+    if out.exists() and out.samefile(path):
+        raise ValueError(f"--csv {out} is the table of cases itself; give it another name")
+    if there := [name for name in ANSWERS if name in given]:
+        raise ValueError(
+            f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
+            "rename or leave them out"
+        )
+    kind = KINDS["sphere"]
+    names = [name for name in given if name in {*kind.columns, *kind.choices}]
+    try:
+        kind.check(set(names))
+        numbers = {name: _numbers(given[name]) for name in names}
+        found = predict_table(numbers, confidence=confidence, report=_teller())
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    for i in np.flatnonzero(found["method"] == "").tolist():
+        wrong = [n for n in names if not _is_number(given[n][i])]
+        if wrong:
+            found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
+    write_table({**given, **found}, out)
+    typer.echo(f"wrote {out}", err=True)
+    methods, counts = np.unique(
+        found["method"][found["method"] != ""].astype(str), return_counts=True
+    )
+    return {
+        "rows": len(found["method"]),
+        "inside": int(found["inside"].sum()),
+        "methods": dict(zip(methods.tolist(), counts.tolist(), strict=True)),
+        "unanswered": int(np.sum(found["method"] == "")),
+        "confidence": confidence,
+        "file": str(out),
+    }
+
+
+def _teller() -> Callable[[int, int], None]:
+    """Return what says on standard error, now and then, how many rows have an answer."""
+    last = perf_counter()
+
+    def tell(done: int, count: int) -> None:
+        nonlocal last
+        if perf_counter() - last > _LINES:
+            last = perf_counter()
+            typer.echo(f"{done} of {count} rows answered", err=True)
+
+    return tell
+
+
+def read_table(path: Path) -> dict[str, list[str]]:
+    """Return the columns of a CSV file as words; the first row names them."""
+    names, rows = read_words(path)
+    return {name: [row[i].strip() for _, row in rows] for i, name in enumerate(names)}
+
+
+def write_table(table: Mapping[str, Any], path: Path) -> None:
+    """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
+    text = io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(table)
+    rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
+    write_whole(path, text.getvalue().encode())
+
+
+def _cells(values: Any) -> list[Any]:
+    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
+        return list(values)
+    if values.dtype.kind == "b":
+        return ["true" if value else "false" for value in values.tolist()]
+    return ["" if value != value else value for value in values.tolist()]
+
+
+def _numbers(words: list[str]) -> npt.NDArray[np.float64]:
+    """Return words as numbers; nan where they are none."""
+    try:
+        return np.array(words, dtype=float)
+    except ValueError:
+        return np.array([float(word) if _is_number(word) else np.nan for word in words])
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

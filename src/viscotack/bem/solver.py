@@ -1,0 +1,307 @@
+"""From a problem to a result: the one entry point of the simulation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from time import perf_counter
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from viscotack.bem.books import History
+from viscotack.bem.contact import Contact
+from viscotack.bem.legs import legs_of, longest_time, reached
+from viscotack.bem.machine import Leg
+from viscotack.bem.march import march
+from viscotack.bem.profile import ProfileContact
+from viscotack.bem.punch import PunchContact
+from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
+from viscotack.bem.sphere import SphereContact
+from viscotack.materials import Material, Modes
+from viscotack.problem import Groups
+from viscotack.problem.problems import Case
+from viscotack.problem.profile_problem import ProfileGroups
+from viscotack.problem.punch_problem import PunchGroups
+from viscotack.result import Outcome, Result, receding_speed
+from viscotack.result.observables import pull_off_force, work_to_pull_off
+
+_UNTIL = ("pull-off", "detached")
+# Modes that are faster than this part of the first step are instantaneous for all purposes.
+_FASTEST = 0.2
+# The coarse companion of a run is less accurate by this factor; every error is of second order.
+_COARSER = 4.0
+# The estimate is the difference to the companion over _COARSER - 1, times this margin ...
+_MARGIN = 2.2
+# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
+# over the whole range the estimate then covers the true error in 62 (force) and 61 (work), and is
+# in the median 1.9 and 3.3 times as large.
+_FLOOR = {"force": 0.2, "work": 1.0}
+
+# Tabor numbers that the mesh can serve; tested from 0.01 to 10.
+_TABOR_RANGE = (1e-6, 300.0)
+# A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
+_LARGEST_RESIDUAL = 1e-2
+
+
+class SimulationError(RuntimeError):
+    """A simulation that stopped before its end; `result` holds what there is, and the reason."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(result.status)
+        self.result = result
+
+    def __reduce__(self) -> tuple[type[SimulationError], tuple[Result]]:
+        """Say how to make it again in another process: from its result, not from its words."""
+        return type(self), (self.result,)
+
+
+def solve(
+    problem: Case,
+    *,
+    accuracy: float = DEFAULT_ACCURACY,
+    until: str = "detached",
+    settings: Settings | None = None,
+    estimate_error: bool = True,
+    fields: bool = False,
+    throw: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> Result:
+    """Simulate the detachment of a rigid indenter from a viscoelastic solid.
+
+    The test begins at rest, in a relaxed contact or apart, goes through the moves of its protocol,
+    and ends with a retraction at a constant rate, or with the last move. Pressure and gap follow
+    from the traction law and from the hereditary solid (Eq. 4.11 to 4.15 of Maghami, PhD thesis
+    (2025)); mesh, steps and relaxation modes follow from the accuracy.
+
+    Parameters
+    ----------
+    problem : Problem, Groups, PunchProblem or PunchGroups
+        What is tested, in SI or in dimensionless groups.
+    accuracy : float
+        Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
+        end is a flat minimum, has up to five times this error.
+    until : {"detached", "pull-off"}
+        Run until the surfaces are apart, or only until the force minimum is passed (faster; the
+        work of separation is then not known).
+    settings : Settings, optional
+        Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
+    estimate_error : bool
+        Also run a coarser companion and state the errors of force and work from the difference.
+    fields : bool
+        Keep the profiles of pressure and gap at every step.
+    throw : bool
+        Raise when the run stops before its end; else the result's status says so.
+    progress : callable, optional
+        Called after every step with the done share of the way, from 0 to 1.
+
+    Returns
+    -------
+    Result
+        Dimensionless series, status, events, energies, error estimate and statistics.
+
+    Raises
+    ------
+    ValueError
+        If the relaxed start does not exist, or an argument is out of range.
+    SimulationError
+        If the run stops before its end, unless throw is False.
+
+    Notes
+    -----
+    Tested for Tabor numbers from 0.01 to 10, modulus ratios down to 1e-4, preloads from 0.01 to
+    500 h0 and rates from 0.1 to 1e10. Small strains are assumed, and inertia is neglected.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, RetardationPowerLaw, pull_off_force, solve
+    >>> material = RetardationPowerLaw(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73.0), rate=316.23)
+    >>> result = solve(groups, until="pull-off")
+    >>> f"{pull_off_force(result):.2f}"
+    '7.33'
+    """
+    if until not in _UNTIL:
+        raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
+    began = perf_counter()
+    chosen = Settings.for_accuracy(accuracy) if settings is None else settings
+    # The matrices are small: a second BLAS thread costs many times what it brings.
+    with threadpool_limits(limits=1, user_api="blas"):
+        result = _run(problem, chosen, until, fields, progress)
+        estimate = None
+        if estimate_error and result.outcome is not Outcome.STOPPED:
+            estimate = _estimate(problem, result, chosen)
+    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
+    result = replace(result, error_estimate=estimate, statistics=statistics)
+    if throw and result.outcome is Outcome.STOPPED:
+        raise SimulationError(result)
+    return result
+
+
+def has_start(problem: Case) -> bool:
+    """Return whether the state at rest exists in which a test begins; some milliseconds.
+
+    It is looked for at the loosest accuracy.
+    """
+    with threadpool_limits(limits=1, user_api="blas"):
+        try:
+            groups = problem.groups()
+            contact_of(groups).relaxed(groups.start, Settings.for_accuracy(LOOSEST_ACCURACY))
+        except ValueError:
+            return False
+    return True
+
+
+def _run(
+    problem: Case,
+    settings: Settings,
+    until: str,
+    fields: bool,
+    progress: Callable[[float], None] | None,
+) -> Result:
+    groups = problem.groups()
+    contact = contact_of(groups)
+    start = contact.relaxed(groups.start, settings)
+    legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
+    depths = reached(start, groups.moves, contact)
+    longest = longest_time(depths, groups.moves, groups.rate, contact)
+    modes = _modes(groups.material, legs, longest, settings)
+    grading = contact.grading(settings, max(depths))
+    if not modes.weights:
+        grading = replace(grading, scar_half_width=0.0)
+    history = march(
+        contact,
+        start,
+        modes,
+        legs,
+        grading,
+        settings,
+        until=until,
+        profiles=fields,
+        progress=progress,
+    )
+    return _result(problem, contact, history, modes, fields)
+
+
+def contact_of(groups: Groups | PunchGroups | ProfileGroups) -> Contact:
+    """Return the contact that dimensionless groups describe."""
+    if isinstance(groups, PunchGroups):
+        return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
+    low, high = _TABOR_RANGE
+    if not low <= groups.tabor <= high:
+        raise ValueError(
+            f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
+            f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
+        )
+    if isinstance(groups, ProfileGroups):
+        return ProfileContact(groups.tabor, groups.traction, groups.profile_exponent)
+    return SphereContact(groups.tabor, groups.traction)
+
+
+def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
+    """Return the retardation modes that this run can tell apart."""
+    shortest = _FASTEST * min(leg.least_step for leg in legs)
+    # Relative to the compliance at the shortest time: where k is tiny, that is tiny as well.
+    compliance = float(material.creep(shortest))
+    return material.retardation_modes(
+        shortest=shortest, longest=longest, tolerance=settings.mode_tolerance * compliance
+    )
+
+
+def _result(
+    problem: Case, contact: Contact, history: History, modes: Modes, fields: bool
+) -> Result:
+    states, books = history.snapshots, history.books
+    time = np.array([s.time for s in states])
+    edge = np.array([s.edge for s in states])
+    heat = np.array([b.heat for b in books])
+    residual = float(np.max(np.abs(history.imbalances())))
+    return Result(
+        problem=problem,
+        time=time,
+        depth=np.array([s.depth for s in states]),
+        force=np.array([s.force for s in states]),
+        contact_radius=edge / contact.edge_unit,
+        edge_speed=receding_speed(time, edge),
+        status=_status(history, residual),
+        events=tuple(history.events),
+        statistics={
+            "steps": len(states) - 1,
+            "newton_iterations": history.iterations,
+            "rejected_steps": history.rejected,
+            "meshes": history.meshes,
+            "nodes": history.nodes,
+            "modes": len(modes.weights),
+        },
+        energy={
+            "drive": np.array([b.drive for b in books]),
+            "elastic": np.array([s.elastic for s in states]),
+            "interface": np.array([s.interface for s in states]),
+            "spring": np.array([s.spring for s in states]),
+            "heat": heat.sum(axis=1),
+            "jumps": np.array([b.jumps for b in books]),
+            "transfer": np.array([b.transfer for b in books]),
+            "mode_time": np.array(modes.times),
+            "mode_heat": heat[-1],
+        },
+        energy_residual=residual,
+        fields=_fields(history, contact, time) if fields else None,
+    )
+
+
+def _status(history: History, residual: float) -> str:
+    last = history.snapshots[-1]
+    if residual > _LARGEST_RESIDUAL:
+        return (
+            f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
+            "ask for a better accuracy, and mind that Tabor numbers above 10 are not tested"
+        )
+    if history.outcome == "lost":
+        return (
+            f"{Outcome.STOPPED} because no equilibrium of the surface was found at a depth of "
+            f"{last.depth:.4g} h0; ask for a better accuracy"
+        )
+    if history.outcome == "steps":
+        return (
+            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met "
+            f"at a depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
+        )
+    if history.outcome == "pull-off":
+        return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
+    if history.outcome == "end" and last.edge > 0:
+        return f"{Outcome.IN_CONTACT} at the end of the test"
+    out = [event for event in history.events if event.kind == "jump out of contact"]
+    if out:
+        return f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
+    return str(Outcome.DETACHED)
+
+
+def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
+    longest = max(len(p.gap) for p in history.profiles)
+
+    def padded(values: np.ndarray) -> np.ndarray:
+        return np.concatenate([values, np.full(longest - len(values), np.nan)])
+
+    return {
+        "time": time,
+        "radius": np.array([padded(p.position / contact.edge_unit) for p in history.profiles]),
+        "gap": np.array([padded(p.gap) for p in history.profiles]),
+        "pressure": np.array([padded(p.pressure) for p in history.profiles]),
+    }
+
+
+def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
+    """Return the relative errors of force and work from a coarser companion, None without one."""
+    try:
+        coarse = _run(problem, settings.coarser(_COARSER), "pull-off", False, None)
+        values = [(pull_off_force(r), work_to_pull_off(r)) for r in (result, coarse)]
+    except ValueError:  # the companion has no start or no pull-off: nothing is known
+        return None
+    estimate = {}
+    for name, value, other in zip(("force", "work"), *values, strict=True):
+        share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
+        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * settings.accuracy)
+    return estimate

@@ -1,0 +1,74 @@
+"""Tables of quantities in CSV files, each with its unit at the end of the column's name."""
+
+import csv
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from viscotack.units import finite, parse
+
+
+def read_quantities(
+    path: str | os.PathLike[str], units: Mapping[str, str]
+) -> dict[str, tuple[float, ...]]:
+    """Return the columns of a CSV file in SI.
+
+    Parameters
+    ----------
+    path : path
+        A first row with the names of the columns and their units, such as ``gap_nm,traction_kPa``,
+        then a row of numbers for each point. Lines that begin with ``#`` are skipped.
+    units : mapping
+        Name of each wanted column, without its unit -> SI unit of the answer.
+
+    Returns
+    -------
+    dict of str to tuple of float
+        The columns, by the names of `units`.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If a column is missing, has no unit or the wrong one, or a row is not as long as the header
+        or has something that is not a number; with the line.
+    """
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is not a text file") from None
+    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
+    rows = list(csv.reader(text for _, text in numbered))
+    header = [name.strip() for name in rows[0]] if rows else []
+    places = {name: _place(path, header, name, unit) for name, unit in units.items()}
+    columns: dict[str, list[float]] = {name: [] for name in units}
+    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+        try:
+            if len(row) != len(header):
+                raise ValueError(f"{len(row)} entries, and the header has {len(header)}")
+            for name, (at, given) in places.items():
+                value = finite(name, row[at], given)
+                columns[name].append(parse(f"{value!r} {given}", units[name]))
+        except ValueError as error:
+            raise ValueError(f"{path}, line {line}: {error}") from None
+    if len(rows) < 2:
+        raise ValueError(f"{path}: there are no rows below the header")
+    return {name: tuple(values) for name, values in columns.items()}
+
+
+def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, str]:
+    """Return where a column is, and its unit as the file states it."""
+    found = [i for i, text in enumerate(header) if text.startswith(f"{name}_")]
+    if len(found) != 1:
+        raise ValueError(
+            f"{path}: one column must be {name} with its unit, such as {name}_{unit}; the first "
+            f"row is {','.join(header)!r}"
+        )
+    given = header[found[0]].removeprefix(f"{name}_")
+    try:
+        parse(f"1 {given}", unit)
+    except ValueError as error:
+        raise ValueError(f"{path}, the name of the column {name}: {error}") from None
+    return found[0], given

@@ -1,0 +1,112 @@
+"""What a prediction says, and how it is written down: a record that needs no simulation.
+
+Force positive in compression, depth positive into the solid; numbers are dimensionless as in
+:class:`viscotack.Result`, :func:`prediction_summary` has them in SI as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscotack import __version__
+from viscotack.problem import Groups, Problem
+from viscotack.problem.record import run_id, to_dict
+from viscotack.result.outputs import SPHERE, si_scales
+
+if TYPE_CHECKING:
+    from viscotack.surrogate.model import Curves
+
+
+class OutOfRange(ValueError):
+    """A problem that neither the surrogate nor a theory answers; says what is out of range."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """How hard one must pull, as far as it is known without simulating.
+
+    Attributes
+    ----------
+    value : float
+        Pull-off force [1.5 pi R dg0], positive.
+    interval : tuple of float
+        Between which the simulated force lies with that confidence, same unit.
+    work_to_pull_off : float or None
+        [1.5 pi R dg0 h0]; None where a theory answers, which has none.
+    work_interval : tuple of float, or None
+        The same for the work.
+    confidence : float
+        Part of the cases that the intervals held where they were measured.
+    method : str
+        "surrogate", or the theory's name as in :class:`viscotack.Estimate`.
+    inside : bool
+        Whether the problem lies in the range that the surrogate learned from.
+    why : str
+        A sentence; when not inside, which input is out, its value and the range, and whether the
+        theory's interval was measured elsewhere.
+    curve : Curves or None
+        `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
+        retraction, shape (24,) each; the last point is the pull-off. None where a theory answers.
+    problem : Problem or Groups
+        What was asked.
+    """
+
+    value: float
+    interval: tuple[float, float]
+    work_to_pull_off: float | None
+    work_interval: tuple[float, float] | None
+    confidence: float
+    method: str
+    inside: bool
+    why: str
+    curve: Curves | None
+    problem: Problem | Groups
+
+
+def prediction_summary(prediction: Prediction) -> dict[str, Any]:
+    """Return a prediction ready for JSON, with the names of :func:`viscotack.summary`.
+
+    Dimensionless; for a problem in SI the same names with a unit in addition. What the method
+    does not know is None. `interval` is that of the pull-off force, `work_interval` that of the
+    work to pull-off.
+    """
+    problem, curve = prediction.problem, prediction.curve
+    values: dict[str, Any] = {
+        "pull_off_force": prediction.value,
+        "work_to_pull_off": prediction.work_to_pull_off,
+        "pull_off_depth": None if curve is None else float(curve.depth[-1]),
+        "contact_radius_at_pull_off": None if curve is None else _known(curve.contact_radius[-1]),
+    }
+    intervals = {
+        "interval": (prediction.interval, "pull_off_force"),
+        "work_interval": (prediction.work_interval, "work_to_pull_off"),
+    }
+    answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
+    answer = values | answer
+    if (scales := si_scales(problem)) is not None:
+        for name, value in values.items():
+            unit = SPHERE.observables[name].unit
+            scale = getattr(scales, unit.scale)
+            answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
+        for name, (pair, of) in intervals.items():
+            unit = SPHERE.observables[of].unit
+            scale = getattr(scales, unit.scale)
+            answer[f"{name}_{unit.tail}"] = None if pair is None else [x * scale for x in pair]
+    groups = problem.groups()
+    return answer | {
+        "method": prediction.method,
+        "inside": prediction.inside,
+        "confidence": prediction.confidence,
+        "why": prediction.why,
+        **{name: getattr(groups, name) for name in SPHERE.inputs},
+        "problem": to_dict(problem),
+        "run_id": run_id(problem),
+        "versions": {"viscotack": __version__},
+    }
+
+
+def _known(number: Any) -> float | None:
+    return float(number) if np.isfinite(number) else None

@@ -1,0 +1,117 @@
+r"""How an elastic layer rests on the rigid body below it.
+
+A pressure :math:`\cos \xi x` on a layer of the thickness b moves its surface by
+:math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, plane strain. The transfer function kappa
+rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to 0, of a thin layer, which sinks by
+:math:`c \, p b / E^*`, to 1, the half-plane.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.units import positive
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Frictionless:
+    r"""A rigid base on which the layer slides, or the middle plane of a symmetric sandwich.
+
+    .. math:: \kappa(t) = \frac{\cosh 2t - 1}{\sinh 2t + 2t}
+
+    Source: Maghami, PhD thesis (2025), Eq. 3.20, after Bentall and Johnson.
+
+    Examples
+    --------
+    >>> Frictionless().foundation
+    1.0
+    """
+
+    @property
+    def foundation(self) -> float:
+        """Return the depth of a thin layer under a uniform pressure, in p b/E*: 1."""
+        return 1.0
+
+    def transfer(self, t: npt.ArrayLike) -> Array:
+        """Return kappa at wave numbers t > 0 [1/b]."""
+        x = np.asarray(t, dtype=float)
+        e = np.exp(-2 * x)
+        return np.expm1(-2 * x) ** 2 / (4 * x * e - np.expm1(-4 * x))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bonded:
+    r"""A rigid base to which the layer is glued.
+
+    .. math:: \kappa(t) = \frac{q \sinh 2t - 2t}{q \cosh 2t + 2t^2 + (1 + q^2)/2}, \quad
+              q = 3 - 4 \nu
+
+    A thin layer is stiffer by :math:`\zeta = (1 - \nu)^2/(1 - 2\nu)` (Maghami, PhD thesis (2025),
+    appendix I), without bound as nu goes to 1/2.
+
+    Parameters
+    ----------
+    poisson_ratio : float
+        Of the layer, from 0 to 0.5, the same as in the contact modulus.
+
+    Examples
+    --------
+    >>> f"{1 / Bonded(poisson_ratio=0.3).foundation:.3f}"
+    '1.225'
+    """
+
+    poisson_ratio: float
+
+    def __post_init__(self) -> None:
+        nu = float(self.poisson_ratio)
+        if not 0 <= nu <= 0.5:
+            raise ValueError(f"poisson_ratio must lie between 0 and 0.5, got {nu}")
+        object.__setattr__(self, "poisson_ratio", nu)
+
+    @property
+    def foundation(self) -> float:
+        r"""Return the depth of a thin layer under a uniform pressure, in p b/E*: 1/zeta."""
+        return (1 - 2 * self.poisson_ratio) / (1 - self.poisson_ratio) ** 2
+
+    def transfer(self, t: npt.ArrayLike) -> Array:
+        """Return kappa at wave numbers t > 0 [1/b]."""
+        x, q = np.asarray(t, dtype=float), 3 - 4 * self.poisson_ratio
+        e = np.exp(-2 * x)
+        sinh, cosh = -np.expm1(-4 * x) / 2, (1 + e**2) / 2  # both times exp(-2t)
+        return (q * sinh - 2 * x * e) / (q * cosh + (2 * x**2 + (1 + q**2) / 2) * e)
+
+
+Base = Frictionless | Bonded
+
+
+@dataclass(frozen=True)
+class Layer:
+    """An elastic or viscoelastic layer on a rigid base.
+
+    Parameters
+    ----------
+    thickness : float
+        Thickness b [m]; positive.
+    base : Frictionless or Bonded
+        How it rests on the rigid body below.
+
+    Examples
+    --------
+    >>> Layer(thickness=1e-3, base=Bonded(poisson_ratio=0.45)).base.foundation.__round__(3)
+    0.331
+    """
+
+    thickness: float
+    base: Base = Frictionless()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "thickness", positive("thickness", self.thickness, "m"))
+        if not isinstance(self.base, Base):
+            raise ValueError(
+                f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
+            )

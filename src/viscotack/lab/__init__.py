@@ -1,0 +1,36 @@
+"""What laboratories have, and what it says: sweeps, master curves, relaxation and creep tests."""
+
+from .fit_passport import issued
+from .fit_report import FitReport
+from .fitting import fit
+from .kramers_kronig import Consistency, consistency, loss_from_storage
+from .master_curves import master_curve
+from .reading import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
+from .shift_laws import ShiftFit, fit_arrhenius, fit_wlf
+from .shifting import shift_factors
+from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
+
+__all__ = [
+    "FORMATS",
+    "Consistency",
+    "CreepTest",
+    "FitReport",
+    "FrequencySweeps",
+    "MasterCurve",
+    "RelaxationTest",
+    "ShiftFit",
+    "ShiftTable",
+    "Source",
+    "consistency",
+    "fit",
+    "fit_arrhenius",
+    "fit_wlf",
+    "issued",
+    "loss_from_storage",
+    "master_curve",
+    "read_creep",
+    "read_dma",
+    "read_relaxation",
+    "read_shifts",
+    "shift_factors",
+]

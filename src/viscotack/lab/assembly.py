@@ -1,0 +1,222 @@
+"""From the tables of a file to frequency sweeps in SI, and what all readers have in common."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from .grouping import GAP, grouped
+from .lab_file import LabFile
+from .sweeps import FrequencySweeps, Source
+from .table import Columns, Table, Units
+
+Array = npt.NDArray[np.float64]
+
+STIFFEST = 1.2e12  # Pa, diamond
+_TANGENTS = 1e-5, 1e4  # of every solid and most liquids: beyond, one of the units is wrong
+_TOLERANCE = 0.02  # of tan(delta) and |E*| against storage and loss, beside the digits written
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the caller says about a file: kind, temperature [K] and units it may lack."""
+
+    kind: str | None
+    temperature: float | None
+    units: Units
+
+
+def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> FrequencySweeps:
+    """Return the frequency sweeps of all tables that have them, in the order of the file."""
+    parts, notes = [], list(file.notes)
+    for table in tables:
+        columns = Columns(file, table, given.units, given.kind)
+        if not table.rows or not _has_sweep(columns):
+            notes.append(f"a table without sweeps is not used: {headings_of([table])}")
+            continue
+        values, kind = _part(columns, given)
+        if _repeats_one_state(values):
+            what = "one temperature and one frequency, perhaps an amplitude or time sweep"
+            if len(tables) == 1:
+                raise columns.error(f"{what}; expected several frequencies or temperatures")
+            notes.append(f"a table from line {table.rows[0][0]} is not used: {what}")
+            continue
+        parts.append((values, kind))
+        notes += columns.notes
+    if not parts:
+        raise file.error(
+            "no table with a frequency, a storage modulus and a loss modulus or tan(delta); "
+            f"found {headings_of(tables)}"
+        )
+    kinds = {part[1] for part in parts}
+    if len(kinds) > 1:
+        raise file.error("some tables are tensile (E), others shear (G); give kind='E' or 'G'")
+    numbers = _numbered([part[0]["sweep"] for part in parts])
+    joined = {
+        name: np.concatenate([part[0][name] for part in parts])
+        for name in ("temperature", "angular_frequency", "storage", "loss")
+    }
+    return FrequencySweeps(
+        **joined,
+        kind=kinds.pop(),
+        sweep=numbers,
+        source=source_of(file, format, notes),
+    )
+
+
+def _has_sweep(columns: Columns) -> bool:
+    return (
+        ("frequency" in columns or "angular_frequency" in columns)
+        and "storage" in columns
+        and ("loss" in columns or "tan_delta" in columns)
+    )
+
+
+def _repeats_one_state(values: dict[str, Array]) -> bool:
+    """Return whether many points share one frequency and one temperature."""
+    omega, temperature = values["angular_frequency"], values["temperature"]
+    one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
+    # a temperature that nobody says does not tell points apart
+    return omega.size > 2 and bool(one_frequency and not np.ptp(temperature) > GAP)
+
+
+def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
+    """Return the columns of one table in SI and the kind of its moduli."""
+    kind = kind_of(columns, given, "storage", "loss")
+    values = {
+        "temperature": temperatures(columns, given),
+        "angular_frequency": columns.angular_frequency(),
+        "storage": columns.si("storage"),
+    }
+    if "loss" in columns:
+        values["loss"] = columns.si("loss")
+        _agree(columns, values["storage"], values["loss"])
+    else:
+        values["loss"] = values["storage"] * columns.numbers("tan_delta")
+        columns.notes.append("loss modulus from tan(delta)")
+    if "sweep" in columns:
+        values["sweep"] = columns.numbers("sweep")
+    refuse_stiffer_than_diamond(columns, values["storage"])
+    refuse_stiffer_than_diamond(columns, values["loss"])
+    keep = kept(columns, values["storage"], values["loss"])
+    tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
+    if not _TANGENTS[0] < tangent < _TANGENTS[1]:
+        raise columns.error(
+            f"loss over storage modulus is {tangent:.2g} in the median; are their units right?"
+        )
+    values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
+    if "sweep" not in values:
+        numbers, how = grouped(values["temperature"], values["angular_frequency"])
+        values["sweep"] = numbers.astype(float)
+        columns.notes += [how] * bool(how)
+    elif np.any(values["sweep"] != np.round(values["sweep"])):
+        raise columns.error(f'column "{columns.name("sweep")}" must hold whole numbers')
+    return values, kind
+
+
+def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
+    """Return the rows that do not say all the same as an earlier one."""
+    rows = np.column_stack(list(values.values()))
+    _, first = np.unique(rows, axis=0, return_index=True)
+    if first.size < len(rows):
+        columns.notes.append(f"{len(rows) - first.size} repeated rows left out")
+    return {name: column[np.sort(first)] for name, column in values.items()}
+
+
+def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
+    """Return the kind of modulus that the file or the caller says."""
+    said = columns.kind(*quantities)
+    if said is None and given.kind is None:
+        raise columns.error(
+            f'"{columns.name(quantities[0])}" does not say whether the modulus is tensile (E) or '
+            "shear (G); give kind='E' or kind='G'"
+        )
+    if said is not None and given.kind is not None and said != given.kind:
+        raise columns.error(f"the file has a modulus of kind {said!r}, kind={given.kind!r} given")
+    return said or given.kind or ""
+
+
+def temperatures(columns: Columns, given: Given) -> Array:
+    """Return the temperature of each row that the file or the caller says [K]."""
+    temperature = columns.temperature()
+    if given.temperature is None:
+        return temperature
+    if not np.all(np.isnan(temperature)):
+        raise columns.error("the file says its temperatures; leave temperature= out")
+    return np.full(temperature.size, given.temperature)
+
+
+def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
+    """Return which rows are used, and note how many are not, and why."""
+    lines = np.array([line for line, _ in columns.table.rows])
+    missing = ~columns.keep
+    wrong = columns.keep & ~np.all([values > 0 for values in positive], axis=0)
+    for rows, why in ((missing, "a number is missing"), (wrong, "a value is not positive")):
+        if rows.any():
+            columns.notes.append(f"left out because {why}: {_listed(lines[rows])}")
+    keep = ~missing & ~wrong
+    if not keep.any():
+        raise columns.error("no row has all the numbers that are needed")
+    return keep
+
+
+def refuse_stiffer_than_diamond(columns: Columns, modulus: Array) -> None:
+    """Refuse a modulus that no solid has: its unit is wrong."""
+    for row in np.flatnonzero(modulus > STIFFEST):
+        raise columns.error(
+            f"a modulus of {modulus[row]:g} Pa is above that of diamond; is the unit right?",
+            int(row),
+        )
+
+
+def _agree(columns: Columns, storage: Array, loss: Array) -> None:
+    """Refuse a row whose tan(delta) or |E*| contradicts its storage and loss modulus."""
+    digits = [columns.resolution(name) * columns.factor(name) for name in ("storage", "loss")]
+    sizes = np.hypot(storage, loss)
+    if "tan_delta" in columns:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            tangent = loss / storage
+            slack = (digits[1] + np.abs(tangent) * digits[0]) / np.abs(storage)
+        _same(columns, "tan_delta", 1.0, tangent, slack)
+    if "magnitude" in columns:
+        _same(columns, "magnitude", columns.factor("magnitude"), sizes, digits[0] + digits[1])
+
+
+def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Array) -> None:
+    found = factor * columns.numbers(name, needed=False)
+    slack = slack + factor * columns.resolution(name) + _TOLERANCE * np.abs(expected)
+    for row in np.flatnonzero(np.abs(found - expected) > slack):
+        raise columns.error(
+            f'"{columns.name(name)}" is {found[row]:g}, but storage and loss modulus make it '
+            f"{expected[row]:g}: a number is damaged, or the units are wrong",
+            int(row),
+        )
+
+
+def _numbered(parts: Sequence[Array]) -> npt.NDArray[np.int64]:
+    """Return one numbering for the sweeps of all tables; of one table its own."""
+    if len(parts) == 1:
+        return parts[0].astype(np.int64)
+    numbered, count = [], 0
+    for part in parts:
+        own, numbers = np.unique(part, return_inverse=True)
+        numbered.append(numbers + count)
+        count += own.size
+    return np.concatenate(numbered)
+
+
+def headings_of(tables: Sequence[Table]) -> str:
+    """Return the headings that were found, for the words of an error."""
+    headings = [heading for table in tables for heading in table.headings if heading]
+    return ", ".join(f'"{heading}"' for heading in dict.fromkeys(headings)) or "no headings"
+
+
+def _listed(lines: npt.NDArray[np.int64]) -> str:
+    shown = ", ".join(str(line) for line in lines[:10])
+    return f"line {shown}" if lines.size <= 10 else f"line {shown} and {lines.size - 10} more"
+
+
+def source_of(file: LabFile, format: str, notes: Sequence[str]) -> Source:
+    """Return where numbers come from, each note once."""
+    return Source(file.path, file.sha256, format, tuple(dict.fromkeys(notes)))

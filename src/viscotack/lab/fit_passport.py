@@ -1,0 +1,77 @@
+"""From a fit to a passport: the material with what is known of it."""
+
+from viscotack.materials.passport import Evidence, Origin, Passport
+from viscotack.materials.shift import Shift, TabulatedShift
+
+from .fit_report import FitReport
+from .sweeps import ShiftTable
+
+
+def issued(
+    report: FitReport,
+    *,
+    name: str,
+    shift: Shift | ShiftTable | None = None,
+    reference: str = "",
+    made_by: str = "",
+) -> Passport:
+    """Return the passport of a fitted material.
+
+    Parameters
+    ----------
+    report : FitReport
+        The fit.
+    name : str
+        What the material is called.
+    shift : WLF, Arrhenius, TabulatedShift, ShiftTable or None
+        How its times change with temperature; a table is interpolated, never extrapolated.
+    reference : str
+        Who measured it, in words.
+    made_by : str
+        Program and version.
+
+    Raises
+    ------
+    ValueError
+        If a shift is given and the measurement does not say its temperature.
+    """
+    seen = report.observed
+    source = seen.source
+    if isinstance(shift, ShiftTable):
+        # one row shifts nothing
+        shift = _tabulated(shift, seen.temperature) if len(shift) > 1 else None
+    elif shift is not None and seen.temperature is not None:
+        shift = shift.at_reference(seen.temperature)
+    return Passport(
+        name=name,
+        material=report.material,
+        temperature=seen.temperature,
+        shift=shift,
+        temperatures=seen.temperatures,
+        frequencies=seen.frequencies,
+        measured=seen.kind,
+        origin=Origin(
+            reference=reference,
+            file=source.path,
+            sha256=source.sha256,
+            format=source.format,
+            made_by=made_by,
+            notes=source.notes,
+        ),
+        evidence=Evidence(
+            numbers=int(seen.values.size),
+            constants=report.constants,
+            scatter=report.scatter.deviation,
+            level=report.level,
+            intervals=tuple((i.name, i.low, i.high) for i in report.intervals),
+            undetermined=report.undetermined,
+            cautions=report.cautions,
+        ),
+    )
+
+
+def _tabulated(table: ShiftTable, temperature: float | None) -> TabulatedShift:
+    if temperature is None:
+        raise ValueError("a table of shifts needs the temperature of the master curve [K]")
+    rows, values = tuple(table.temperature.tolist()), tuple(table.log10_shift.tolist())
+    return TabulatedShift(temperature, rows, values)

@@ -1,0 +1,111 @@
+r"""Solids of few constants fitted to measured numbers: both power laws and the standard solid.
+
+The sum of squares of ln(measured/fitted) is made smallest by :func:`scipy.optimize.least_squares`
+over the logarithms of the constants, from the best places of a coarse search. Intervals are those
+of the linearised problem; where a constant is poorly determined, those of the profile: the
+constant is moved and all others refitted, until the sum of squares has grown by as much as the
+confidence level allows (Venzon & Moolgavkar, Applied Statistics 37 (1988) 87-94). A profile that
+never grows so far has no end on that side: the data set no bound.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.stats import t as student
+
+from .fit_report import Interval, Scatter, scatter, unit_of
+from .fit_search import Search
+from .observed import Observed
+
+Array = npt.NDArray[np.float64]
+
+_POOR = 0.15  # standard deviation of ln(constant) from which on the profile is asked
+
+
+@dataclass(frozen=True, eq=False)
+class FewConstants:
+    """A fitted solid, the intervals of its constants, and solids that the data allow as well."""
+
+    material: Any
+    intervals: tuple[Interval, ...]
+    scatter: Scatter
+    constants: int
+    draws: tuple[Any, ...]
+
+
+def fit_constants(
+    data: Observed, *, model: str, known: Mapping[str, float], level: float, draws: int, seed: int
+) -> FewConstants:
+    """Return a power law or a standard solid fitted to measured numbers.
+
+    Parameters
+    ----------
+    data : Observed
+        Measured numbers.
+    model : str
+        "power-law", "relaxation-power-law" or "sls".
+    known : mapping
+        Constants that are given and not fitted, by name, in SI.
+    level : float
+        Confidence level of the intervals, in (0, 1).
+    draws : int
+        How many allowed solids to draw.
+    seed : int
+        Of the random numbers.
+
+    Raises
+    ------
+    ValueError
+        If a known constant is none of the model's or impossible, or nothing is left to fit.
+    """
+    search = Search.of(data, model, known)
+    best = search.minimum()
+    residuals = data.weighed(data.residuals(search.solid(best.x)))
+    spread = scatter(residuals, len(search.free))
+    t = float(student.ppf((1 + level) / 2, max(spread.degrees, 1))) * spread.widening
+    covariance = spread.deviation**2 * np.linalg.pinv(best.jac.T @ best.jac)
+    deviations = np.sqrt(np.diag(covariance))
+    poor = bool(np.any(deviations > _POOR) or np.any(search.at_bound(best.x)))
+    # linearised, or by the profile where a straight line is no good picture of the sum of squares
+    ends = np.array([best.x - t * deviations, best.x + t * deviations]).T
+    if poor:
+        allowed = 2 * best.cost + (t * spread.deviation) ** 2
+        ends = np.array(
+            [
+                [search.profile_end(best.x, i, side, deviations[i], allowed) for side in (-1, 1)]
+                for i in range(len(search.free))
+            ]
+        )
+    material = search.solid(best.x)
+    found = dict(zip(search.free, np.exp(ends), strict=True))
+    intervals = tuple(
+        Interval(name, value, *map(float, found[name]), unit=unit_of(name))
+        if name in found
+        else Interval(name, value, value, value, unit=unit_of(name), known=True)
+        for name in search.names
+        for value in [float(getattr(material, name))]
+    )
+    sample = _draws(search, best.x, covariance * spread.widening**2, ends, draws, seed)
+    return FewConstants(material, intervals, spread, len(search.free), sample)
+
+
+def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> tuple[Any, int]:
+    """Return the fitted solid and how many constants it took, without intervals."""
+    search = Search.of(data, model, known)
+    return search.solid(search.minimum().x), len(search.free)
+
+
+def _draws(
+    search: Search, x: Array, covariance: Array, ends: Array, count: int, seed: int
+) -> tuple[Any, ...]:
+    """Return solids drawn from the normal distribution of the constants, inside their bounds."""
+    if not count:
+        return ()
+    # a constant without bound would be drawn from everywhere: it stays within its interval
+    low = np.maximum(search.low, np.where(np.isfinite(ends[:, 0]), -np.inf, x - 1.0)) + 1e-9
+    high = np.minimum(search.high, np.where(np.isfinite(ends[:, 1]), np.inf, x + 1.0)) - 1e-9
+    drawn = np.random.default_rng(seed).multivariate_normal(x, covariance, count, method="eigh")
+    return tuple(search.solid(np.clip(each, low, high)) for each in drawn)

@@ -1,0 +1,229 @@
+"""What a fit found, how sure it is, and what the measurement cannot say."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.materials import Material
+
+from .observed import Observed
+
+Array = npt.NDArray[np.float64]
+
+_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "tau0": "s"}
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A fitted quantity and where it may lie.
+
+    Attributes
+    ----------
+    name : str
+        Name of the quantity, as the material has it.
+    value : float
+        Fitted, in SI.
+    low, high : float
+        Ends of the interval, in SI; 0 and inf where the data set no bound on that side. Both are
+        the value itself where it was given instead of fitted.
+    unit : str
+        SI unit, "1" for a pure number.
+    known : bool
+        Whether the quantity was given.
+    """
+
+    name: str
+    value: float
+    low: float
+    high: float
+    unit: str = "1"
+    known: bool = False
+
+    @property
+    def bounded(self) -> bool:
+        """Whether the data say how small and how large it may be."""
+        return self.low > 0 and bool(np.isfinite(self.high))
+
+    def words(self) -> str:
+        """Return it as a line: value, interval, unit."""
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        line = f"{self.name:<16} {self.value:>11.5g}{unit}"
+        if self.known:
+            return f"{line}  given"
+        if self.bounded:
+            return f"{line}  ({self.low:.5g} to {self.high:.5g})"
+        if self.low > 0:
+            return f"{line}  (at least {self.low:.4g}; no upper bound)"
+        if np.isfinite(self.high):
+            return f"{line}  (at most {self.high:.4g}; no lower bound)"
+        return f"{line}  (not bounded)"
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """How far the measured numbers lie from the fitted ones, in natural logarithms.
+
+    Attributes
+    ----------
+    deviation : float
+        Standard deviation of one number, with the constants taken off the count.
+    correlation : float
+        Correlation of neighbouring residuals where it is beyond chance, else 0. Neighbours that
+        err alike carry less than their number says.
+    degrees : int
+        Numbers less constants.
+    """
+
+    deviation: float
+    correlation: float
+    degrees: int
+
+    @property
+    def widening(self) -> float:
+        """Factor on every interval for what neighbours have in common."""
+        return float(np.sqrt((1 + self.correlation) / (1 - self.correlation)))
+
+
+def scatter(residuals: Array, constants: int) -> Scatter:
+    """Return the scatter of residuals of shape (P, N) after a fit of so many constants."""
+    degrees = residuals.size - constants
+    deviation = float(np.sqrt(np.sum(residuals**2) / max(degrees, 1)))
+    square = float(np.sum(residuals**2))
+    r = float(np.sum(residuals[:, 1:] * residuals[:, :-1])) / square if square > 0 else 0.0
+    beyond_chance = r > 2 / np.sqrt(residuals.size)
+    return Scatter(deviation, min(r, 0.98) if beyond_chance else 0.0, degrees)
+
+
+def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
+    """Return the corrected information criterion of Akaike; infinite without numbers to spare.
+
+    -2 ln(likelihood) + 2 K + 2 K (K + 1)/(M - K - 1) with M numbers and K constants, the scatter
+    being one of them. The smaller the better; a difference of 10 decides. The scatter is not
+    counted as smaller than `floor`, in the unit of the residuals.
+    """
+    M, K = residuals.size, constants + 1
+    if M - K - 1 <= 0:
+        return float("inf")
+    return float(
+        M * np.log(np.mean(residuals**2) + floor**2 + 1e-30) + 2 * K + 2 * K * (K + 1) / (M - K - 1)
+    )
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FitReport:
+    """A material fitted to a measurement.
+
+    Attributes
+    ----------
+    material : Material
+        The fitted solid, tensile.
+    model : str
+        "power-law", "relaxation-power-law", "sls" or "prony".
+    observed : Observed
+        What it was fitted to.
+    intervals : tuple of Interval
+        The constants, or for a Prony series its two plateaus.
+    level : float
+        Confidence level of the intervals and of `band`.
+    scatter : Scatter
+        Residuals in short.
+    constants : int
+        How many were fitted.
+    criterion : float
+        Corrected information criterion of Akaike; inf without numbers to spare.
+    compared : tuple of (str, float)
+        What was tried beside it, in words, with the criterion of each.
+    undetermined : tuple of str
+        What the measurement cannot say, in sentences.
+    cautions : tuple of str
+        What to know of the fit itself, in sentences.
+    draws : tuple of Material
+        Solids that the data allow as well, drawn at random; for bands, and to see what a forecast
+        does with the uncertainty.
+    """
+
+    material: Material
+    model: str
+    observed: Observed
+    intervals: tuple[Interval, ...]
+    level: float
+    scatter: Scatter
+    constants: int
+    criterion: float
+    compared: tuple[tuple[str, float], ...]
+    undetermined: tuple[str, ...]
+    cautions: tuple[str, ...]
+    draws: tuple[Any, ...]
+
+    @property
+    def residuals(self) -> Array:
+        """ln(measured/fitted), shape (P, N), a row for each part of the quantity."""
+        return self.observed.residuals(self.material)
+
+    @property
+    def median_error(self) -> float:
+        """Median of |fitted/measured - 1| over all numbers."""
+        return float(np.median(np.abs(np.expm1(-self.residuals))))
+
+    def band(self, at: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return the lower and upper end of the band of the fitted quantity.
+
+        Parameters
+        ----------
+        at : array_like, shape (n,)
+            Angular frequencies [rad/s], or times [s], as in the measurement.
+
+        Returns
+        -------
+        low, high : ndarray, shape (P, n)
+            Pointwise, at the level of the report, [Pa] or [1/Pa]. Outside the measured range they
+            only say what the model would have.
+        """
+        curves = np.array([self.observed.predicted(solid, at) for solid in self.draws])
+        part = (1 - self.level) / 2
+        return np.quantile(curves, part, axis=0), np.quantile(curves, 1 - part, axis=0)
+
+    def interval(self, name: str) -> Interval:
+        """Return the interval of a quantity by its name."""
+        for found in self.intervals:
+            if found.name == name:
+                return found
+        raise ValueError(f"there is no {name!r}; there are {[i.name for i in self.intervals]}")
+
+    def _scatters(self) -> str:
+        """Return the root mean square residual of each part, in words."""
+        each = np.sqrt(np.mean(self.residuals**2, axis=1))
+        pairs = zip(self.observed.parts, each, strict=True)
+        return ", ".join(f"{100 * value:.2g} % ({part})" for part, value in pairs)
+
+    def words(self) -> str:
+        """Return the report as lines a person reads."""
+        low, high = self.observed.frequencies
+        lines = [
+            f"{self.model}: {self.constants} constants on {self.observed.values.size} numbers, "
+            f"{_range(self.observed)}",
+            f"  {100 * self.level:.0f} % intervals:",
+            *(f"  {interval.words()}" for interval in self.intervals),
+            f"  scatter {self._scatters()}, median error {100 * self.median_error:.2g} %",
+        ]
+        if len(self.compared) > 1:
+            best = min(value for _, value in self.compared)
+            tried = ", ".join(f"{name} {value - best:+.1f}" for name, value in self.compared)
+            lines.append(f"  criterion (AICc, above the best): {tried}")
+        lines += [f"  Not determined: {sentence}" for sentence in self.undetermined]
+        lines += [f"  Note: {sentence}" for sentence in self.cautions]
+        return "\n".join(lines)
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a constant of a material."""
+    return _UNITS.get(name, "1")
+
+
+def _range(data: Observed) -> str:
+    low, high = data.at[0], data.at[-1]
+    if data.in_frequency:
+        return f"{low / (2 * np.pi):.3g} to {high / (2 * np.pi):.3g} Hz"
+    return f"{data.quantity} from {low:.3g} to {high:.3g} s"

@@ -1,0 +1,175 @@
+"""From measured moduli to a material, with what is sure and what is not.
+
+Every model goes through :func:`fit`; the report says how well it did.
+"""
+
+from collections.abc import Mapping
+
+from threadpoolctl import threadpool_limits
+
+from .fit_limits import misfit_cautions, opened, series_cautions, undetermined
+from .fit_power_law import fit_constants, fitted_constants
+from .fit_prony import fit_series, with_noise
+from .fit_report import FitReport, information_criterion
+from .fit_search import KINDS
+from .observed import Data, Observed, observed, only
+
+MODELS = (*KINDS, "prony")
+
+
+def fit(
+    data: Data,
+    *,
+    poisson_ratio: float,
+    model: str = "best",
+    arms: int | None = None,
+    known: Mapping[str, float] | None = None,
+    loss: bool = True,
+    level: float = 0.9,
+    draws: int = 100,
+    seed: int = 0,
+) -> FitReport:
+    r"""Return a material fitted to a master curve, one sweep, or a test over time.
+
+    Minimises the sum of squares of ln(measured/fitted) over all numbers. Storage and loss count
+    alike, unless one of them scatters more than twice as much about a smooth curve of its own:
+    then each counts by its scatter.
+
+    Parameters
+    ----------
+    data : MasterCurve, FrequencySweeps, RelaxationTest or CreepTest
+        What was measured, at one temperature. Shear moduli become tensile ones by the Poisson
+        ratio, as every material of this package is tensile.
+    poisson_ratio : float
+        Poisson ratio nu, in [0, 0.5], constant; 0.5 for rubber, about 0.35 for a glass.
+    model : str
+        "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls", "prony", or
+        "best": all are fitted, and the corrected information criterion of Akaike decides.
+    arms : int, optional
+        Relaxation times of a Prony series, on a logarithmic grid; left out, as many as the
+        criterion finds in the data. Arms that get no modulus are dropped.
+    known : mapping, optional
+        Constants that are not fitted, in SI: ``{"glassy_modulus": 3e9}``, for a plateau known from
+        elsewhere. For a power law or the standard solid.
+    loss : bool
+        Whether the loss modulus counts; leave it out where it contradicts the storage modulus.
+    level : float
+        Confidence level of the intervals and the band.
+    draws : int
+        How many solids that the data allow to draw.
+    seed : int
+        Of the random numbers: the same seed, the same report.
+
+    Returns
+    -------
+    FitReport
+        The material, intervals, residuals, and what the data cannot determine.
+
+    Raises
+    ------
+    ValueError
+        If the data is unfit, a model or constant unknown, or the options contradict each other.
+
+    Notes
+    -----
+    Intervals hold if the model is right and the residuals are independent; neighbours that err
+    alike widen them. Those of a Prony series are of its plateaus only, from a bootstrap on fixed
+    times: its single arms mean nothing.
+
+    Examples
+    --------
+    Numbers of a standard solid, to three digits, are found again:
+
+    >>> import numpy as np
+    >>> from viscotack.lab.sweeps import MasterCurve
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> storage, loss = np.round(modulus.real, -3), np.round(modulus.imag, -3)
+    >>> report = fit(MasterCurve(293.15, omega, storage, loss, "E"), poisson_ratio=0.5, model="sls")
+    >>> f"{report.material.tau0:.3f} s, {report.material.glassy_modulus / 1e6:.2f} MPa"
+    '0.100 s, 10.00 MPa'
+    """
+    if model not in (*MODELS, "best"):
+        raise ValueError(f"model must be one of {', '.join(MODELS)} or best, got {model!r}")
+    if not 0 < level < 1:
+        raise ValueError(f"level is a probability and must lie in (0, 1), got {level}")
+    if arms is not None and model != "prony":
+        raise ValueError(f"arms go with the model prony, not with {model}")
+    if known and model in ("prony", "best"):
+        raise ValueError(f"known constants go with one of {', '.join(KINDS)}, not with {model}")
+    seen = observed(data, poisson_ratio=poisson_ratio)
+    if not loss:
+        seen = only(seen, "storage")
+    options = {"known": dict(known or {}), "arms": arms, "level": level, "seed": seed}
+    with threadpool_limits(
+        limits=1, user_api="blas"
+    ):  # small matrices: threads only get in the way
+        seen = with_noise(seen)
+        if model != "best":
+            return _fitted(seen, model, draws=draws, **options)
+        tried = [(each, _tried(seen, each)) for each in _affordable(seen)]
+        best = min(tried, key=lambda entry: entry[1])[0]
+        return _fitted(seen, best, draws=draws, others=tuple(tried), **options)
+
+
+def _affordable(data: Observed) -> list[str]:
+    """Return the models that leave numbers to spare."""
+    constants = {"power-law": 4, "relaxation-power-law": 4, "sls": 3, "prony": 3}
+    found = [model for model in MODELS if data.values.size > constants[model] + 3]
+    if not found:
+        raise ValueError(
+            f"{data.values.size} numbers are too few to compare models; name the one to fit"
+        )
+    return found
+
+
+def _tried(data: Observed, model: str) -> float:
+    """Return the criterion of a model, without its intervals."""
+    if model == "prony":
+        return fit_series(data, arms=None, level=0.9, draws=0, seed=0).criterion
+    material, constants = fitted_constants(data, model=model, known={})
+    return information_criterion(data.weighed(data.residuals(material)), constants)
+
+
+def _fitted(
+    data: Observed,
+    model: str,
+    *,
+    known: dict[str, float],
+    arms: int | None,
+    level: float,
+    draws: int,
+    seed: int,
+    others: tuple[tuple[str, float], ...] = (),
+) -> FitReport:
+    cautions: tuple[str, ...] = ()
+    if model == "prony":
+        found = fit_series(data, arms=arms, level=level, draws=draws, seed=seed)
+        compared, criterion = others or found.compared, found.criterion
+        if draws:
+            cautions = series_cautions(data, found)
+    else:
+        found = fit_constants(data, model=model, known=known, level=level, draws=draws, seed=seed)
+        compared = others
+        residuals = data.weighed(data.residuals(found.material))
+        criterion = information_criterion(residuals, found.constants)
+    cautions = (*misfit_cautions(data, found.material, found.scatter), *cautions)
+    intervals = opened(data, found.material, found.intervals)
+    return FitReport(
+        material=found.material,
+        model=model,
+        observed=data,
+        intervals=intervals,
+        level=level,
+        scatter=found.scatter,
+        constants=found.constants,
+        criterion=criterion,
+        compared=compared,
+        undetermined=undetermined(data, found.material, intervals),
+        cautions=cautions,
+        draws=found.draws,
+    )

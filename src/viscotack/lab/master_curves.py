@@ -1,0 +1,179 @@
+"""Time-temperature superposition: sweeps at many temperatures as one curve at one of them."""
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
+
+from .grouping import GAP
+from .shifting import shift_factors, temperature_levels
+from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
+
+Array = npt.NDArray[np.float64]
+
+
+def master_curve(
+    sweeps: FrequencySweeps,
+    *,
+    reference_temperature: float | None,
+    shift: Shift | ShiftTable | None = None,
+    by: str = "storage",
+    vertical: bool = False,
+) -> MasterCurve:
+    r"""Return all sweeps shifted to one temperature, ascending in frequency.
+
+    A point measured at omega and T lands at omega a_T. With a law of shift a temperature ramp at
+    one frequency becomes a master curve as well (Sec. 4.6.1 of the thesis).
+
+    Parameters
+    ----------
+    sweeps : FrequencySweeps
+        Points to be shifted.
+    reference_temperature : float or None
+        Temperature of the curve [K]. None only for sweeps of one temperature, which the file may
+        not even say: then nothing is shifted.
+    shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
+        A law is seen from the reference temperature and shifts every point by its own
+        temperature. The row of a table shifts the points within 1 K of it, a vertical shift
+        included; between rows it is interpolated. Without it the shifts are found from the
+        overlap of neighbouring sweeps, see :func:`shift_factors`.
+    by : {"storage", "loss", "both"}
+        The modulus that must superpose, where shifts are found from overlap.
+    vertical : bool
+        Whether moduli may move as well, where shifts are found from overlap.
+
+    Returns
+    -------
+    MasterCurve
+        With the shift of each temperature and, where it was found, its uncertainty.
+
+    Raises
+    ------
+    ValueError
+        If temperatures are unknown, a law has no value for one of them, or overlap does not fix
+        the shifts.
+
+    References
+    ----------
+    Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
+
+    Examples
+    --------
+    A temperature ramp at 1 Hz, seen from 20 C:
+
+    >>> ramp = FrequencySweeps(
+    ...     [173.15, 293.15], [6.283, 6.283], [1.2e8, 2e6], [6e7, 1e5], "E", [0, 0]
+    ... )
+    >>> wlf = WLF.from_glass_transition(158.15)
+    >>> curve = master_curve(ramp, reference_temperature=293.15, shift=wlf)
+    >>> [f"{omega:.3g}" for omega in curve.angular_frequency]
+    ['6.28', '3.07e+09']
+    """
+    if reference_temperature is None:
+        return _unshifted(sweeps, shift)
+    if np.any(np.isnan(sweeps.temperature)):
+        raise ValueError("the temperature of some points is not known; give read_dma temperature=")
+    if shift is not None and (vertical or by != "storage"):
+        raise ValueError("by and vertical are for shifts found from overlap; leave shift= out")
+    reference_temperature = float(reference_temperature)
+    if shift is None:
+        if np.ptp(sweeps.temperature) <= GAP and _near(sweeps.temperature, reference_temperature):
+            return replace(_unshifted(sweeps, None), reference_temperature=reference_temperature)
+        _refuse_ramp(sweeps)
+        shift = shift_factors(
+            sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
+        )
+        how = f"shifts from the overlap of {by if by != 'both' else 'storage and loss'}"
+    else:
+        how = _words(shift)
+    if isinstance(shift, ShiftTable):
+        horizontal, up = _by_table(sweeps.temperature, shift, reference_temperature)
+        table = shift
+    else:
+        law = shift.at_reference(reference_temperature)
+        horizontal, up = np.asarray(law.log10_shift(sweeps.temperature)), 0.0
+        levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
+        table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+    return MasterCurve(
+        reference_temperature=reference_temperature,
+        angular_frequency=sweeps.angular_frequency * 10**horizontal,
+        storage=sweeps.storage * 10**up,
+        loss=sweeps.loss * 10**up,
+        kind=sweeps.kind,
+        shifts=table,
+        source=sweeps.source.noted(f"{how}, reference {reference_temperature:.2f} K"),
+        temperature=sweeps.temperature,
+        sweep=sweeps.sweep,
+    )
+
+
+def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> MasterCurve:
+    known = not np.any(np.isnan(sweeps.temperature))
+    if shift is not None or (known and np.ptp(sweeps.temperature) > GAP):
+        raise ValueError("sweeps at several temperatures, or a shift, need reference_temperature=")
+    return MasterCurve(
+        reference_temperature=float(np.mean(sweeps.temperature)) if known else None,
+        angular_frequency=sweeps.angular_frequency,
+        storage=sweeps.storage,
+        loss=sweeps.loss,
+        kind=sweeps.kind,
+        source=sweeps.source,
+        temperature=sweeps.temperature,
+        sweep=sweeps.sweep,
+    )
+
+
+def _by_table(temperature: Array, table: ShiftTable, reference: float) -> tuple[Array, Array]:
+    """Return the horizontal and the vertical shift of each point."""
+    vertical = np.zeros(len(table)) if table.log10_vertical is None else table.log10_vertical
+    return (
+        _interpolated(temperature, table.temperature, table.log10_shift, reference),
+        _interpolated(temperature, table.temperature, vertical, reference),
+    )
+
+
+def _interpolated(temperature: Array, rows: Array, values: Array, reference: float) -> Array:
+    """Return a column of a table at each temperature, less its value at the reference.
+
+    A point within 1 K of a row belongs to that row: the chamber is never quite at its set point.
+    """
+    asked = np.append(temperature, reference)
+    nearest = np.argmin(np.abs(asked[:, None] - rows), axis=1)
+    found = values[nearest].astype(float)
+    beside = np.abs(asked - rows[nearest]) > GAP
+    # the reference itself is interpolated, not rounded to a row
+    beside[-1] = rows[0] < reference < rows[-1]
+    if beside.any():
+        if rows.size < 2:
+            raise ValueError(
+                f"the table of shifts has one row, at {rows[0]:.2f} K; "
+                f"asked at {asked[beside][0]:.2f} K"
+            )
+        curve = TabulatedShift(float(rows[0]), tuple(rows), tuple(values))
+        found[beside] = values[0] + np.asarray(curve.log10_shift(asked[beside]))
+    return found[:-1] - found[-1]
+
+
+def _refuse_ramp(sweeps: FrequencySweeps) -> None:
+    omega = sweeps.angular_frequency
+    if np.ptp(omega) <= 1e-3 * omega[0] and np.ptp(sweeps.temperature) > GAP:
+        raise ValueError(
+            "a temperature ramp at one frequency has no overlap to find shifts from; give "
+            "shift=WLF.from_glass_transition(...) or another law"
+        )
+
+
+def _near(temperature: Array, reference: float) -> bool:
+    return bool(np.all(np.abs(temperature - reference) <= GAP))
+
+
+def _words(shift: Shift | ShiftTable) -> str:
+    match shift:
+        case WLF(reference_temperature=reference, c1=c1, c2=c2):
+            return f"shifted by WLF with c1 = {c1:g}, c2 = {c2:g} K at {reference:g} K"
+        case Arrhenius(activation_energy=energy):
+            return f"shifted by Arrhenius with {energy / 1e3:g} kJ/mol"
+        case _:
+            return "shifted by a table"

@@ -1,0 +1,204 @@
+"""Read a laboratory's file: find out its format, say so, and return numbers in SI."""
+
+from os import PathLike
+from types import ModuleType
+
+from . import (
+    assembly,
+    plain_layout,
+    reptate_layout,
+    rheocompass_layout,
+    step_tests,
+    trios_layout,
+    workbook_layout,
+)
+from .arrays import KINDS
+from .lab_file import LabFile, load
+from .quantities import radians_per_second, scale
+from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
+from .table import Table, Units
+
+Path = str | PathLike[str]
+
+# format -> the module that knows its layout, in the order in which they are tried
+FORMATS: dict[str, ModuleType] = {
+    "eplexor": workbook_layout,
+    "workbook": workbook_layout,
+    "reptate": reptate_layout,
+    "trios": trios_layout,
+    "rheocompass": rheocompass_layout,
+    "pyvisco": plain_layout,
+    "csv": plain_layout,
+}
+
+
+def read_dma(
+    path: Path,
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    frequency_unit: str | None = None,
+    modulus_unit: str | None = None,
+    decimal: str | None = None,
+) -> FrequencySweeps:
+    r"""Return the frequency sweeps of a dynamic mechanical analysis or of a rheometer.
+
+    Parameters
+    ----------
+    path : path-like
+        A text file (plain table, TA TRIOS, Anton Paar RheoCompass, RepTate, pyvisco) or a
+        workbook (Netzsch Gabo Eplexor, or one like it; extra ``lab``).
+    format : str, optional
+        One of :data:`FORMATS`; otherwise it is found out from the content and noted.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, where neither the headings nor the words around them say it, or
+        which one to take where the file has both.
+    temperature : float, optional
+        Temperature of all points [K], where the file does not say.
+    frequency_unit : str, optional
+        ``"Hz"`` or ``"rad/s"``, where the file does not say or says 1/s.
+    modulus_unit : str, optional
+        Such as ``"MPa"``, where the file does not say.
+    decimal : {".", ","}, optional
+        Decimal mark, where numbers such as ``1,234`` leave it open.
+
+    Returns
+    -------
+    FrequencySweeps
+        In SI; ``source.notes`` says everything that was decided.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be understood: it names the file, the line and what was expected.
+    OSError
+        If the file cannot be opened.
+
+    Notes
+    -----
+    What is found out about a damaged file: a missing or added cell, a number that is none, a
+    count of points that is not met, tan(delta) or \|E*\| that contradict the moduli by more than
+    2 %, hertz and rad/s that contradict each other, impossible values. A last line without a line
+    end is left out, because a number cut short looks like another number. What cannot be found
+    out: one digit changed in a number that the file holds once, and whole rows lost from a file
+    that does not count them.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "f, E', E'', T\nHz, MPa, MPa, C\n1, 3.2, 0.4, 20\n10, 4.5, 0.7, 20\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "pdms.csv")
+    ...     _ = file.write_text(table)
+    ...     sweeps = read_dma(file)
+    >>> sweeps.storage.tolist(), sweeps.kind, sweeps.source.format
+    ([3200000.0, 4500000.0], 'E', 'csv')
+    """
+    given = _given(kind, temperature, frequency_unit, modulus_unit, decimal)
+    file, format, tables = _tables(path, format)
+    return assembly.sweeps(file, format, tables, given)
+
+
+def read_relaxation(
+    path: Path,
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    modulus_unit: str | None = None,
+    decimal: str | None = None,
+) -> RelaxationTest:
+    """Return a stress relaxation test: time and modulus, or stress over strain.
+
+    Parameters are those of :func:`read_dma`. A time of the step is taken before a time of the
+    whole test; rows at time zero are left out, with a note.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`; also if there is not exactly one table of this kind.
+    """
+    given = _given(kind, temperature, None, modulus_unit, decimal)
+    file, format, tables = _tables(path, format)
+    return step_tests.relaxation(file, format, tables, given)
+
+
+def read_creep(
+    path: Path,
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    modulus_unit: str | None = None,
+    decimal: str | None = None,
+) -> CreepTest:
+    """Return a creep test: time and compliance, or strain over stress.
+
+    Parameters are those of :func:`read_dma`; `modulus_unit` is that of the stress.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`; also if there is not exactly one table of this kind.
+    """
+    given = _given(kind, temperature, None, modulus_unit, decimal)
+    file, format, tables = _tables(path, format)
+    return step_tests.creep(file, format, tables, given)
+
+
+def read_shifts(path: Path, *, format: str | None = None, decimal: str | None = None) -> ShiftTable:
+    """Return a table of shift factors: temperature and log_aT, or aT and perhaps bT.
+
+    A shift is positive in the logarithm where the solid is slower than at the reference
+    temperature, as pyvisco and RepTate write it.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`.
+    """
+    file, _, tables = _tables(path, format)
+    return step_tests.shifts(file, tables, _given(None, None, None, None, decimal))
+
+
+def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
+    if format is not None and format not in FORMATS:
+        raise ValueError(f"format must be one of {', '.join(FORMATS)}, got {format!r}")
+    file = load(path)
+    found = format or _sniffed(file)
+    tables = FORMATS[found].tables(file)
+    if format is None:
+        file = LabFile(
+            file.path, file.content, file.lines, (f"format found out: {found}", *file.notes)
+        )
+    return file, found, tables
+
+
+def _sniffed(file: LabFile) -> str:
+    for layout in dict.fromkeys(FORMATS.values()):
+        if (name := layout.name(file)) is not None:
+            return name
+    return "csv"  # whose reader says what it expected
+
+
+def _given(
+    kind: str | None,
+    temperature: float | None,
+    frequency_unit: str | None,
+    modulus_unit: str | None,
+    decimal: str | None,
+) -> assembly.Given:
+    """Refuse what a caller says wrongly before the file is blamed for it."""
+    if kind is not None and kind not in KINDS:
+        raise ValueError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
+    if decimal not in (None, ".", ","):
+        raise ValueError(f"decimal must be '.' or ',', got {decimal!r}")
+    if temperature is not None and not 0 < temperature < 3000:
+        raise ValueError(f"temperature must be positive [K], got {temperature!r}; not Celsius")
+    if frequency_unit is not None:
+        radians_per_second(frequency_unit, angular="rad" in frequency_unit)
+    if modulus_unit is not None:
+        scale(modulus_unit, "Pa")
+    return assembly.Given(kind, temperature, Units(frequency_unit, modulus_unit, decimal))

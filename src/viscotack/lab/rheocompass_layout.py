@@ -1,0 +1,95 @@
+"""Layout of Anton Paar RheoCompass exports: intervals, each with its number of points.
+
+In any language of the instrument an interval begins with a line of a label and two whole
+numbers, its own number and that of its points. Below come the headings after a second label, a
+line that may be empty, the units in square brackets, and the rows. The first column is empty.
+"""
+
+import re
+
+from .lab_file import LabFile
+from .plain_layout import cells
+from .table import Table, first_headings, tabulated
+
+_LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
+_WHOLE = re.compile(r"\s*[0-9]+\s*")
+_UNITS_WITHIN = 4  # lines below the headings
+Row = tuple[int, list[str]]
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if there is no interval."""
+    separator = _separator(file)
+    return "rheocompass" if separator is not None else None
+
+
+def tables(file: LabFile) -> list[Table]:
+    """Return the table of each interval.
+
+    Raises
+    ------
+    ValueError
+        If there is no interval, an interval has no headings or units, a row does not have a cell
+        for each heading, or an interval has not as many rows as it says.
+    """
+    separator = _separator(file)
+    if separator is None:
+        raise file.error(
+            "expected intervals that begin with 'Interval and data points:', a number and a count"
+        )
+    rows = [
+        (number, cells(file, text, number, separator))
+        for number, text in enumerate(file.lines, start=1)
+    ]
+    starts = [i for i, (_, row) in enumerate(rows) if _begins_interval(row)]
+    return [
+        _interval(file, rows[start:end])
+        for start, end in zip(starts, [*starts[1:], len(rows)], strict=True)
+    ]
+
+
+def _interval(file: LabFile, rows: list[Row]) -> Table:
+    line, first = rows[0]
+    count = int(first[2])
+    at = first_headings([row for _, row in rows])
+    if at is None:
+        raise file.error("expected headings below the beginning of the interval", line)
+    units = next(
+        (
+            i
+            for i, (_, row) in enumerate(rows[at + 1 : at + 1 + _UNITS_WITHIN], start=at + 1)
+            if any(cell.strip().startswith("[") for cell in row)
+        ),
+        None,
+    )
+    if units is None:
+        raise file.error("expected units in square brackets below the headings", rows[at][0])
+    data: list[Row] = []
+    for number, row in rows[units + 1 :]:
+        if not any(cell.strip() for cell in row) or _LABEL.fullmatch(row[0]):
+            break
+        data.append((number, row))
+    if len(data) != count:
+        raise file.error(
+            f"the interval says {count} points and has {len(data)}: the file is cut or edited", line
+        )
+    # the label in front of the headings is no heading
+    return tabulated(file, ["", *rows[at][1][1:]], rows[units][1], data)
+
+
+def _separator(file: LabFile) -> str | None:
+    for text in file.lines:
+        for separator in ("\t", ";", ","):
+            if separator in text and _begins_interval(text.split(separator)):
+                return separator
+    return None
+
+
+def _begins_interval(row: list[str]) -> bool:
+    return (
+        len(row) >= 3
+        and _LABEL.fullmatch(row[0]) is not None
+        and _WHOLE.fullmatch(row[1]) is not None
+        and _WHOLE.fullmatch(row[2]) is not None
+        and not any(cell.strip() for cell in row[3:])
+    )

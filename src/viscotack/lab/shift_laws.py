@@ -1,0 +1,162 @@
+"""Laws of time-temperature shift that fit a table of shift factors."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from viscotack.materials.shift import WLF, Arrhenius
+
+from .sweeps import ShiftTable
+
+Array = npt.NDArray[np.float64]
+
+_UNCERTAIN = 0.01  # decades: scatter of a shift beside what its table says
+
+
+@dataclass(frozen=True)
+class ShiftFit:
+    """A law and how well it is known.
+
+    Parameters
+    ----------
+    law : WLF or Arrhenius
+        The law at its reference temperature.
+    standard_error : tuple of float
+        Of c1 [-] and c2 [K], or of the activation energy [J/mol].
+    misfit : float
+        Root mean square of log10 a_T of the table less that of the law [decades].
+    worst : tuple of (float, float)
+        Temperature [K] and difference [decades] of the row that fits worst.
+    """
+
+    law: WLF | Arrhenius
+    standard_error: tuple[float, ...]
+    misfit: float
+    worst: tuple[float, float]
+
+
+def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
+    """Return the WLF law nearest to a table of shifts, by weighted least squares.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Three or more temperatures, shifts relative to any one temperature.
+    reference_temperature : float
+        T0 of the law [K]. It need not be a row; c1 and c2 belong to it.
+
+    Returns
+    -------
+    ShiftFit
+        Standard errors from the curvature and the larger of the stated and the found scatter.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than three rows, or the shifts do not bend as the law does: then
+        Arrhenius, or a part of the table, may serve.
+
+    Examples
+    --------
+    >>> wlf = WLF(293.15, 8.86, 101.6)
+    >>> rows = np.array([273.15, 293.15, 313.15, 343.15])
+    >>> found = fit_wlf(ShiftTable(rows, wlf.log10_shift(rows), None), reference_temperature=293.15)
+    >>> round(found.law.c1, 4), round(found.law.c2, 3)
+    (8.86, 101.6)
+    """
+    if len(table) < 3:
+        raise ValueError(f"a WLF law needs three or more temperatures, got {len(table)}")
+    above = table.temperature - reference_temperature
+    weight = 1 / _deviation(table)
+    coldest = min(float(np.min(above)), 0.0)
+
+    def shape(q: Array) -> tuple[Array, float, float]:
+        c1, c2 = math.exp(q[0]), math.exp(q[1]) - coldest
+        return -c1 * above / (c2 + above), c1, c2
+
+    def residual(q: Array) -> Array:
+        # the table's own zero is free: its reference need not be that of the law
+        return weight * (q[2] + shape(q)[0] - table.log10_shift)
+
+    offset = float(np.interp(reference_temperature, table.temperature, table.log10_shift))
+    starts = [
+        [math.log(c1), math.log(c2), offset] for c1 in (5.0, 17.0, 50.0) for c2 in (20.0, 100.0)
+    ]
+    limits = ([-3.0, -5.0, -np.inf], [math.log(1e4), math.log(1e5), np.inf])
+    best = min((least_squares(residual, s, bounds=limits) for s in starts), key=lambda f: f.cost)
+    values, c1, c2 = shape(best.x)
+    if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
+        raise ValueError(
+            "the shifts do not bend as a WLF law does; fit Arrhenius, or the part of the table "
+            "above the glass transition"
+        )
+    # chain rule from ln c1 and ln(c2 + coldest)
+    scale = np.array([c1, c2 + coldest])
+    error = scale * np.sqrt(np.diag(_covariance(best.jac, best.fun))[:2])
+    difference = table.log10_shift - best.x[2] - values
+    return _fit(WLF(reference_temperature, c1, c2), error, table, difference)
+
+
+def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
+    """Return the Arrhenius law nearest to a table of shifts, by weighted least squares.
+
+    Parameters
+    ----------
+    table : ShiftTable
+        Two or more temperatures, shifts relative to any one temperature.
+    reference_temperature : float
+        T0 of the law [K]; the activation energy does not depend on it.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two rows, or the shift rises with temperature.
+
+    Examples
+    --------
+    >>> rows = np.array([273.15, 293.15, 313.15])
+    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), None)
+    >>> round(fit_arrhenius(table, reference_temperature=293.15).law.activation_energy)
+    80000
+    """
+    if len(table) < 2:
+        raise ValueError(f"an Arrhenius law needs two or more temperatures, got {len(table)}")
+    unit = np.asarray(Arrhenius(reference_temperature, 1.0).log10_shift(table.temperature))
+    weight = 1 / _deviation(table)
+    columns = np.column_stack((unit, np.ones(len(table))))
+    found, *_ = np.linalg.lstsq(columns * weight[:, None], table.log10_shift * weight, rcond=None)
+    if found[0] <= 0:
+        raise ValueError(
+            f"the shift rises with temperature (activation energy {found[0]:.3g} J/mol); "
+            "log10 a_T is positive where the solid is slower, that is in the cold"
+        )
+    difference = table.log10_shift - columns @ found
+    covariance = _covariance(columns * weight[:, None], difference * weight)
+    error = np.sqrt(np.diag(covariance)[:1])
+    return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
+
+
+def _deviation(table: ShiftTable) -> Array:
+    if table.uncertainty is None:
+        return np.full(len(table), _UNCERTAIN)
+    return np.hypot(table.uncertainty, _UNCERTAIN)
+
+
+def _covariance(jacobian: Array, residual: Array) -> Array:
+    """Return the covariance, widened where the scatter is larger than what the table says."""
+    freedom = residual.size - jacobian.shape[1]
+    excess = max(1.0, float(residual @ residual) / freedom) if freedom > 0 else 1.0
+    return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
+
+
+def _fit(law: WLF | Arrhenius, error: Array, table: ShiftTable, difference: Array) -> ShiftFit:
+    worst = int(np.argmax(np.abs(difference)))
+    return ShiftFit(
+        law,
+        tuple(float(e) for e in error),
+        float(np.sqrt(np.mean(difference**2))),
+        (float(table.temperature[worst]), float(difference[worst])),
+    )

@@ -1,0 +1,357 @@
+r"""What laboratories measure: frequency sweeps, master curves, relaxation and creep tests.
+
+Every array is in SI, finite and read-only. `kind` says which modulus it is: ``"E"`` from tension,
+compression or bending, ``"G"`` from shear or torsion. Nothing here changes one into the other
+without being told the Poisson ratio.
+
+Shift factors follow one rule: log10 a_T is positive where the solid is slower than at the
+reference temperature, that is below it. A point measured at omega and T lands on the master curve
+at omega a_T; its moduli, multiplied by 10^log10_vertical, are those of the reference temperature.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from . import arrays
+
+Array = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+Complex = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where numbers come from.
+
+    Parameters
+    ----------
+    path : str
+        The file as it was named by who read it; empty for numbers made in memory.
+    sha256 : str
+        Hash of the file's bytes, in hexadecimal.
+    format : str
+        Format of the file, one of the names in ``viscotack.lab.FORMATS``; ``"memory"``
+        for numbers made in memory.
+    notes : tuple of str
+        What was decided while reading: units found, points left out, order changed.
+
+    Examples
+    --------
+    >>> Source().format
+    'memory'
+    """
+
+    path: str = ""
+    sha256: str = ""
+    format: str = "memory"
+    notes: tuple[str, ...] = ()
+
+    def noted(self, *notes: str) -> "Source":
+        """Return the same source with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
+
+@dataclass(frozen=True, eq=False)
+class FrequencySweeps:
+    """Storage and loss modulus over frequency, at one temperature or at many.
+
+    Parameters
+    ----------
+    temperature : array_like, shape (N,)
+        Temperature of each point [K], positive; nan where the file does not say.
+    angular_frequency : array_like, shape (N,)
+        2 pi f [rad/s], positive.
+    storage, loss : array_like, shape (N,)
+        Real and imaginary part of the complex modulus [Pa], positive.
+    kind : {"E", "G"}
+        Tensile or shear modulus.
+    sweep : array_like of int, shape (N,)
+        Number of the sweep that each point belongs to.
+    source : Source
+        Where the points come from.
+
+    Raises
+    ------
+    ValueError
+        If lengths differ, there are no points, or a number is impossible.
+
+    Examples
+    --------
+    >>> shear = FrequencySweeps([293.15, 293.15], [1, 10], [1e6, 2e6], [1e5, 3e5], "G", [0, 0])
+    >>> shear.in_tension(0.5).storage.tolist()
+    [3000000.0, 6000000.0]
+    """
+
+    temperature: Array
+    angular_frequency: Array
+    storage: Array
+    loss: Array
+    kind: str
+    sweep: Integers
+    source: Source = Source()
+
+    def __post_init__(self):
+        arrays.check_kind(self.kind)
+        arrays.store_columns(
+            self,
+            temperature=("K", True),
+            angular_frequency=("rad/s", False),
+            storage=("Pa", False),
+            loss=("Pa", False),
+        )
+        arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
+
+    def __len__(self) -> int:
+        return self.storage.size
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        """The numbers of the sweeps, ascending."""
+        return tuple(int(number) for number in np.unique(self.sweep))
+
+    @property
+    def complex_modulus(self) -> Complex:
+        """Storage + i loss [Pa], shape (N,)."""
+        return self.storage + 1j * self.loss
+
+    def at(self, sweep: int) -> "FrequencySweeps":
+        """Return one sweep, in ascending order of frequency."""
+        found = np.flatnonzero(self.sweep == sweep)
+        if not found.size:
+            raise ValueError(f"there is no sweep {sweep}; there are {list(self.ids)}")
+        return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
+
+    def without(self, *sweeps: int) -> "FrequencySweeps":
+        """Return the sweeps without some of them, for example those that were flagged."""
+        unknown = set(sweeps) - set(self.ids)
+        if unknown:
+            raise ValueError(f"there is no sweep {min(unknown)}; there are {list(self.ids)}")
+        return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
+
+    def chosen(self, points: npt.ArrayLike) -> "FrequencySweeps":
+        """Return some of the points, by their indices or by a mask of shape (N,)."""
+        return arrays.chosen(self, points)
+
+    def in_tension(self, poisson_ratio: float) -> "FrequencySweeps":
+        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is.
+
+        Parameters
+        ----------
+        poisson_ratio : float
+            nu, in [0, 0.5], taken to be the same at every frequency.
+        """
+        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+
+
+@dataclass(frozen=True, eq=False)
+class ShiftTable:
+    """Shift factors, one per temperature.
+
+    Parameters
+    ----------
+    temperature : array_like, shape (M,)
+        Temperatures [K], positive, ascending once made.
+    log10_shift : array_like, shape (M,)
+        log10 a_T, positive where the solid is slower than at the reference; zero there.
+    uncertainty : array_like, shape (M,), or None
+        Standard deviation of log10_shift, not negative; None where nobody says.
+    log10_vertical : array_like, shape (M,), or None
+        log10 of the factor that takes a modulus to the reference temperature; None for 1.
+
+    Examples
+    --------
+    >>> table = ShiftTable([293.15, 253.15], [0, 3.1], None)
+    >>> table.temperature.tolist()
+    [253.15, 293.15]
+    """
+
+    temperature: Array
+    log10_shift: Array
+    uncertainty: Array | None
+    log10_vertical: Array | None = None
+
+    def __post_init__(self):
+        temperature = arrays.array("temperature", self.temperature, "K")
+        if not np.all(temperature > 0):
+            raise ValueError(
+                f"temperature must be positive, got {temperature.min():g} K; give Celsius + 273.15"
+            )
+        order = np.argsort(temperature, kind="stable")
+        if np.any(np.diff(temperature[order]) == 0):
+            raise ValueError("a table of shift factors has one row per temperature, got two")
+        for name in ("temperature", "log10_shift", "uncertainty", "log10_vertical"):
+            values = getattr(self, name)
+            if values is None:
+                continue
+            values = arrays.array(name, values, "-", temperature.size)[order]
+            if not np.all(np.isfinite(values)):
+                raise ValueError(f"{name} must be finite")
+            if name == "uncertainty" and np.any(values < 0):
+                raise ValueError(f"uncertainty must not be negative, got {values.min():g}")
+            arrays.store(self, name, values)
+
+    def __len__(self) -> int:
+        return self.temperature.size
+
+
+@dataclass(frozen=True, eq=False)
+class MasterCurve:
+    """Storage and loss modulus at one temperature, over more decades than a sweep has.
+
+    Parameters
+    ----------
+    reference_temperature : float or None
+        Temperature of the curve [K]; None where the file does not say.
+    angular_frequency : array_like, shape (N,)
+        Shifted angular frequency omega a_T [rad/s], positive.
+    storage, loss : array_like, shape (N,)
+        Moduli at the reference temperature [Pa], positive.
+    kind : {"E", "G"}
+        Tensile or shear modulus.
+    shifts : ShiftTable or None
+        The shift factors that were used.
+    source : Source
+        Where the points come from.
+    temperature : array_like, shape (N,), or None
+        Temperature at which each point was measured [K].
+    sweep : array_like of int, shape (N,), or None
+        Number of the sweep that each point was measured in.
+
+    Examples
+    --------
+    >>> curve = MasterCurve(293.15, [100, 1], [2e6, 1e6], [3e5, 1e5], "E")
+    >>> curve.angular_frequency.tolist()
+    [1.0, 100.0]
+    """
+
+    reference_temperature: float | None
+    angular_frequency: Array
+    storage: Array
+    loss: Array
+    kind: str
+    shifts: ShiftTable | None = None
+    source: Source = Source()
+    temperature: Array | None = None
+    sweep: Integers | None = None
+
+    def __post_init__(self):
+        arrays.check_kind(self.kind)
+        arrays.store_temperature(self, "reference_temperature")
+        arrays.store_columns(
+            self, angular_frequency=("rad/s", False), storage=("Pa", False), loss=("Pa", False)
+        )
+        if self.temperature is not None:
+            arrays.store_columns(self, storage=("Pa", False), temperature=("K", True))
+        if self.sweep is not None:
+            arrays.store_whole(self, "sweep", self.sweep, self.storage.size)
+        arrays.sort_along(self, self.angular_frequency)
+
+    def __len__(self) -> int:
+        return self.storage.size
+
+    @property
+    def complex_modulus(self) -> Complex:
+        """Storage + i loss [Pa], shape (N,)."""
+        return self.storage + 1j * self.loss
+
+    def chosen(self, points: npt.ArrayLike) -> "MasterCurve":
+        """Return some of the points, by their indices or by a mask of shape (N,)."""
+        return arrays.chosen(self, points)
+
+    def in_tension(self, poisson_ratio: float) -> "MasterCurve":
+        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is."""
+        return arrays.in_tension(self, poisson_ratio, "storage", "loss")
+
+
+@dataclass(frozen=True, eq=False)
+class RelaxationTest:
+    """Modulus over time after a step of strain.
+
+    Parameters
+    ----------
+    time : array_like, shape (N,)
+        Time since the step [s], positive, ascending once made.
+    modulus : array_like, shape (N,)
+        Stress over strain [Pa], positive.
+    kind : {"E", "G"}
+        Tensile or shear modulus.
+    strain : float or None
+        The step [-].
+    temperature : float or None
+        Temperature of the test, or of a master curve [K].
+    source : Source
+        Where the points come from.
+
+    Examples
+    --------
+    >>> RelaxationTest([1, 10], [2e6, 1e6], "G").in_tension(0.5).modulus.tolist()
+    [6000000.0, 3000000.0]
+    """
+
+    time: Array
+    modulus: Array
+    kind: str
+    strain: float | None = None
+    temperature: float | None = None
+    source: Source = Source()
+
+    def __post_init__(self):
+        arrays.check_kind(self.kind)
+        arrays.store_temperature(self, "temperature")
+        arrays.store_columns(self, time=("s", False), modulus=("Pa", False))
+        arrays.sort_along(self, self.time)
+
+    def __len__(self) -> int:
+        return self.time.size
+
+    def in_tension(self, poisson_ratio: float) -> "RelaxationTest":
+        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is."""
+        return arrays.in_tension(self, poisson_ratio, "modulus")
+
+
+@dataclass(frozen=True, eq=False)
+class CreepTest:
+    """Compliance over time after a step of stress.
+
+    Parameters
+    ----------
+    time : array_like, shape (N,)
+        Time since the step [s], positive, ascending once made.
+    compliance : array_like, shape (N,)
+        Strain over stress [1/Pa], positive.
+    kind : {"E", "G"}
+        Tensile compliance (often D) for ``"E"``, shear compliance (J) for ``"G"``.
+    stress : float or None
+        The step [Pa].
+    temperature : float or None
+        Temperature of the test, or of a master curve [K].
+    source : Source
+        Where the points come from.
+
+    Examples
+    --------
+    >>> CreepTest([1, 10], [3e-6, 6e-6], "G").in_tension(0.5).compliance.tolist()
+    [1e-06, 2e-06]
+    """
+
+    time: Array
+    compliance: Array
+    kind: str
+    stress: float | None = None
+    temperature: float | None = None
+    source: Source = Source()
+
+    def __post_init__(self):
+        arrays.check_kind(self.kind)
+        arrays.store_temperature(self, "temperature")
+        arrays.store_columns(self, time=("s", False), compliance=("1/Pa", False))
+        arrays.sort_along(self, self.time)
+
+    def __len__(self) -> int:
+        return self.time.size
+
+    def in_tension(self, poisson_ratio: float) -> "CreepTest":
+        """Return the tensile compliance J / (2 (1 + nu)); a tensile one stays as it is."""
+        return arrays.in_tension(self, poisson_ratio, "compliance", power=-1)

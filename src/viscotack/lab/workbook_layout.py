@@ -1,0 +1,98 @@
+"""Layout of workbooks: the Netzsch Gabo Eplexor's ``Exported Data``, or any first sheet like it.
+
+One row of headings, one of units, then rows. Old workbooks (.xls) need xlrd, new ones (.xlsx)
+need openpyxl; both come with the extra ``lab``.
+"""
+
+import io
+import zipfile
+from collections.abc import Iterator
+from importlib import import_module
+from typing import Any
+
+from .lab_file import LARGEST, LabFile
+from .table import Table, first_headings, tabulated
+
+_SHEET = "Exported Data"
+_LOOKED = 50  # rows in which the headings are looked for
+_WIDEST, _LONGEST = 500, 200_000
+Cells = list[list[str]]
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is no workbook."""
+    if not file.is_workbook:
+        return None
+    # an old workbook holds the names of its sheets as they are, a new one packed
+    return "eplexor" if _SHEET.encode() in file.content else "workbook"
+
+
+def tables(file: LabFile) -> list[Table]:
+    """Return the table of the sheet ``Exported Data``, or else of the first sheet with one.
+
+    Raises
+    ------
+    ValueError
+        If the file is no readable workbook, or no sheet has headings and units.
+    ImportError
+        If the library that reads workbooks is not installed.
+    """
+    if not file.is_workbook:
+        raise file.error("expected an Excel workbook")
+    old = file.content.startswith(b"\xd0\xcf")
+    try:
+        sheets = dict(_old(file.content) if old else _new(file.content))
+    except ImportError as error:
+        raise ImportError(
+            f"{error.name} reads workbooks and is not installed: pip install viscotack[lab]"
+        ) from None
+    except Exception as error:
+        # A damaged workbook makes the library fail in a dozen ways, none of them its promise.
+        raise file.error(
+            f"the workbook cannot be read, it may be cut or damaged: {error}"
+        ) from None
+    for title in sorted(sheets, key=lambda title: title != _SHEET):
+        rows = sheets[title]
+        at = first_headings(rows[:_LOOKED])
+        if at is not None:
+            units = rows[at + 1] if at + 1 < len(rows) else None
+            below = enumerate(rows[at + 2 :], start=at + 3)
+            data = [(number, cells) for number, cells in below if any(cells)]
+            return [tabulated(file, rows[at], units, data)]
+    raise file.error(
+        f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; "
+        f"the sheets are {', '.join(map(repr, sheets))}"
+    )
+
+
+def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
+    xlrd = import_module("xlrd")
+    book = xlrd.open_workbook(file_contents=content, logfile=io.StringIO())
+    for sheet in book.sheets():
+        _refuse_huge(sheet.nrows, sheet.ncols)
+        yield sheet.name, [[_text(v) for v in sheet.row_values(r)] for r in range(sheet.nrows)]
+
+
+def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
+    openpyxl = import_module("openpyxl")
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
+            raise ValueError("it unpacks to more than 200 MB")
+    book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+    for sheet in book.worksheets:
+        _refuse_huge(sheet.max_row or 0, sheet.max_column or 0)
+        rows = [[_text(v) for v in row] for row in sheet.iter_rows(values_only=True)]
+        width = max(map(len, rows), default=0)
+        yield sheet.title, [row + [""] * (width - len(row)) for row in rows]
+
+
+def _refuse_huge(rows: int, columns: int) -> None:
+    if rows > _LONGEST or columns > _WIDEST:
+        raise ValueError(f"a sheet has {rows} rows and {columns} columns")
+
+
+def _text(value: Any) -> str:
+    """Return a cell as text that reads back as the same number."""
+    if value is None:
+        return ""
+    return repr(float(value)) if isinstance(value, int | float) else str(value)

@@ -1,0 +1,74 @@
+"""Pictures of a prediction: a line that was learned, its interval, and markers that were simulated.
+
+Force positive in compression, depth positive into the solid.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.forecast.prediction import Prediction
+from viscotack.result import Result
+from viscotack.result.outputs import SPHERE, si_scales
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+
+
+def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
+    """Return the predicted force against the depth, the interval of the pull-off beside its end.
+
+    In um and mN for a problem in SI, else in h0 and 1.5 pi R dg0.
+
+    Parameters
+    ----------
+    prediction : Prediction
+        One that has a curve.
+    simulated : Result, optional
+        The simulation of the same problem, drawn as open markers.
+
+    Raises
+    ------
+    ValueError
+        If the prediction has no curve, being a theory's.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    curve = prediction.curve
+    if curve is None:
+        raise ValueError(f"the theory {prediction.method!r} gives a force and no curve to draw")
+    scales = si_scales(prediction.problem)
+    if scales is None:
+        length, load = 1.0, 1.0
+        units = [f"/ {SPHERE.series[name].unit.drawn}" for name in ("depth", "force")]
+    else:
+        length, load, units = scales.length * 1e6, scales.force * 1e3, ["[µm]", "[mN]"]
+    with matplotlib.style.context(_STYLE):
+        figure = Figure()
+        axes = figure.subplots()
+        axes.axhline(0, color="0.6", lw=1, zorder=0)
+        axes.plot(curve.depth * length, curve.force * load, color="C1", label="prediction")
+        low, high = -np.array(prediction.interval)[::-1] * load
+        axes.errorbar(
+            curve.depth[-1] * length,
+            -prediction.value * load,
+            yerr=[[-prediction.value * load - low], [high + prediction.value * load]],
+            fmt="s",
+            color="C1",
+            capsize=5,
+            label=f"pull-off, {prediction.confidence:.0%} interval",
+        )
+        if simulated is not None:
+            place = {"mfc": "none", "color": "C0", "markevery": 0.04, "zorder": 1}
+            depth, force = simulated.depth * length, simulated.force * load
+            axes.plot(depth, force, "o", label="simulation", **place)
+        axes.set_xlabel(f"depth {units[0]}")
+        axes.set_ylabel(f"force {units[1]}")
+        axes.legend()
+    return figure

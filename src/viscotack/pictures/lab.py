@@ -1,0 +1,113 @@
+"""Pictures of a fit: what was measured are points, the fitted law is a line with its band."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.lab.fit_report import FitReport
+from viscotack.lab.observed import Observed
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+_WORDS = {
+    "storage": "storage modulus $E'$",
+    "loss": "loss modulus $E''$",
+    "relaxation": "relaxation modulus",
+    "creep": "creep compliance",
+}
+_MARKERS = ("o", "s")
+_COLOURS = ("#0072B2", "#D55E00")  # the first two of the style
+_BEYOND = 1.0  # decades drawn beyond the measured range, as dashes: there nothing was measured
+
+
+def draw_fit(report: FitReport) -> "Figure":
+    """Return measured numbers and fitted law above, and the residuals below.
+
+    Points are measured, lines fitted, shades the band of the report; dashes are where the law
+    goes on without a measurement. :func:`viscotack.save_figure` writes the figure.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    data = report.observed
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(8.4, 7.6))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+        _law(above, report)
+        _points(above, data)
+        above.set_yscale("log")
+        above.set_xscale("log")
+        above.set_ylabel(
+            "compliance [1/Pa]" if data.quantity == "creep" else "Young's modulus [Pa]"
+        )
+        above.legend(loc="best")
+        above.set_title(_title(report), fontsize=14)
+        _residuals(below, report)
+        below.set_xlabel("frequency [Hz]" if data.in_frequency else "time [s]")
+    return figure
+
+
+def _x(data: Observed, at):
+    return at / (2 * np.pi) if data.in_frequency else at
+
+
+def _law(axes: "Axes", report: FitReport) -> None:
+    data = report.observed
+    low, high = data.at[0], data.at[-1]
+    inside = np.geomspace(low, high, 300)
+    outside = (
+        np.geomspace(low * 10**-_BEYOND, low, 30),
+        np.geomspace(high, high * 10**_BEYOND, 30),
+    )
+    curves = data.predicted(report.material, inside)
+    band = report.band(inside) if report.draws else None
+    for i, part in enumerate(data.parts):
+        colour = _COLOURS[i]
+        if band is not None:
+            label = f"{100 * report.level:.0f} % band" if i == 0 else None
+            axes.fill_between(
+                _x(data, inside), band[0][i], band[1][i], color=colour, alpha=0.25, lw=0,
+                label=label,
+            )  # fmt: skip
+        axes.plot(_x(data, inside), curves[i], color=colour, label=f"{_WORDS[part]}, fitted")
+        for beyond in outside:
+            values = data.predicted(report.material, beyond)[i]
+            axes.plot(_x(data, beyond), values, color=colour, ls=(0, (3, 2)), lw=1.4)
+
+
+def _points(axes: "Axes", data: Observed) -> None:
+    for i, part in enumerate(data.parts):
+        axes.plot(
+            _x(data, data.at), data.values[i], _MARKERS[i], mfc="white", mec=_COLOURS[i],
+            ms=_size(data), mew=1.4, ls="none", label=f"{_WORDS[part]}, measured",
+        )  # fmt: skip
+
+
+def _residuals(axes: "Axes", report: FitReport) -> None:
+    data = report.observed
+    percent = 100 * np.expm1(report.residuals)
+    axes.axhline(0, color="0.5", lw=1.2)
+    for i in range(len(data.parts)):
+        axes.plot(
+            _x(data, data.at), percent[i], _MARKERS[i], mfc="white", mec=_COLOURS[i],
+            ms=0.8 * _size(data), mew=1.2, ls="none",
+        )  # fmt: skip
+    reach = 1.15 * float(np.max(np.abs(percent)))
+    axes.set_ylim(-reach, reach)
+    axes.set_ylabel("measured/\nfitted − 1 [%]")
+
+
+def _size(data: Observed) -> float:
+    return 7.0 if data.at.size <= 60 else 4.0
+
+
+def _title(report: FitReport) -> str:
+    numbers = report.observed.values.size
+    return (
+        f"{report.model}: {report.constants} constants on {numbers} numbers, "
+        f"median error {100 * report.median_error:.2g} %"
+    )

@@ -1,0 +1,287 @@
+"""Pictures of a result. A simulation is open markers, a theory is a line, everywhere.
+
+Each function returns a matplotlib ``Figure`` that belongs to nobody else: no window is opened and
+no global state is left behind. :func:`save_figure` writes it in the package's style.
+"""
+
+import os
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.result import Result
+from viscotack.result.observables import pull_off
+from viscotack.result.outputs import Unit, kind_of, si_scales
+from viscotack.theory.punch.punch import REGIMES
+from viscotack.theory.punch.punch_map import RegimeMap
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
+# Of a regime map: cohesive, thin layer, half-plane; and how many lines of equal stress.
+_REGIME_COLOURS = ("#f2c9a0", "#cfe3f2", "#dddddd")
+_STRESS_LINES = 10
+# Series of Result.energy beside the work of the drive -> words.
+_ENERGIES = {
+    "interface": "interface",
+    "elastic": "elastic energy",
+    "spring": "spring of the machine",
+    "heat": "heat in the solid",
+    "jumps": "lost in jumps",
+    "transfer": "lost in mesh moves",
+}
+
+
+def draw_force(result: Result) -> "Figure":
+    """Return the force against the depth; the pull-off is marked."""
+    return _single(result, "depth", "force")
+
+
+def draw_radius(result: Result) -> "Figure":
+    """Return the force against the contact radius; the pull-off is marked."""
+    return _single(result, "contact_radius", "force")
+
+
+def draw_overview(result: Result) -> "Figure":
+    """Return four pictures: force by depth and by radius, radius and crack speed by time."""
+    with _style():
+        figure = _figure(figsize=(13.0, 9.0))
+        axes = figure.subplots(2, 2)
+        _curve(axes[0, 0], result, "depth", "force")
+        _curve(axes[0, 1], result, "contact_radius", "force")
+        _curve(axes[1, 0], result, "time", "contact_radius")
+        _curve(axes[1, 1], result, "time", "edge_speed")
+        if np.any(result.edge_speed > 0):
+            axes[1, 1].set_yscale("log", nonpositive="mask")
+        axes[0, 0].legend()
+        figure.suptitle(result.status, x=0.01, ha="left")
+    return figure
+
+
+def draw_energy(result: Result) -> "Figure":
+    """Return where the work of the drive went, over the depth, and the heat by retardation time.
+
+    Elastic and interface energy are drawn as their change since the start; drive work is their
+    sum with the heat in the solid and what was lost in jumps.
+
+    Raises
+    ------
+    ValueError
+        If the result keeps no energies.
+    """
+    if result.energy is None:
+        raise ValueError("the result keeps no energies to draw; simulate it anew")
+    energy = result.energy
+    depth, _, depth_label = _series(result, "depth")
+    factor, unit = _work_unit(result)
+    with _style():
+        figure = _figure(figsize=(13.0, 5.2))
+        left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
+        left.plot(depth, energy["drive"] * factor, color="k", label="work of the drive")
+        for name, words in _ENERGIES.items():
+            if name not in energy:
+                continue
+            series = (energy[name] - energy[name][0]) * factor
+            if np.any(series != 0):
+                left.plot(depth, series, label=words)
+        left.invert_xaxis()  # time goes to the right
+        left.set_xlabel(depth_label)
+        left.set_ylabel(f"energy {unit}")
+        left.legend()
+        scales = si_scales(result.problem)
+        factor_time, unit_time = (1.0, "/ time unit") if scales is None else (scales.time, "[s]")
+        times, heat = energy["mode_time"] * factor_time, energy["mode_heat"] * factor
+        right.vlines(times, 0, heat, color="C2", lw=6)
+        right.set_xscale("log")
+        right.set_ylim(bottom=0)
+        right.set_xlabel(f"retardation time {unit_time}")
+        right.set_ylabel(f"heat of each mode {unit}")
+        if not len(times):
+            right.text(0.5, 0.5, "elastic: no heat", transform=right.transAxes, ha="center")
+    return figure
+
+
+def draw_rates(
+    speed: npt.ArrayLike,
+    pull_off_force: npt.ArrayLike,
+    *,
+    elastic_force: float,
+    title: str = "",
+    note: str = "",
+) -> "Figure":
+    """Return the pull-off force against the retraction speed, beside the elastic value.
+
+    Parameters
+    ----------
+    speed : array_like, shape (n,)
+        Retraction speeds [m/s].
+    pull_off_force : array_like, shape (n,)
+        Simulated pull-off forces [N].
+    elastic_force : float
+        Pull-off force of the relaxed solid [N], the slow limit, drawn as a line.
+    title, note : str
+        Words above the picture and in its corner.
+    """
+    v, F = np.asarray(speed, dtype=float) * 1e6, np.asarray(pull_off_force, dtype=float) * 1e3
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        axes.plot(v, F, "o", mfc="none", color="C0", label="simulation")
+        axes.axhline(
+            elastic_force * 1e3,
+            color="C1",
+            label=f"elastic, infinitely slow: {elastic_force * 1e3:.3g} mN",
+        )
+        axes.set_xscale("log")
+        axes.set_ylim(0, 1.12 * max(F.max(), elastic_force * 1e3))
+        axes.set_xlabel("retraction speed [µm/s]")
+        axes.set_ylabel("pull-off force [mN]")
+        axes.set_title(title)
+        axes.legend(loc="upper left")
+        if note:
+            axes.text(0.03, 0.76, note, transform=axes.transAxes, va="top", size=12)
+    return figure
+
+
+def draw_regimes(found: RegimeMap) -> "Figure":
+    """Return how a pad comes off over retraction speed and thickness, with lines of equal stress.
+
+    Parameters
+    ----------
+    found : RegimeMap
+        As :func:`viscotack.theory.punch.punch_map.regime_map` returns it.
+    """
+    from matplotlib.patches import Patch
+
+    number = np.argmax(found.regime[..., None] == np.array(REGIMES), axis=-1)
+    speed, thickness = found.speed * 1e6, found.thickness * 1e6
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        colours = {"levels": (-0.5, 0.5, 1.5, 2.5), "colors": _REGIME_COLOURS}
+        axes.contourf(speed, thickness, number, **colours)
+        stress = found.stress / 1e3
+        lines = axes.contour(
+            speed, thickness, stress, levels=_STRESS_LINES, colors="0.3", linewidths=1.2
+        )
+        axes.clabel(lines, fmt="%.3g kPa", fontsize=10)
+        axes.set_xlabel("retraction speed [µm/s]")
+        axes.set_ylabel("thickness [µm]")
+        patches = zip(REGIMES, _REGIME_COLOURS, strict=True)
+        handles = [Patch(fc=colour, ec="0.3", label=words) for words, colour in patches]
+        axes.legend(handles=handles[::-1], loc="lower right", frameon=True)
+    return figure
+
+
+def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
+    """Write a figure to a file; the ending (.png, .pdf, .svg) says in which format."""
+    with _style():
+        figure.savefig(path)
+
+
+def check_format(path: str | os.PathLike[str]) -> None:
+    """Raise ValueError unless a figure can be written to a file with this ending."""
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    known = FigureCanvasBase.get_supported_filetypes()
+    if Path(path).suffix.lstrip(".").lower() not in known:
+        raise ValueError(
+            f"cannot draw to {os.fspath(path)!r}: "
+            f"its ending must be one of {', '.join(sorted(known))}"
+        )
+
+
+def _style() -> AbstractContextManager[Any]:
+    import matplotlib.style
+
+    return matplotlib.style.context(Path(__file__).with_name("viscotack.mplstyle"))
+
+
+def _figure(**options: Any) -> "Figure":
+    from matplotlib.figure import Figure
+
+    return Figure(**options)
+
+
+def _single(result: Result, x: str, y: str) -> "Figure":
+    with _style():
+        figure = _figure()
+        axes = figure.subplots()
+        _curve(axes, result, x, y)
+        axes.legend()
+    return figure
+
+
+def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
+    (horizontal, xfactor, xlabel), (vertical, yfactor, ylabel) = (
+        _series(result, x),
+        _series(result, y),
+    )
+    known = np.isfinite(horizontal) & np.isfinite(vertical)
+    axes.plot(
+        horizontal[known],
+        vertical[known],
+        "-o",
+        lw=0.8,
+        mfc="white",
+        markevery=0.04,
+        label="simulation",
+    )
+    if y == "force":
+        axes.axhline(0, color="0.6", lw=1, zorder=0)
+        _mark_pull_off(axes, result, x, xfactor, yfactor, ylabel)
+    axes.set_xlabel(xlabel)
+    axes.set_ylabel(ylabel)
+
+
+def _mark_pull_off(
+    axes: "Axes", result: Result, x: str, xfactor: float, yfactor: float, ylabel: str
+) -> None:
+    try:
+        found = pull_off(result)
+    except ValueError:
+        return  # nothing to mark
+    force = -found.force * yfactor
+    unit = ylabel.rpartition(" [")[2].rstrip("]")
+    words = (
+        f"pull-off, {abs(force):.4g}"
+        if si_scales(result.problem) is None
+        else f"pull-off, {abs(force):.3g} {unit}"
+    )
+    axes.plot(getattr(found, x) * xfactor, force, "s", color="C1", ms=9, label=words, zorder=3)
+
+
+def _work_unit(result: Result) -> tuple[float, str]:
+    """Return the factor and the unit in which energies are drawn."""
+    kind = kind_of(result.problem)
+    work = (result.energy or {})["drive"]
+    factor = kind.energy_factor(result.problem.groups())
+    return _drawn(result, work, factor, kind.energy)
+
+
+def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
+    """Return a series as drawn, the factor that made it so, and the label of its axis."""
+    values, column = getattr(result, name), kind_of(result.problem).of(name)
+    factor = column.factor(result.problem.groups())
+    factor, unit = _drawn(result, values, factor, column.unit)
+    return values * factor, factor, f"{column.words} {unit}"
+
+
+def _drawn(
+    result: Result, values: npt.NDArray[np.float64], factor: float, unit: Unit
+) -> tuple[float, str]:
+    """Return the factor with which numbers of a result are drawn, and the unit that they have."""
+    scales = si_scales(result.problem)
+    if scales is None:
+        return factor, f"/ {unit.drawn}"
+    factor *= getattr(scales, unit.scale)
+    largest = np.nanmax(np.abs(values), initial=0.0) * abs(factor)
+    prefix = next(((p, w) for p, w in reversed(_PREFIXES) if largest >= p), _PREFIXES[0])
+    return factor / prefix[0], f"[{prefix[1]}{unit.si}]"

@@ -1,0 +1,83 @@
+"""A problem as plain words and numbers, for files, and its name by content."""
+
+import hashlib
+import json
+from dataclasses import MISSING, fields, is_dataclass
+from typing import Any
+
+from viscotack import geometry, materials, problem, protocol, traction
+from viscotack import geometry as layer
+
+from . import profile_problem, punch_problem
+
+# Where the classes of a record may live. A new law in one of these rooms needs nothing here.
+_ROOMS = (materials, traction, geometry, layer, protocol, problem, punch_problem, profile_problem)
+
+
+def to_dict(thing: Any) -> dict[str, Any]:
+    """Return a problem, or a part of one, as a dictionary with the name of its type.
+
+    What is as it would be if left out is left out, so that a new option renames no old problem.
+    Only dictionaries, lists, words and numbers are in it: ``json.dumps`` writes it, and
+    :func:`from_dict` makes an equal object.
+
+    Examples
+    --------
+    >>> to_dict(protocol.AtForce(force=1.5e-3))
+    {'type': 'AtForce', 'force': 0.0015}
+    """
+    if not is_dataclass(thing) or isinstance(thing, type):
+        raise ValueError(f"expected a problem or a part of one, got {type(thing).__name__}")
+    values = {f.name: getattr(thing, f.name) for f in fields(thing)}
+    defaults = {f.name: f.default for f in fields(thing)}
+    return {"type": type(thing).__name__} | {
+        name: _plain(value) for name, value in values.items() if value != defaults[name]
+    }
+
+
+def from_dict(record: Any) -> Any:
+    """Return the problem, or the part of one, that a dictionary of :func:`to_dict` describes.
+
+    Raises
+    ------
+    ValueError
+        If the type is unknown, a field is missing or unknown, or a value is impossible.
+    """
+    if not isinstance(record, dict) or not isinstance(record.get("type"), str):
+        raise ValueError(f"a record must be a dictionary with a 'type', got {record!r:.80}")
+    found = [getattr(room, record["type"], None) for room in _ROOMS]
+    kind = next((k for k in found if isinstance(k, type) and is_dataclass(k)), None)
+    if kind is None:
+        raise ValueError(
+            f"unknown type {record['type']!r} in a record; a newer version may know it"
+        )
+    given, known = record.keys() - {"type"}, {f.name for f in fields(kind)}
+    needed = {f.name for f in fields(kind) if f.default is MISSING}
+    if not needed <= given <= known:
+        raise ValueError(
+            f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
+            f"{sorted(known - needed)}, got {sorted(given)}"
+        )
+    return kind(**{name: _made(record[name]) for name in given})
+
+
+def run_id(case: Any) -> str:
+    """Return a short name that depends only on the content of a problem.
+
+    Equal problems have equal names, whatever the version, machine or day.
+    """
+    text = json.dumps(to_dict(case), sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def _plain(value: Any) -> Any:
+    if is_dataclass(value):
+        return to_dict(value)
+    return [_plain(v) for v in value] if isinstance(value, tuple) else value
+
+
+def _made(value: Any) -> Any:
+    # A list stays one: the classes make their own tuples.
+    if isinstance(value, list):
+        return [_made(entry) for entry in value]
+    return from_dict(value) if isinstance(value, dict) else value

@@ -1,0 +1,177 @@
+"""Moves and starts of a test in short words: "approach 10 um/s to 1.5 mN", "dwell 60 s"."""
+
+import os
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from viscotack.files.quantities import read_quantities
+from viscotack.units import parse
+
+from . import (
+    HOLDS,
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Dwell,
+    LoadTo,
+    Move,
+    MoveTo,
+    Retract,
+    Start,
+)
+
+# What the words of a sphere in SI, of a punch in SI, and of dimensionless numbers are in.
+SPHERE_UNITS = {"depth": "m", "force": "N", "radius": "m", "speed": "m/s", "time": "s"}
+PUNCH_UNITS = SPHERE_UNITS | {"force": "Pa"}
+PURE_NUMBERS = dict.fromkeys(SPHERE_UNITS, "1")
+
+_STARTS = {"apart": Apart, "depth": AtDepth, "force": AtForce, "radius": AtRadius}
+_PATTERNS = {
+    "approach": r"approach (?P<speed>.+?) to (?P<to>.+)",
+    "retract": r"retract (?P<speed>.+?) to (?P<to>.+)",
+    "move": r"move to (?:depth )?(?P<depth>.+?) in (?P<time>.+)",
+    "load": r"load to (?:force )?(?P<force>.+?) in (?P<time>.+)",
+    "dwell": r"dwell (?:for )?(?P<time>.+)",
+    "hold": rf"hold (?P<what>{'|'.join(HOLDS)}) (?:for )?(?P<time>.+)",
+}
+_SHAPES = {
+    "approach": "approach SPEED to depth|force|radius VALUE",
+    "retract": "retract SPEED to depth|force|radius VALUE",
+    "move": "move to DEPTH in TIME",
+    "load": "load to FORCE in TIME",
+    "dwell": "dwell TIME",
+    "hold": "hold drive|depth|force TIME",
+}
+
+
+def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) -> Move:
+    """Return the move that a few words say.
+
+    Parameters
+    ----------
+    words : str or mapping
+        One of "approach SPEED to WHERE", "retract SPEED to WHERE", "move to DEPTH in TIME",
+        "load to FORCE in TIME", "dwell TIME" and "hold drive|depth|force TIME". WHERE is a depth, a
+        force or a radius and begins with that word; the word may be left out where the unit tells.
+        A mapping is its keys and values in their order: {"approach": "10 um/s", "to": "1 mN"}.
+    units : mapping
+        What depth, force, radius, speed and time are in: :data:`SPHERE_UNITS`,
+        :data:`PUNCH_UNITS`, or :data:`PURE_NUMBERS`.
+
+    Raises
+    ------
+    ValueError
+        If the words are no move, or a quantity is impossible or in the wrong unit.
+
+    Examples
+    --------
+    >>> move_from_words("approach 10 um/s to 1.5 mN", SPHERE_UNITS)
+    Approach(speed=1e-05, to=AtForce(force=0.0015))
+    >>> move_from_words("retract 10 to depth -2", PURE_NUMBERS)
+    Retract(speed=10.0, to=AtDepth(depth=-2.0))
+    """
+    if isinstance(words, Mapping):
+        words = " ".join(f"{key.replace('_', ' ')} {value}" for key, value in words.items())
+    words = " ".join(str(words).split())
+    kind = words.partition(" ")[0]
+    if kind not in _PATTERNS:
+        raise ValueError(f"{words!r} is no move; write {', or '.join(_SHAPES.values())}")
+    found = re.fullmatch(_PATTERNS[kind], words)
+    if found is None:
+        raise ValueError(f"{words!r} is not understood; write {_SHAPES[kind]}")
+    said = found.groupdict()
+    try:
+        return _move(kind, said, units)
+    except ValueError as error:
+        raise ValueError(f"{words!r}: {error}") from None
+
+
+def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
+    """Return the state at rest in which a test begins: "apart 20 um", "force 1.5 mN".
+
+    Examples
+    --------
+    >>> start_from_words("apart 20 um", SPHERE_UNITS)
+    Apart(gap=2e-05)
+    """
+    kind, _, value = str(words).strip().partition(" ")
+    if kind not in _STARTS:
+        raise ValueError(
+            f"{words!r} is no start; write apart, depth, force or radius and a quantity"
+        )
+    return _STARTS[kind](parse(value, units["depth" if kind == "apart" else kind]))
+
+
+def history_from_file(
+    path: str | os.PathLike[str], equilibrium_gap: float
+) -> tuple[Start | Apart, tuple[MoveTo, ...]]:
+    """Return the start and the moves of a drive whose displacement is a table.
+
+    Parameters
+    ----------
+    path : path
+        CSV file with the columns ``time`` and ``displacement``, each with its unit:
+        ``time_s,displacement_um``. The displacement is the depth of the drive, positive into the
+        solid, zero where the undeformed surfaces are at their equilibrium gap.
+    equilibrium_gap : float
+        Of the interface [m].
+
+    Returns
+    -------
+    AtDepth or Apart, tuple of MoveTo
+        The first row as a state at rest (apart where it is above the surface), and a stretch for
+        every further row.
+
+    Raises
+    ------
+    ValueError
+        If the file is not such a table, or its times do not ascend.
+    """
+    columns = read_quantities(path, {"time": "s", "displacement": "m"})
+    time, displacement = columns["time"], columns["displacement"]
+    if len(time) < 2 or np.any(np.diff(time) <= 0):
+        raise ValueError(
+            f"{path}: a history has at least two rows, and its times ascend; a step takes a time"
+        )
+    first = displacement[0]
+    start = AtDepth(first) if first >= 0 else Apart(equilibrium_gap - first)
+    return start, tuple(
+        MoveTo(depth, after - before)
+        for depth, before, after in zip(displacement[1:], time[:-1], time[1:], strict=True)
+    )
+
+
+def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
+    def quantity(name: str) -> float:
+        return parse(said[name], units[name])
+
+    match kind:
+        case "approach":
+            return Approach(quantity("speed"), _where(said["to"], units))
+        case "retract":
+            return Retract(quantity("speed"), _where(said["to"], units))
+        case "move":
+            return MoveTo(quantity("depth"), quantity("time"))
+        case "load":
+            return LoadTo(quantity("force"), quantity("time"))
+        case "dwell":
+            return Dwell(quantity("time"))
+        case _:
+            return Dwell(quantity("time"), said["what"])
+
+
+def _where(words: str, units: Mapping[str, str]) -> Start:
+    kind, _, value = words.partition(" ")
+    if kind in ("depth", "force", "radius"):
+        return _STARTS[kind](parse(value, units[kind]))
+    if units["depth"] == units["force"]:
+        raise ValueError(f"say whether {words} is a depth, a force or a radius")
+    try:
+        return AtForce(parse(words, units["force"]))
+    except ValueError:
+        return AtDepth(parse(words, units["depth"]))

@@ -1,0 +1,5 @@
+"""What a simulation returns, its numbers, and how it is kept."""
+
+from .result import Event, Outcome, Result, columns, load, receding_speed, save, write_csv
+
+__all__ = ["Event", "Outcome", "Result", "columns", "load", "receding_speed", "save", "write_csv"]

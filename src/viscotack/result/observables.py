@@ -1,0 +1,377 @@
+"""Numbers of a result: what a tack test would report. All dimensionless.
+
+The curve between two steps is a cubic; where it breaks, at a jump, it is not drawn across. So the
+force minimum and the zero crossing are located between steps, and a jump adds no work.
+"""
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
+
+from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem.record import run_id, to_dict
+from viscotack.theory.punch.punch_curve import thin_layer_surface_energy
+
+from . import Outcome, Result
+from .outputs import kind_of, si_scales
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """The force minimum of a retraction, located between steps; dimensionless as in `Result`.
+
+    Attributes
+    ----------
+    force : float
+        Pull-off force, the positive number -min(force).
+    depth, time : float
+        Where and when.
+    contact_radius : float
+        Contact radius there; nan without an edge.
+    crack_speed : float
+        Speed at which the edge recedes there, positive; nan without an edge.
+    """
+
+    force: float
+    depth: float
+    time: float
+    contact_radius: float
+    crack_speed: float
+
+
+def pull_off(result: Result) -> PullOff:
+    """Return the state at the force minimum of the retraction.
+
+    The minimum is that of a cubic through the four steps around the lowest one (a parabola where
+    there are three), so its value is of fourth and its place of third order in the steps.
+
+    Raises
+    ------
+    ValueError
+        If the force is nowhere tensile, or still falls where a run ended without a jump: the
+        minimum has not been seen.
+    """
+    if result.outcome is Outcome.STOPPED:
+        raise ValueError(f"the run failed and has no observables: {result.status}")
+    pieces = _pieces(result)
+    piece = min(pieces, key=lambda p: result.force[p].min())
+    # The motion is a retraction without a break: travel, minus the depth, orders the steps.
+    x, force = -result.depth[piece], result.force[piece]
+    lowest = int(np.argmin(force))
+    if force[lowest] >= 0:
+        raise ValueError(
+            f"the force is nowhere tensile, there is no pull-off; the run ended: {result.status}"
+        )
+    unfinished = lowest == len(piece) - 1 and piece is pieces[-1]
+    if unfinished and result.outcome is not Outcome.JUMPED:
+        raise ValueError(
+            f"the force still falls at the end of the run ({result.status}), the pull-off is not "
+            "in it; run further"
+        )
+    place, smallest = _minimum(x, force, lowest)
+    return PullOff(
+        force=-smallest,
+        depth=-place,
+        time=_between(x, result.time[piece], place),
+        contact_radius=_between(x, result.contact_radius[piece], place),
+        crack_speed=_between(x, result.edge_speed[piece], place),
+    )
+
+
+def pull_off_force(result: Result) -> float:
+    """Return the pull-off force, the positive number -min(force) [1.5 pi R Delta-gamma_0].
+
+    For a punch it is the pull-off stress.
+    """
+    return pull_off(result).force
+
+
+def pull_off_depth(result: Result) -> float:
+    """Return the depth at the force minimum [h_0], positive into the solid."""
+    return pull_off(result).depth
+
+
+def contact_radius_at_pull_off(result: Result) -> float:
+    """Return the contact radius at the force minimum [(pi R^2 Delta-gamma_0/E_0*)^(1/3)].
+
+    For a punch it is the half length of the contact [a_0].
+    """
+    return pull_off(result).contact_radius
+
+
+def crack_speed_at_pull_off(result: Result) -> float:
+    """Return the speed of the receding edge at the force minimum, positive.
+
+    Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit; for
+    a punch h_0 per time unit.
+    """
+    factor = kind_of(result.problem).of("edge_speed").factor(result.problem.groups())
+    return pull_off(result).crack_speed * factor
+
+
+def work_to_pull_off(result: Result) -> float:
+    """Return the work of the drive from zero force to the force minimum.
+
+    The integral of -force over the depth that is left, from the last zero crossing of the force in
+    retraction, or from the start where that is in tension already, to the minimum
+    [1.5 pi R Delta-gamma_0 h_0; for a punch Delta-gamma_0, of unit area]. Jumps add nothing. The
+    minimum is flat, so this number is less certain than the pull-off force.
+    """
+    found = pull_off(result)
+    return _given(result, _work(result, found, until=-found.depth))
+
+
+def work_of_separation(result: Result) -> float:
+    """Return the work of the drive from zero force to full separation, in that unit.
+
+    Like `work_to_pull_off`, to the end of the run and beyond: the drive must still pay the energy
+    of the interface that is left at the end. It is added when the result has the interface energy
+    with its zero at infinity, so negative at the start; without it the far tail is missing, about
+    1.8 over the last gap in h_0 for a sphere.
+
+    Raises
+    ------
+    ValueError
+        If the run did not end in separation.
+    """
+    if result.outcome not in (Outcome.DETACHED, Outcome.JUMPED):
+        raise ValueError(
+            f"the surfaces have not separated, the run ended: {result.status}; "
+            "solve with until='detached'"
+        )
+    interface = (result.energy or {}).get("interface", np.zeros(1))
+    left = -float(interface[-1]) if interface[0] < 0 else 0.0
+    return _given(result, _work(result, pull_off(result), until=-float(result.depth[-1])) + left)
+
+
+def pull_off_stress(result: Result) -> float:
+    """Return the pull-off stress of a punch, the largest mean tension over its area [sigma_0].
+
+    Raises
+    ------
+    ValueError
+        If the result is not that of a punch; a sphere has a pull-off force.
+    """
+    _punch(result)
+    return pull_off(result).force
+
+
+def ligament_at_pull_off(result: Result) -> float:
+    """Return the part of the half width of a punch that is in contact at pull-off, a_c/a.
+
+    Where the contact opens all at once it is the ligament just before; nan where there never was
+    one.
+    """
+    size, found = _punch(result).size, pull_off(result)
+    half_length = found.contact_radius
+    if np.isnan(half_length):
+        before = result.contact_radius[result.time <= found.time]
+        known = before[np.isfinite(before)]
+        half_length = float(known[-1]) if known.size else np.nan
+    return half_length / size
+
+
+def effective_surface_energy(result: Result) -> float:
+    r"""Return the surface energy that the pull-off stress of a punch stands for [Delta-gamma_0].
+
+    .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = \frac{\pi}{4 \zeta}
+              \hat\sigma_{po}^2 \frac{b}{a_0} \left(\frac{a}{a_c}\right)^2
+
+    Eq. 3.30 of Maghami, PhD thesis (2025). For layers thinner than :math:`b_1 = 4 \zeta a/\pi`;
+    with a thicker one it gives a ``UserWarning``, and
+    :func:`viscotack.theory.punch.punch_curve.surface_energy` has what holds there.
+    """
+    groups = _punch(result)
+    if groups.base.foundation == 0:
+        raise ValueError(
+            "a bonded layer with a Poisson ratio of 0.5 cannot be stretched without flowing "
+            "sideways, and the thin-layer formula has no answer for it"
+        )
+    # with sigma_0 and a_0 for units, E_0* times Delta-gamma_0 is 2/pi
+    energy = thin_layer_surface_energy(
+        pull_off(result).force,
+        thickness=groups.thickness,
+        half_width=groups.size,
+        ligament=min(ligament_at_pull_off(result), 1.0) * groups.size,
+        contact_modulus=2 / np.pi,
+        base=groups.base,
+    )
+    return float(energy)
+
+
+def summary(result: Result) -> dict[str, Any]:
+    """Return the observables and how the run went, ready for JSON.
+
+    Dimensionless, with the names and units of :mod:`viscotack.result.outputs`; for a problem in SI
+    the same names with a unit in addition. A number that the result does not contain is None. Every
+    key is there in every summary of the same kind.
+    """
+    kind, scales = kind_of(result.problem), si_scales(result.problem)
+    answer: dict[str, Any] = {"status": result.status, "outcome": str(result.outcome)}
+    for name, observable in kind.observables.items():
+        answer[name], note = _number(_OBSERVABLES[name], result)
+        if observable.noted:
+            answer[f"{name}_note"] = note
+    if scales is not None:
+        for name, observable in kind.observables.items():
+            value, unit = answer[name], observable.unit
+            scale = getattr(scales, unit.scale)
+            answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
+    groups = result.problem.groups()
+    return answer | {
+        **{name: getattr(groups, name) for name in kind.inputs},
+        "error_estimate": _plain(result.error_estimate),
+        "energy_residual": result.energy_residual,
+        "events": [_plain(vars(event)) for event in result.events],
+        "wall_time_s": result.statistics.get("wall_time_s"),
+        "statistics": _plain(result.statistics),
+        "problem": to_dict(result.problem),
+        "run_id": run_id(result.problem),
+        "versions": dict(result.versions),
+    }
+
+
+_OBSERVABLES: dict[str, Callable[[Result], float]] = {
+    function.__name__: function
+    for function in (
+        pull_off_force,
+        pull_off_depth,
+        pull_off_stress,
+        contact_radius_at_pull_off,
+        ligament_at_pull_off,
+        crack_speed_at_pull_off,
+        effective_surface_energy,
+        work_to_pull_off,
+        work_of_separation,
+    )
+}
+
+
+def _number(
+    observable: Callable[[Result], float], result: Result
+) -> tuple[float | None, str | None]:
+    """Return an observable and what is to be said of it; None where it was not reached."""
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", UserWarning)
+        try:
+            value = observable(result)
+        except ValueError as error:
+            return None, str(error)
+    note = "; ".join(str(warning.message) for warning in said) or None
+    return (float(value) if np.isfinite(value) else None), note
+
+
+def _punch(result: Result) -> PunchGroups:
+    groups = result.problem.groups()
+    if not isinstance(groups, PunchGroups):
+        raise ValueError(
+            "the observable is one of a punch, and the result that of another indenter"
+        )
+    return groups
+
+
+def _given(result: Result, work: float) -> float:
+    """Return a work in the unit of its kind of problem."""
+    return work * kind_of(result.problem).energy_factor(result.problem.groups())
+
+
+def _pieces(result: Result) -> list[npt.NDArray[np.intp]]:
+    """Return the retraction as runs of step numbers between jumps."""
+    first = int(np.flatnonzero(result.depth == result.depth.max())[-1])
+    steps = np.arange(first, len(result.depth))
+    broken = np.diff(result.depth) >= 0
+    for event in result.events:
+        if event.kind.startswith("jump"):
+            broken |= (result.time[:-1] < event.time) & (event.time <= result.time[1:])
+    return np.split(steps, np.flatnonzero(broken[first:]) + 1)
+
+
+def _nearest(x: Array, i: int) -> slice:
+    """Return the up to four entries around number i: its neighbours, and the nearer of the next."""
+    low, high = max(i - 1, 0), min(i + 2, len(x))
+    before = x[i] - x[low - 1] if low > 0 else np.inf
+    after = x[high] - x[i] if high < len(x) else np.inf
+    if min(before, after) < np.inf:
+        low, high = (low - 1, high) if before <= after else (low, high + 1)
+    return slice(low, high)
+
+
+def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
+    """Return where the curve is lowest, near the lowest of its points i, and its value there."""
+    if 0 < i < len(x) - 1:
+        scale = x[i + 1] - x[i - 1]
+        for points in (_nearest(x, i), slice(i - 1, i + 2)):
+            u = (x[points] - x[i]) / scale
+            taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
+            at = _valley(*taylor[1:])
+            if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
+                value = float(np.polynomial.polynomial.polyval(at, taylor))
+                return float(x[i] + scale * at), value
+    return float(x[i]), float(y[i])
+
+
+def _valley(c: float, b: float, a: float = 0.0) -> float:
+    """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a; nan for none."""
+    root = b * b - 3 * a * c
+    if root < 0 or (a == 0 and b <= 0):
+        return np.nan
+    if b > 0:
+        return -c / (b + root**0.5)
+    return (root**0.5 - b) / (3 * a)
+
+
+def _between(x: Array, y: Array, at: float) -> float:
+    """Return a value between two steps by a straight line; nan where one of them is unknown."""
+    i = int(np.searchsorted(x, at))
+    if x[i] == at:
+        return float(y[i])
+    return float(np.interp(at, x[i - 1 : i + 1], y[i - 1 : i + 1]))
+
+
+def _work(result: Result, found: PullOff, *, until: float) -> float:
+    """Return the integral of -force over the travel in tension around the pull-off."""
+    total, tension = 0.0, True
+    # Backwards from the end, so that the first crossing met before the minimum is the last one.
+    for piece in reversed(_pieces(result)):
+        if len(piece) < 2:
+            continue  # a single step between two jumps spans no work
+        x, force = -result.depth[piece], result.force[piece]
+        before = x < -found.depth
+        if before.any() and force[before][-1] > 0 and x[-1] < -found.depth:
+            tension = False  # the crossing was the jump behind this piece
+        if not tension:
+            break
+        begin = x[0]
+        positive = np.flatnonzero(before & (force >= 0))
+        curve = _curve(x, force)
+        if positive.size and positive[-1] + 1 < len(x):
+            i = int(positive[-1])
+            begin, tension = _root(curve, x[i], x[i + 1]), False
+        end = min(x[-1], until)
+        if begin < end:
+            total -= float(curve.integrate(begin, end))
+    return total
+
+
+def _curve(x: Array, y: Array) -> CubicHermiteSpline:
+    """Return the cubics through the points, with slopes of second order."""
+    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
+    return CubicHermiteSpline(x, y, slope)
+
+
+def _root(curve: CubicHermiteSpline, low: float, high: float) -> float:
+    return float(brentq(curve, low, high))  # type: ignore[arg-type]
+
+
+def _plain(values: Mapping[str, Any] | None) -> dict[str, Any] | None:
+    if values is None:
+        return None
+    return {k: v.item() if isinstance(v, np.generic) else v for k, v in values.items()}

@@ -1,0 +1,192 @@
+r"""What each kind of problem calls the numbers of its answer, and the units it gives them in.
+
+A :class:`viscotack.Result` is the same for every indenter: force, depth, contact edge. Summaries,
+tables and pictures speak of what is at hand, the pull-off force of a sphere [1.5 pi R
+Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. One :class:`Kind` states all of it.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from viscotack.problem import Groups
+from viscotack.problem.problems import Case
+from viscotack.problem.profile_problem import ProfileGroups, ProfileProblem
+from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+
+
+@dataclass(frozen=True)
+class Unit:
+    """The unit of a dimensionless number.
+
+    Attributes
+    ----------
+    text, drawn : str
+        As printed, and as drawn in a picture.
+    scale : str
+        The attribute of ``problem.scales()`` that turns the number into SI.
+    si : str
+        SI unit.
+    """
+
+    text: str
+    drawn: str
+    scale: str
+    si: str
+
+    @property
+    def tail(self) -> str:
+        """Return what a name in SI ends with, ``m_per_s``."""
+        return self.si.replace("/", "_per_").replace("^", "")
+
+
+# By which a number of a `Result` is multiplied, from the dimensionless groups.
+Factor = Callable[[Any], float]
+
+
+def _as_it_is(groups: Any) -> float:
+    return 1.0
+
+
+@dataclass(frozen=True)
+class Series:
+    """A column of a table: a series of a `Result` in a unit, times a factor."""
+
+    source: str
+    words: str
+    unit: Unit
+    factor: Factor = _as_it_is
+
+
+@dataclass(frozen=True)
+class Observable:
+    """A number of a summary: the function of that name in :mod:`viscotack.result.observables`.
+
+    A `noted` one has a note beside it, what the function warned of.
+    """
+
+    words: str
+    unit: Unit
+    noted: bool = False
+
+
+@dataclass(frozen=True)
+class Kind:
+    """What a kind of problem gives.
+
+    Attributes
+    ----------
+    series : mapping
+        The columns of its table, by name.
+    observables : mapping
+        The numbers of its summary, by name.
+    inputs : tuple of str
+        Attributes of the groups that a summary repeats.
+    energy : Unit
+        What energies and works are given in.
+    energy_factor : callable
+        That unit's factor.
+    """
+
+    series: Mapping[str, Series]
+    observables: Mapping[str, Observable]
+    inputs: tuple[str, ...]
+    energy: Unit
+    energy_factor: Factor = _as_it_is
+
+    def of(self, source: str) -> Series:
+        """Return the column that a series of a `Result` becomes."""
+        return next(column for column in self.series.values() if column.source == source)
+
+
+_TIME = Unit("time unit", "time unit", "time", "s")
+_LENGTH = Unit("h0", "$h_0$", "length", "m")
+_FORCE = Unit("1.5 pi R dg0", r"$1.5\,\pi R\,\Delta\gamma_0$", "force", "N")
+_RADIUS = Unit("(pi R^2 dg0/E0*)^(1/3)", r"$(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}$", "radius", "m")
+_SPEED = Unit(
+    "(R^2 dg0/E0*)^(1/3)/time unit",
+    r"$(R^2 \Delta\gamma_0/E_0^*)^{1/3}$ per time unit",
+    "edge_speed",
+    "m/s",
+)
+_WORK = Unit("1.5 pi R dg0 h0", r"$1.5\,\pi R\,\Delta\gamma_0 h_0$", "work", "J")
+
+SPHERE = Kind(
+    series={
+        "time": Series("time", "time", _TIME),
+        "depth": Series("depth", "depth", _LENGTH),
+        "force": Series("force", "force", _FORCE),
+        "contact_radius": Series("contact_radius", "contact radius", _RADIUS),
+        "edge_speed": Series("edge_speed", "crack speed", _SPEED),
+    },
+    observables={
+        "pull_off_force": Observable("pull-off force", _FORCE),
+        "work_to_pull_off": Observable("work to pull-off", _WORK),
+        "work_of_separation": Observable("work of separation", _WORK),
+        "pull_off_depth": Observable("depth at pull-off", _LENGTH),
+        "contact_radius_at_pull_off": Observable("contact radius there", _RADIUS),
+        "crack_speed_at_pull_off": Observable("crack speed there", _SPEED),
+    },
+    inputs=("tabor", "modulus_ratio", "rate"),
+    energy=_WORK,
+)
+
+
+# That of the sphere, R being the profile's equivalent radius.
+PROFILE = replace(SPHERE, inputs=("tabor", "profile_exponent", "modulus_ratio", "rate"))
+
+
+def _tension(groups: PunchGroups) -> float:
+    return -1.0
+
+
+def _per_half_width(groups: PunchGroups) -> float:
+    return 1 / groups.size
+
+
+def _crack_speed(groups: PunchGroups) -> float:
+    return groups.fracture_length  # a Result counts lengths in a0
+
+
+def _per_work_of_adhesion(groups: PunchGroups) -> float:
+    return groups.traction.strength  # sigma_0 h_0 over Delta-gamma_0
+
+
+_STRESS = Unit("sigma0", r"$\sigma_0$", "stress", "Pa")
+_WIDTH = Unit("a", "$a$", "half_width", "m")
+_CRACK = Unit("h0/time unit", "$h_0$ per time unit", "crack_speed", "m/s")
+_ENERGY = Unit("dg0", r"$\Delta\gamma_0$", "work", "J/m^2")
+
+PUNCH = Kind(
+    series={
+        "time": Series("time", "time", _TIME),
+        "depth": Series("depth", "depth", _LENGTH),
+        "stress": Series("force", "mean tension", _STRESS, _tension),
+        "ligament": Series("contact_radius", "ligament", _WIDTH, _per_half_width),
+        "crack_speed": Series("edge_speed", "crack speed", _CRACK, _crack_speed),
+    },
+    observables={
+        "pull_off_stress": Observable("pull-off stress", _STRESS),
+        "work_to_pull_off": Observable("work to pull-off", _ENERGY),
+        "work_of_separation": Observable("work of separation", _ENERGY),
+        "pull_off_depth": Observable("depth at pull-off", _LENGTH),
+        "ligament_at_pull_off": Observable("ligament there", _WIDTH),
+        "crack_speed_at_pull_off": Observable("crack speed there", _CRACK),
+        "effective_surface_energy": Observable("surface energy there", _ENERGY, noted=True),
+    },
+    inputs=("size", "thickness", "cohesion", "modulus_ratio", "rate"),
+    energy=_ENERGY,
+    energy_factor=_per_work_of_adhesion,
+)
+
+
+def kind_of(problem: Case) -> Kind:
+    """Return what a problem's answer is given in."""
+    if isinstance(problem, PunchProblem | PunchGroups):
+        return PUNCH
+    return PROFILE if isinstance(problem, ProfileProblem | ProfileGroups) else SPHERE
+
+
+def si_scales(problem: Case) -> Any | None:
+    """Return what one unit of each number is in SI; None for a problem in groups."""
+    return None if isinstance(problem, Groups | PunchGroups | ProfileGroups) else problem.scales()

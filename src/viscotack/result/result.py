@@ -1,0 +1,340 @@
+"""What a simulation returns; how it is saved and loaded.
+
+All numbers of a :class:`Result` are dimensionless, whatever the units of the problem: force in
+1.5 pi R Delta-gamma_0, positive in compression; depth in h_0, positive into the solid; contact
+radius in (pi R^2 Delta-gamma_0/E_0*)^(1/3); time in the material's time unit; edge speed in
+(R^2 Delta-gamma_0/E_0*)^(1/3) per time unit; work and energy in 1.5 pi R Delta-gamma_0 h_0;
+pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` has the factors to SI.
+
+A punch has its mean stress for a force, in sigma_0 and positive in compression as well, and the
+half length of its contact in a_0 for a radius; energies are in sigma_0 h_0 of unit area. Tables
+and summaries (:mod:`viscotack.result.outputs`) give stress, ligament, crack speed and work of
+separation.
+"""
+
+import csv
+import json
+import os
+import secrets
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.problem.problems import Case
+from viscotack.problem.record import from_dict, to_dict
+from viscotack.units import finite
+
+from .outputs import kind_of, si_scales
+
+_FORMAT, _FORMAT_VERSION = "viscotack result", 1
+# What NumPy, zlib and json raise for files that are cut, changed, or of another kind.
+_UNREADABLE = (
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    EOFError,
+    OSError,
+    RuntimeError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+_SERIES = ("time", "depth", "force", "contact_radius", "edge_speed")
+
+
+class Outcome(StrEnum):
+    """How a run ended; the status text of a result begins with one of these."""
+
+    DETACHED = "detached"
+    """The surfaces have separated."""
+    IN_CONTACT = "still in contact"
+    """The run ended as asked while the surfaces touch, for example just past the pull-off."""
+    JUMPED = "jumped"
+    """The equilibrium ended in a jump out of contact: "jumped at depth ..."."""
+    STOPPED = "stopped"
+    """The solver could not go on: "stopped because ...; cure". The numbers are not complete."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something sudden in a run.
+
+    Attributes
+    ----------
+    kind : str
+        Words such as "jump out of contact". A kind that begins with "jump" breaks the curve
+        there: the motion over the step that ends at its time adds no work.
+    time, depth, force : float
+        Where it happened; force is the one just before.
+    energy : float
+        Energy lost in it, not negative but for round-off.
+    """
+
+    kind: str
+    time: float
+    depth: float
+    force: float
+    energy: float
+
+    def __post_init__(self) -> None:
+        for name in ("time", "depth", "force", "energy"):
+            object.__setattr__(self, name, finite(f"{name} of an event", getattr(self, name), "1"))
+
+
+def _versions() -> dict[str, str]:
+    import scipy
+
+    from viscotack import __version__
+
+    return {"viscotack": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """A simulated detachment; dimensionless series of equal length, one entry per step.
+
+    Attributes
+    ----------
+    problem : Problem or Groups
+        What was solved.
+    time, depth, force : ndarray
+        Time from the start of the retraction; depth and force at each step.
+    contact_radius : ndarray
+        Outermost place where the gap is that of peak tension; nan where there is no edge.
+    edge_speed : ndarray
+        Speed at which the edge recedes, positive while the contact shrinks; nan without an edge.
+        Its unit of length has no pi, see :func:`receding_speed`.
+    status : str
+        How the run ended, a sentence that begins with one of :class:`Outcome`.
+    events : tuple of Event
+        Jumps, in order of time.
+    statistics : dict
+        Cost: steps, newton_iterations, nodes, modes, wall_time_s.
+    error_estimate : dict or None
+        Relative error of ``force`` and ``work`` at pull-off; None while there is no estimate.
+    energy : dict of ndarray, or None
+        Energies over the run in work units, such as drive, elastic, interface, heat, jumps.
+        The interface energy is negative in contact and 0 far apart.
+    energy_residual : float or None
+        Largest imbalance of the energies over the largest term so far.
+    fields : dict of ndarray, or None
+        On request: time (m,), and radius, pressure, gap (m, n); pressure positive in compression.
+    versions : dict
+        Versions of this package, numpy and scipy that made it.
+    """
+
+    problem: Case
+    time: npt.NDArray[np.float64]
+    depth: npt.NDArray[np.float64]
+    force: npt.NDArray[np.float64]
+    contact_radius: npt.NDArray[np.float64]
+    edge_speed: npt.NDArray[np.float64]
+    status: str
+    events: tuple[Event, ...] = ()
+    statistics: Mapping[str, float] = field(default_factory=dict)
+    error_estimate: Mapping[str, float] | None = None
+    energy: Mapping[str, npt.NDArray[np.float64]] | None = None
+    energy_residual: float | None = None
+    fields: Mapping[str, npt.NDArray[np.float64]] | None = None
+    versions: Mapping[str, str] = field(default_factory=_versions)
+
+    def __post_init__(self) -> None:
+        for name in _SERIES:
+            object.__setattr__(self, name, _frozen(getattr(self, name)))
+        for name in ("energy", "fields"):
+            if getattr(self, name) is not None:
+                arrays = {k: _frozen(v) for k, v in getattr(self, name).items()}
+                object.__setattr__(self, name, arrays)
+        object.__setattr__(self, "events", tuple(self.events))
+        self._check()
+
+    def _check(self) -> None:
+        if not isinstance(self.problem, Case):
+            raise ValueError(
+                "problem must be a Problem or Groups, of a sphere, a punch or a profile, got "
+                f"{type(self.problem).__name__}"
+            )
+        lengths = {name: getattr(self, name).shape for name in _SERIES}
+        if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:
+            raise ValueError(
+                f"the series of a result must be equally long and not empty, got {lengths}"
+            )
+        for name in ("time", "depth", "force"):
+            if not np.all(np.isfinite(getattr(self, name))):
+                raise ValueError(f"the {name} of a result must be finite, got nan or infinity")
+        if np.any(np.diff(self.time) < 0):
+            raise ValueError("the time of a result must not go back")
+        if not any(self.status.startswith(o) for o in Outcome):
+            known = ", ".join(repr(str(o)) for o in Outcome)
+            raise ValueError(f"status must begin with one of {known}, got {self.status!r}")
+
+    @property
+    def outcome(self) -> Outcome:
+        """The kind of ending that the status sentence begins with."""
+        return next(o for o in Outcome if self.status.startswith(o))
+
+
+def _frozen(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    array = np.array(values, dtype=float)
+    array.setflags(write=False)
+    return array
+
+
+def receding_speed(time: npt.ArrayLike, edge: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    r"""Return the speed at which the edge recedes, from its place at uneven times.
+
+    .. math:: v = -da / dt
+
+    Second order in the steps, in the unit of the edge over that of the time. A sphere's radii are
+    given in (pi R^2 Delta-gamma_0/E_0*)^(1/3) and its speeds without the pi: multiply by pi^(1/3).
+
+    Parameters
+    ----------
+    time : array_like, shape (n,)
+        Times, not decreasing; two equal ones mark a jump, over which there is no speed.
+    edge : array_like, shape (n,)
+        Contact radii, or halves of the width of a contact; nan without an edge.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        Speed, positive while the contact shrinks; nan where it is not known.
+    """
+    t, a = np.asarray(time, dtype=float), np.asarray(edge, dtype=float)
+    speed = np.full_like(a, np.nan)
+    # A piece ends where the time stands still or the edge comes or goes.
+    known = np.isfinite(a)
+    starts = np.flatnonzero((np.diff(t, prepend=-np.inf) <= 0) | (known != np.roll(known, 1)))
+    for piece in np.split(np.arange(t.size), starts):
+        if piece.size > 1 and known[piece[0]]:
+            order = 2 if piece.size > 2 else 1
+            way = a[piece] - a[piece[0]]  # so that an edge at rest has no speed at all
+            speed[piece] = -np.gradient(way, t[piece], edge_order=order)
+    return speed
+
+
+def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
+    """Return the series by column name: dimensionless, then in SI with the unit in the name."""
+    outputs, groups = kind_of(result.problem).series, result.problem.groups()
+    scales = si_scales(result.problem)
+    table = {n: getattr(result, o.source) * o.factor(groups) for n, o in outputs.items()}
+    if scales is None:
+        return table
+    return table | {
+        f"{n}_{o.unit.tail}": table[n] * getattr(scales, o.unit.scale) for n, o in outputs.items()
+    }
+
+
+def write_csv(result: Result, path: str | os.PathLike[str]) -> None:
+    """Write the series as a comma-separated table with a row of column names; see `columns`."""
+    table = columns(result)
+    with _replacing(path, "w") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(table)
+        rows.writerows(zip(*(v.tolist() for v in table.values()), strict=True))
+
+
+def save(result: Result, path: str | os.PathLike[str]) -> None:
+    """Write a result to a file, whole or not at all; :func:`load` reads it.
+
+    The file is NumPy's .npz of plain arrays with a header in JSON; nothing in it is executed on
+    reading. Any name is possible; ``.npz`` is the usual ending.
+    """
+    header = {
+        "format": _FORMAT,
+        "format_version": _FORMAT_VERSION,
+        "versions": dict(result.versions),
+        "problem": to_dict(result.problem),
+        "status": result.status,
+        "events": [asdict(event) for event in result.events],
+        "statistics": dict(result.statistics),
+        "error_estimate": result.error_estimate and dict(result.error_estimate),
+        "energy_residual": result.energy_residual,
+        "energy": result.energy is not None,
+        "fields": result.fields is not None,
+    }
+    arrays = {name: getattr(result, name) for name in _SERIES}
+    for group in ("energy", "fields"):
+        arrays |= {f"{group}/{k}": v for k, v in (getattr(result, group) or {}).items()}
+    text = np.array(json.dumps(header))
+    with _replacing(path, "wb") as file:
+        np.savez_compressed(file, allow_pickle=False, header=text, **arrays)
+
+
+def load(path: str | os.PathLike[str]) -> Result:
+    """Read a result that :func:`save` wrote.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If the file is not a saved result, is damaged, or comes from a newer version.
+    """
+    try:
+        with open(path, "rb") as file:
+            if not zipfile.is_zipfile(file):
+                raise ValueError("it is not an archive")
+            file.seek(0)
+            with np.load(file, allow_pickle=False) as parts:
+                arrays = {name: parts[name] for name in parts.files}
+        header = json.loads(str(arrays.pop("header")))
+        if header["format"] != _FORMAT:
+            raise ValueError("its header is not one of viscotack")
+        if header["format_version"] <= _FORMAT_VERSION:
+            return _from_parts(header, arrays)
+        writer = header["versions"]["viscotack"]
+    except FileNotFoundError:
+        raise
+    except _UNREADABLE as error:
+        raise ValueError(
+            f"{os.fspath(path)} is not a readable result of viscotack (damaged, or another kind of "
+            f"file): {error}; give a file that viscotack.save or --save wrote"
+        ) from error
+    raise ValueError(
+        f"{os.fspath(path)} was written by viscotack {writer} in a newer format; update viscotack"
+    )
+
+
+def _from_parts(header: dict[str, Any], arrays: dict[str, npt.NDArray]) -> Result:
+    def group(name: str) -> dict[str, npt.NDArray] | None:
+        prefix = f"{name}/"
+        found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+        return found if header[name] else None
+
+    return Result(
+        problem=from_dict(header["problem"]),
+        **{name: arrays[name] for name in _SERIES},
+        status=header["status"],
+        events=tuple(Event(**event) for event in header["events"]),
+        statistics=header["statistics"],
+        error_estimate=header["error_estimate"],
+        energy=group("energy"),
+        energy_residual=header["energy_residual"],
+        fields=group("fields"),
+        versions=header["versions"],
+    )
+
+
+@contextmanager
+def _replacing(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
+    """Open a file beside the wanted one and put it in place only when all of it is written."""
+    target = Path(path)
+    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
+    try:
+        with open(draft, mode, newline="" if mode == "w" else None) as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(draft, target)
+    except BaseException:
+        draft.unlink(missing_ok=True)
+        raise

@@ -1,0 +1,199 @@
+r"""The implicit law shared by the theories of a steady viscoelastic crack.
+
+Both theories say, for a retardation spectrum of weights w and times tau,
+
+.. math:: \frac{\Delta\gamma_0}{\Delta\gamma_{eff}} = \frac1\Gamma
+          = c_\infty + \sum_j w_j \, \psi(A / \tau_j), \quad A = \Gamma \, \tau_0 / s,
+
+with a response psi that rises from 0 to 1 and a dimensionless speed s. At a given A everything
+is explicit. As a function of x = ln A, ln Gamma is analytic for \|Im x\| < pi/2, so Chebyshev
+polynomials on panels of unit length hold it to round-off; the speed or the amplification is
+then inverted on the panels, at a cost that does not depend on the number of modes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, at_least, plain
+
+Array = npt.NDArray[np.floating[Any]]
+# psi and 1 - psi, each with all of its digits
+Response = Callable[[Array], tuple[Array, Array]]
+
+# The nearest singularities of a panel lie at pi, in half panels: 6.44^-20 is below round-off.
+_DEGREE = 20
+_POINTS = np.cos(np.pi * np.arange(_DEGREE, -1, -1) / _DEGREE)
+_TO_COEFFICIENTS = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
+# A mode faster than A by this factor responds at once, one slower by the second does not respond.
+_FASTER, _SLOWER = 1e-13, 1e9
+# Of the creep, in glassy compliances: what a fast crack feels.
+_TOLERANCE = 1e-14
+_BLOCK = 2**18
+
+
+class Material(Protocol):
+    """What a crack needs to know of a linear viscoelastic solid."""
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Return E0 / Einf."""
+        ...
+
+    @property
+    def time_unit(self) -> float:
+        """Return the time [s] of dimensionless speeds."""
+        ...
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Any:
+        """Return the modes of the creep."""
+        ...
+
+
+def amplification(
+    speed: npt.ArrayLike, material: Material, response: Response, *, factor: float
+) -> Number:
+    """Return Gamma at dimensionless speeds, not negative, with s = factor * speed."""
+    s = factor * at_least(0, "a crack that closes is another problem", speed=speed)
+    s = np.asarray(s)
+    moving = np.ravel(s[s > 0])
+    found = np.ones(s.shape)
+    if material.modulus_ratio < 1 and moving.size:
+        log = np.log(moving)
+        # Gamma lies between 1 and 1/k, and A between 1/s and 1/(k s)
+        low, high = -np.max(log), -np.min(log) - np.log(material.modulus_ratio)
+        start, grid = _grid(low, high)
+        glassy, rubbery = _parts(grid, material, response)
+        # from the smaller of the two parts, exact to round-off at both ends
+        coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
+        falling = _minus_position(coefficients, start)
+        found[s > 0] = _in_blocks(
+            lambda y: np.exp(_evaluated(_inverted(y, start, falling), start, coefficients)), log
+        )
+    return plain(found)
+
+
+def speed(
+    amplification: npt.ArrayLike, material: Material, response: Response, *, factor: float
+) -> Number:
+    """Return the dimensionless speed at which Gamma is reached, 1 <= Gamma < 1/k."""
+    gamma = np.asarray(
+        at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification)
+    )
+    k = material.modulus_ratio
+    if np.any(gamma * k >= 1) and np.any(gamma > 1):
+        raise ValueError(
+            f"amplification must stay below glassy over rubbery modulus {1 / k:.6g}, reached at "
+            f"infinite speed, got {np.max(gamma)}"
+        )
+    found = np.zeros(gamma.shape)
+    above = np.ravel(gamma[gamma > 1])
+    if above.size:
+        # the odds of the glassy part: steep enough in x at both ends
+        odds = np.log((1 / above - k) / (1 - 1 / above))
+        low, high = _bracket(np.min(odds), np.max(odds), material, response)
+        start, grid = _grid(low, high)
+        glassy, rubbery = _parts(grid, material, response)
+        coefficients = -np.log(glassy / rubbery) @ _TO_COEFFICIENTS.T
+        x = _in_blocks(lambda y: _inverted(y, start, coefficients), -odds)
+        found[gamma > 1] = above * np.exp(-x) / factor
+    return plain(found)
+
+
+def _parts(x: Array, material: Material, response: Response) -> tuple[Array, Array]:
+    """Return 1/Gamma - k and 1 - 1/Gamma at x = ln A, A in time units."""
+    unit, k = material.time_unit, material.modulus_ratio
+    modes = material.retardation_modes(
+        shortest=_FASTER * unit * np.exp(np.min(x)),
+        longest=_SLOWER * unit * np.exp(np.max(x)),
+        tolerance=_TOLERANCE * k,
+    )
+    w, tau = np.array(modes.weights), np.array(modes.times) / unit
+    A = np.exp(np.ravel(x))
+    # modes too fast for the window respond at once
+    glassy = np.full(A.size, max(modes.instantaneous - k, 0.0))
+    rubbery = np.zeros(A.size)
+    rows = max(1, _BLOCK // max(1, tau.size))
+    for i in range(0, A.size, rows):
+        done, rest = response(A[i : i + rows, None] / tau)
+        glassy[i : i + rows] += done @ w
+        rubbery[i : i + rows] = rest @ w
+    return glassy.reshape(x.shape), rubbery.reshape(x.shape)
+
+
+def _in_blocks(function: Callable[[Array], Array], values: Array) -> Array:
+    """Return the function of many values, a block at a time to bound the memory."""
+    size = _BLOCK // (_DEGREE + 1)
+    return np.concatenate([function(values[i : i + size]) for i in range(0, values.size, size)])
+
+
+def _bracket(
+    least: float, most: float, material: Material, response: Response
+) -> tuple[float, float]:
+    """Return bounds of x between which the odds of the glassy part pass both values."""
+    low, high = -16.0, 16.0
+    while True:
+        glassy, rubbery = _parts(np.array([low, high]), material, response)
+        with np.errstate(divide="ignore"):
+            odds = np.log(glassy) - np.log(rubbery)
+        if odds[0] <= least and odds[1] >= most:
+            return low, high
+        low = 2 * low if odds[0] > least else low
+        high = 2 * high if odds[1] < most else high
+        if max(-low, high) > 500:
+            raise ValueError(
+                "amplification is reached only at a speed beyond 1e-200 or 1e200; "
+                "stay farther from 1 and from glassy over rubbery modulus"
+            )
+
+
+def _grid(low: float, high: float) -> tuple[float, Array]:
+    """Return the start of the panels and their points, shape (panels, degree + 1)."""
+    # a margin, so that round-off in a bound cannot leave the panels
+    start = low - 0.01
+    panels = int(np.ceil(high - low + 0.02))
+    return start, start + np.arange(panels)[:, None] + (_POINTS + 1) / 2
+
+
+def _minus_position(coefficients: Array, start: float) -> Array:
+    """Return the coefficients of the function minus x."""
+    shifted = coefficients.copy()
+    shifted[:, 0] -= start + np.arange(len(coefficients)) + 0.5
+    shifted[:, 1] -= 0.5
+    return shifted
+
+
+def _evaluated(x: Array, start: float, coefficients: Array) -> Array:
+    panel = np.clip((x - start).astype(int), 0, len(coefficients) - 1)
+    z = 2 * (x - start - panel) - 1
+    return np.polynomial.chebyshev.chebval(z, np.take(coefficients.T, panel, axis=1), tensor=False)
+
+
+def _inverted(value: Array, start: float, coefficients: Array) -> Array:
+    """Return x where a function that falls over all panels takes each value."""
+    ends = coefficients @ np.polynomial.chebyshev.chebvander(np.array([-1.0, 1.0]), _DEGREE).T
+    panel = np.searchsorted(-ends[:, 0], -value, side="right") - 1
+    panel = np.clip(panel, 0, len(coefficients) - 1)
+    c = np.take(coefficients.T, panel, axis=1)
+    slopes = np.polynomial.chebyshev.chebder(c)
+    low, high = np.full(value.shape, -1.0), np.full(value.shape, 1.0)
+    z = np.zeros(value.shape)
+    for _ in range(60):
+        rest = np.polynomial.chebyshev.chebval(z, c, tensor=False) - value
+        low, high = np.where(rest > 0, z, low), np.where(rest > 0, high, z)
+        slope = np.polynomial.chebyshev.chebval(z, slopes, tensor=False)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            new = z - rest / slope
+        # Newton's step where it stays between the bounds, bisection elsewhere
+        newton = (new >= low) & (new <= high)
+        new = np.where(newton, new, (low + high) / 2)
+        # the error after a step of Newton is of the order of its square
+        settled = np.abs(new - z) < np.where(newton, 1e-8, 1e-15)
+        z = new
+        if np.all(settled):
+            break
+    return start + panel + (z + 1) / 2

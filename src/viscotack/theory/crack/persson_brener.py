@@ -1,0 +1,115 @@
+r"""Persson and Brener: the effective surface energy of a viscoelastic crack, any spectrum.
+
+The energy lost in the bulk around a crack of tip length a, cut off at the frequency 2 pi v / a.
+With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
+(1 - e^{-t/\tau_j})`, the amplification :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` solves
+
+.. math:: \frac1\Gamma = 1 - \sum_j w_j \left[ \sqrt{1 + b_j^{-2}} - b_j^{-1} \right], \quad
+          b_j = \frac{2 \pi v \tau_j}{l_0 \Gamma}
+
+(Eq. 4.17 and 4.18; for the modified power law 4.20). Speeds are dimensionless,
+:math:`\hat v = v \tau_0 / l_0` with the material's ``time_unit`` for tau_0 and
+:func:`crack_tip_length` for l_0: multiply by l_0/tau_0 for m/s. Range: steady opening crack in a
+half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma runs from 1 at no speed
+to glassy over rubbery modulus. ``material`` is any of :mod:`viscotack.materials`.
+
+Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, in the form of Maghami, PhD
+thesis (2025), chapter 4, published as doi:10.1016/j.jmps.2024.105844.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive
+
+from . import _crack
+
+
+def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
+    r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
+
+    To 1e-12 or better; 1e5 speeds take a fraction of a second.
+
+    Examples
+    --------
+    >>> from viscotack.materials import RetardationPowerLaw
+    >>> rubber = RetardationPowerLaw(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> f"{amplification(1.0, material=rubber):.3f}"
+    '1.677'
+    """
+    return _crack.amplification(speed, material, _response, factor=2 * np.pi)
+
+
+def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
+    r"""Return the dimensionless speed at which an amplification is reached.
+
+    The amplification must be at least 1 and below glassy over rubbery modulus.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> f"{speed(2.0, material=solid):.3f}"
+    '0.512'
+    """
+    return _crack.speed(amplification, material, _response, factor=2 * np.pi)
+
+
+def crack_tip_length(
+    *,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    strength: npt.ArrayLike,
+    strength_ratio: npt.ArrayLike,
+) -> Number:
+    r"""Return the length l0 [m] at which the slow crack's stress is the critical one.
+
+    .. math:: l_0 = \frac{E_0^* \Delta\gamma_0}{\pi (\alpha \sigma_0)^2} \quad \text{(Eq. 4.23)}
+
+    Parameters
+    ----------
+    contact_modulus : float
+        Rubbery E0* [Pa], against a rigid body.
+    work_of_adhesion : float
+        :math:`\Delta\gamma_0` [J/m^2].
+    strength : float
+        Peak traction :math:`\sigma_0` [Pa].
+    strength_ratio : float
+        :math:`\alpha = \sigma_c / \sigma_0`: pi/9 was fitted to simulations of a sphere with
+        the Lennard-Jones traction (chapter 4), sqrt(2)/pi makes l0 the fracture length a0 of
+        Eq. 3.3 (appendix II).
+
+    Notes
+    -----
+    Not the length of :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`, which is
+    :math:`\pi^2 \alpha^2 / 4` times this one.
+
+    Examples
+    --------
+    >>> l0 = crack_tip_length(
+    ...     contact_modulus=1.9e6, work_of_adhesion=0.2, strength=5e6, strength_ratio=np.pi / 9
+    ... )
+    >>> f"{l0 * 1e9:.1f} nm"
+    '39.7 nm'
+    """
+    E, w, s, alpha = positive(
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+        strength=strength,
+        strength_ratio=strength_ratio,
+    )
+    return plain(E * w / (np.pi * (alpha * s) ** 2))
+
+
+def _response(q: Any) -> tuple[Any, Any]:
+    """Return 1 - sqrt(1 + q^2) + q and its complement, q = 1/b, without cancellation."""
+    root = np.sqrt(1 + q**2)
+    return 2 * q / (1 + q + root), 1 / (root + q)

@@ -1,0 +1,140 @@
+"""A measured or published spectrum as a table, as a material for the theories of a crack.
+
+Source: the definition of a retardation spectrum, in no need of a DOI; the laws that take it have
+theirs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.materials import Modes
+
+# A table with a wider gap, in decades, leaves open what the solid does in between.
+WIDEST_GAP = 1.0
+_FEWEST = 4
+_STEP = 0.02
+
+
+@dataclass(frozen=True)
+class TabulatedSpectrum:
+    r"""A linear solid with a tabulated retardation spectrum.
+
+    .. math:: C(t) = \frac1{E_\infty} + \int L(\tau) (1 - e^{-t/\tau}) \, d \ln\tau, \quad
+              \frac1{E_\infty} = \frac1{E_0} - \int L \, d \ln\tau
+
+    straight between the points in ln tau, zero outside: a table that begins or ends where L is
+    still large is wrong there. Give it as ``material`` to
+    :mod:`viscotack.theory.crack.persson_brener` or :mod:`viscotack.theory.crack.greenwood`; their
+    unit of time is then one second.
+
+    Parameters
+    ----------
+    rubbery_modulus : float
+        E0 [Pa].
+    times : sequence of float
+        Retardation times [s], ascending, at most a decade apart.
+    densities : sequence of float
+        L [1/Pa] per unit of ln tau, not negative; its integral must stay below 1/E0.
+
+    Raises
+    ------
+    ValueError
+        If times are not positive and ascending, leave a gap, or the densities are impossible.
+
+    Examples
+    --------
+    >>> from viscotack.theory import persson_brener
+    >>> rubber = TabulatedSpectrum(
+    ...     rubbery_modulus=1e6, times=(1e-3, 1e-2, 1e-1, 1.0), densities=(0, 1e-7, 2e-7, 0)
+    ... )
+    >>> f"{rubber.modulus_ratio:.3f} {persson_brener.amplification(1.0, material=rubber):.3f}"
+    '0.309 1.171'
+    """
+
+    rubbery_modulus: float
+    times: tuple[float, ...]
+    densities: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        E = float(self.rubbery_modulus)
+        if not 0 < E < np.inf:
+            raise ValueError(f"rubbery_modulus must be a positive, finite number [Pa], got {E}")
+        t, L = np.asarray(self.times, dtype=float), np.asarray(self.densities, dtype=float)
+        if t.ndim != 1 or t.shape != L.shape or t.size < _FEWEST:
+            raise ValueError(
+                f"a spectrum needs {_FEWEST} or more times and as many densities, got "
+                f"{t.size} times and {L.size} densities"
+            )
+        if not np.all(np.isfinite(t) & (t > 0)):
+            raise ValueError("times must be positive and finite [s]; drop the empty rows")
+        if not np.all(np.diff(t) > 0):
+            i = int(np.argmax(np.diff(t) <= 0))
+            raise ValueError(
+                f"times must ascend, got {t[i]:g} s before {t[i + 1]:g} s; sort the table (one "
+                "made of frequencies is turned around)"
+            )
+        gaps = np.diff(np.log10(t))
+        if np.max(gaps) > WIDEST_GAP * (1 + 1e-9):
+            i = int(np.argmax(gaps))
+            raise ValueError(
+                f"the table has a gap of {gaps[i]:.2g} decades between {t[i]:g} s and "
+                f"{t[i + 1]:g} s; at most {WIDEST_GAP:g} decade may lie between two rows"
+            )
+        if not np.all(np.isfinite(L) & (L >= 0)):
+            raise ValueError(
+                f"densities must be finite and not negative [1/Pa], got a minimum of {np.min(L):g}"
+            )
+        total = float(np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t))))
+        if not 0 < total * E < 1:
+            raise ValueError(
+                f"the spectrum adds up to {total:.4g} 1/Pa and must stay between 0 and the "
+                f"rubbery compliance {1 / E:.4g} 1/Pa; check the units of the densities"
+            )
+        object.__setattr__(self, "rubbery_modulus", E)
+        object.__setattr__(self, "times", tuple(t.tolist()))
+        object.__setattr__(self, "densities", tuple(L.tolist()))
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus, k, in (0, 1); no unit."""
+        return 1 - float(np.sum(self._modes()[1]))
+
+    @property
+    def glassy_modulus(self) -> float:
+        """Glassy modulus [Pa]."""
+        return self.rubbery_modulus / self.modulus_ratio
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of time of dimensionless speeds [s]: one second."""
+        return 1.0
+
+    def creep(self, time: npt.ArrayLike) -> float | npt.NDArray[np.float64]:
+        """Return the creep compliance [1/Pa] at times [s]."""
+        found = np.asarray(
+            self.retardation_modes(shortest=1.0, longest=1.0, tolerance=0.1).creep(time)
+        )
+        return (
+            found.item() / self.rubbery_modulus if found.ndim == 0 else found / self.rubbery_modulus
+        )
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return all modes of the table whatever the window; there are few."""
+        times, weights = self._modes()
+        return Modes(1 - float(np.sum(weights)), tuple(weights), tuple(times), 0.0)
+
+    def _modes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return times and weights: the trapezoidal rule on the straight pieces, made finer."""
+        x, L = np.log(self.times), np.array(self.densities)
+        pieces = [
+            np.linspace(a, b, int(np.ceil((b - a) / _STEP)) + 1)[:-1]
+            for a, b in zip(x[:-1], x[1:], strict=True)
+        ]
+        fine = np.concatenate([*pieces, x[-1:]])
+        width = np.diff(fine)
+        share = (np.append(width, 0.0) + np.append(0.0, width)) / 2
+        return np.exp(fine), np.interp(fine, x, L) * share * self.rubbery_modulus

@@ -1,0 +1,277 @@
+r"""The crack theories straight from a measured complex modulus, with no spectrum fitted to it.
+
+**Persson and Brener.** With the loss compliance
+:math:`C'' = -\mathrm{Im}(1/E) = E''/(E'^2 + E''^2)` and the cut-off
+:math:`\omega_c = 2\pi v / (l_0 \Gamma)`
+
+.. math:: \frac1\Gamma = 1 - \frac{2 E_0}{\pi} \int_0^{\omega_c} C''(\omega)
+          \sqrt{1 - (\omega/\omega_c)^2} \, \frac{d\omega}{\omega}
+          = 1 - \frac{2 E_0}{\pi} \int_0^{\pi/2} I(\omega_c \sin\theta) \sin\theta \, d\theta,
+          \quad I(\omega) = \int_0^\omega C'' \, d\ln\omega
+
+(Eq. 2.18), the same law as :mod:`viscotack.theory.crack.persson_brener`. A crack does not feel what
+lies above its cut-off, so the table need not reach the glass. What lies below the table it feels,
+and the first row bounds it: in any linear solid C''/omega falls, and with :math:`x/(1+x^2) \le
+\arctan x \le x/(1+x^2) + \frac\pi2 x^2/(1+x^2)`, mode by mode,
+
+.. math:: C''_1 \le I(\omega_1) \le C''_1 + \frac\pi2 \left( \frac1{E_0} - C'_1 \right).
+
+**Greenwood.** The creep under the zone, :math:`E_0 C(t) = 1 - \frac{2 E_0}{\pi} \int C'' \cos
+\omega t \, d\ln\omega`, in Eq. 3.32 gives the same law with another kernel,
+
+.. math:: \frac1\Gamma = 1 - \frac{2 E_0}{\pi} \int_0^\infty C''(\omega) \,
+          Q\!\left(\frac{\omega l \Gamma}{v}\right) \frac{d\omega}{\omega}, \quad
+          Q(y) = \mathrm{Re} \, {}_2F_2(1, 1; \tfrac32, 2; -i y)
+
+which falls from 1 as :math:`\pi/(4 y)`: there is no sharp cut-off, so what lies above the table
+counts as well. The last row bounds it, in the same way turned around:
+:math:`\int_{\omega_N}^\infty C'' \, d\ln\omega \le C''_N + \frac\pi2 C'_N`. A table that ends far
+below the glass holds only cracks that are slow beside it.
+
+Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
+Eq. 2.18 and 3.32, published as doi:10.1016/j.jmps.2024.105844 and
+doi:10.1016/j.engfracmech.2024.109898; Greenwood (2004), J. Phys. D 37, 2557 (no DOI known to this
+package). The second kernel and the bounds are this package's.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive
+
+from . import _loss_integral as integral
+from . import _zone_integral as zone
+from .tabulated import WIDEST_GAP
+
+_FEWEST = 4
+
+
+class Interval(NamedTuple):
+    """Amplifications between which every solid lies that continues the table below it."""
+
+    low: Number
+    high: Number
+
+
+@dataclass(frozen=True)
+class TabulatedModulus:
+    r"""A complex modulus :math:`E' + i E''` as a table, such as a DMA master curve.
+
+    Parameters
+    ----------
+    rubbery_modulus : float
+        E0 [Pa], the plateau; not above the first storage modulus.
+    frequencies : sequence of float
+        Angular frequencies omega [rad/s], ascending, at most a decade apart: 2 pi times those
+        in Hz.
+    storage, loss : sequence of float
+        E' and E'' [Pa], positive. C'' is a power law between two rows.
+
+    Raises
+    ------
+    ValueError
+        If frequencies do not ascend or leave a gap, or the moduli are impossible.
+
+    Examples
+    --------
+    >>> rubber = TabulatedModulus(
+    ...     rubbery_modulus=1e6,
+    ...     frequencies=(0.1, 1.0, 10.0, 100.0),
+    ...     storage=(1.01e6, 1.1e6, 2e6, 4e6),
+    ...     loss=(3e4, 2e5, 9e5, 3e6),
+    ... )
+    >>> low, high = amplification(1.0, modulus=rubber)
+    >>> f"{low:.3f} to {high:.3f}"
+    '1.357 to 1.374'
+    """
+
+    rubbery_modulus: float
+    frequencies: tuple[float, ...]
+    storage: tuple[float, ...]
+    loss: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        E = float(np.asarray(positive(rubbery_modulus=self.rubbery_modulus)))
+        columns = {
+            name: np.asarray(getattr(self, name), dtype=float)
+            for name in ("frequencies", "storage", "loss")
+        }
+        w, stored, lost = columns.values()
+        if w.ndim != 1 or w.size < _FEWEST or not w.shape == stored.shape == lost.shape:
+            raise ValueError(
+                f"a modulus needs {_FEWEST} or more rows of frequency, storage and loss, got "
+                f"{w.size}, {stored.size} and {lost.size}"
+            )
+        for name, column in columns.items():
+            if not np.all(np.isfinite(column) & (column > 0)):
+                unit = "rad/s" if name == "frequencies" else "Pa"
+                raise ValueError(
+                    f"{name} must be positive and finite [{unit}], got a minimum of "
+                    f"{np.min(column):g}; drop the rows where nothing was measured"
+                )
+        if not np.all(np.diff(w) > 0):
+            i = int(np.argmax(np.diff(w) <= 0))
+            raise ValueError(
+                f"frequencies must ascend, got {w[i]:g} rad/s before {w[i + 1]:g} rad/s; sort "
+                "the table, and give overlapping sweeps as one master curve"
+            )
+        gaps = np.diff(np.log10(w))
+        if np.max(gaps) > WIDEST_GAP * (1 + 1e-9):
+            i = int(np.argmax(gaps))
+            raise ValueError(
+                f"the table has a gap of {gaps[i]:.2g} decades between {w[i]:g} and "
+                f"{w[i + 1]:g} rad/s; at most {WIDEST_GAP:g} decade may lie between two rows"
+            )
+        if E > stored[0] * (1 + 1e-12):
+            raise ValueError(
+                f"rubbery_modulus {E:g} Pa is above the first storage modulus {stored[0]:g} Pa; "
+                "give the plateau that the modulus tends to at low frequency"
+            )
+        object.__setattr__(self, "rubbery_modulus", E)
+        for name, column in columns.items():
+            object.__setattr__(self, name, tuple(column.tolist()))
+        low, _ = _tables(self)
+        if not integral.rest(w[-1:], low)[0] > 0:
+            raise ValueError(
+                "the loss adds up to more than the rubbery compliance, which no linear solid "
+                "can have; check rubbery_modulus and the units of storage and loss"
+            )
+
+
+def amplification(speed: npt.ArrayLike, *, modulus: TabulatedModulus) -> Interval:
+    """Return bounds of effective over rubbery surface energy at speeds v/l0 [1/s].
+
+    They hold what the solid may do below the table, and neither the scatter of the measurement
+    nor the error of the power laws between its rows. That falls with the square of their
+    distance: for n = 0.6 and k = 0.1, near the glass, 3 % at 4 rows a decade, 0.8 % at 8 and
+    0.2 % at 16. ``l0`` is :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
+
+    Raises
+    ------
+    ValueError
+        If a speed lies outside :func:`speed_range`: the table is then too narrow for it.
+
+    Examples
+    --------
+    See :class:`TabulatedModulus`.
+    """
+    v = np.asarray(positive(speed=speed))
+    _refuse_outside(v, speed_range(modulus=modulus), "tip")
+    low, high = (integral.solved(v, table) for table in _tables(modulus))
+    return Interval(plain(low), plain(high))
+
+
+def speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
+    """Return the slowest and the fastest speed v/l0 [1/s] whose cut-off lies in the table.
+
+    Examples
+    --------
+    >>> rubber = TabulatedModulus(
+    ...     rubbery_modulus=1e6,
+    ...     frequencies=(0.1, 1.0, 10.0, 100.0),
+    ...     storage=(1.01e6, 1.1e6, 2e6, 4e6),
+    ...     loss=(3e4, 2e5, 9e5, 3e6),
+    ... )
+    >>> slowest, fastest = speed_range(modulus=rubber)
+    >>> f"{slowest:.4f} {fastest:.1f}"
+    '0.0164 38.0'
+    """
+    ends = np.array([modulus.frequencies[0], modulus.frequencies[-1]])
+    low, high = _tables(modulus)
+    # both bounds must lie in the table
+    first = ends[0] / integral.rest(ends[:1], high)[0]
+    last = ends[1] / integral.rest(ends[1:], low)[0]
+    return float(first / (2 * np.pi)), float(last / (2 * np.pi))
+
+
+def greenwood_amplification(speed: npt.ArrayLike, *, modulus: TabulatedModulus) -> Interval:
+    """Return bounds of effective over rubbery surface energy by Greenwood, at speeds v/l [1/s].
+
+    They hold what the solid may do below and above the table, and neither the scatter of the
+    measurement nor the error of the power laws between its rows: for n = 0.6 and k = 0.1, near
+    the glass, 4 % at 4 rows a decade, 1 % at 8 and 0.2 % at 16. Two decades below the fastest
+    speed of a table the bounds are some per cent apart, at its end a factor of two.
+    ``l`` is :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`.
+
+    Raises
+    ------
+    ValueError
+        If a speed lies outside :func:`greenwood_speed_range`: the table is then too narrow for it.
+
+    Examples
+    --------
+    >>> rubber = TabulatedModulus(
+    ...     rubbery_modulus=1e6,
+    ...     frequencies=(0.1, 1.0, 10.0, 100.0),
+    ...     storage=(1.01e6, 1.1e6, 2e6, 4e6),
+    ...     loss=(3e4, 2e5, 9e5, 3e6),
+    ... )
+    >>> low, high = greenwood_amplification(1.0, modulus=rubber)
+    >>> f"{low:.3f} to {high:.3f}"
+    '1.278 to 1.296'
+    """
+    v = np.asarray(positive(speed=speed))
+    curves = _zone_curves(modulus)
+    _refuse_outside(v, zone.ends(curves), "zone")
+    low = zone.solved(v, curves.passage, curves.most)
+    return Interval(plain(low), plain(zone.solved(v, curves.passage, curves.least)))
+
+
+def greenwood_speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
+    r"""Return the slowest and the fastest v/l [1/s] whose passage of the zone is in the table.
+
+    Where :math:`v/(l \Gamma)` lies between the first and the last frequency, by both bounds.
+
+    Examples
+    --------
+    >>> rubber = TabulatedModulus(
+    ...     rubbery_modulus=1e6,
+    ...     frequencies=(0.1, 1.0, 10.0, 100.0),
+    ...     storage=(1.01e6, 1.1e6, 2e6, 4e6),
+    ...     loss=(3e4, 2e5, 9e5, 3e6),
+    ... )
+    >>> slowest, fastest = greenwood_speed_range(modulus=rubber)
+    >>> f"{slowest:.4f} {fastest:.1f}"
+    '0.1078 252.1'
+    """
+    return zone.ends(_zone_curves(modulus))
+
+
+def _refuse_outside(v: npt.NDArray, ends: tuple[float, float], length: str) -> None:
+    if np.any(v < ends[0]) or np.any(v > ends[1]):
+        raise ValueError(
+            f"the table holds cracks of {ends[0]:.4g} to {ends[1]:.4g} {length} lengths a second, "
+            f"got {np.min(v):.4g} to {np.max(v):.4g}; for others measure a wider range of "
+            "frequencies"
+        )
+
+
+def _zone_curves(modulus: TabulatedModulus) -> zone.Bounds:
+    low, high = _tables(modulus)
+    last = modulus.storage[-1] - 1j * modulus.loss[-1]
+    compliance = modulus.rubbery_modulus * last / abs(last) ** 2
+    return zone.bounds(
+        low.frequencies,
+        low.loss,
+        below=(low.start, high.start),
+        above=float(-compliance.imag + np.pi / 2 * compliance.real),
+    )
+
+
+def _tables(modulus: TabulatedModulus) -> tuple[integral.Table, integral.Table]:
+    """Return the loss compliance in 1/E0 with the least and the most that may lie below it."""
+    E, stored, lost = modulus.rubbery_modulus, np.array(modulus.storage), np.array(modulus.loss)
+    size = stored**2 + lost**2
+    loss = E * lost / size
+    least = loss[0]
+    most = least + np.pi / 2 * (1 - E * stored[0] / size[0])
+    w = np.array(modulus.frequencies)
+    return (
+        integral.Table(w, loss, least, linear_below=True),
+        integral.Table(w, loss, most, linear_below=False),
+    )

@@ -1,0 +1,5 @@
+"""Contacts of elastic solids."""
+
+from . import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles
+
+__all__ = ["adhesion_map", "bradley", "dmt", "hertz", "jkr", "lennard_jones", "maugis", "profiles"]

@@ -1,0 +1,166 @@
+r"""Which elastic theory holds at a load: the adhesion map of Johnson and Greenwood, as functions.
+
+The map's axes are the Tabor number mu and the load in :math:`\pi R \Delta\gamma_0`, compression
+positive. Its boundaries are conventions of 5 % and of a factor 20; here each is computed from the
+Maugis-Dugdale contact with the strength of the Lennard-Jones traction, so that they join:
+
+- Hertz: the tensions add less than 5 % to the load,
+- JKR: they lift the surface, by :math:`\delta_a = a^2/R - \delta`, by more than 20 h0,
+- DMT: they lift it by less than h0/20,
+- rigid (Bradley): the contact of DMT is compressed by less than h0/20,
+- Maugis: anything in between.
+
+Source: Johnson & Greenwood (1997), doi:10.1006/jcis.1997.4984.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive
+
+from . import _maugis_equations as equations
+from .lennard_jones import tabor_number
+from .maugis_detachment import parameter_from_tabor
+
+SMALL, LARGE = 0.05, 20.0
+_RANGE = (1e-3, 1e3)
+_LOG_EXCESS = (-45.0, 30.0)
+_HALVINGS = 60
+# h0 in the depth unit of Maugis' equations, times mu
+_GAP = (0.75 * np.pi) ** (-2 / 3)
+
+
+def hertz_load(tabor: npt.ArrayLike) -> Number:
+    r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which adhesion adds less than 5 %.
+
+    From 40 (DMT) to 2520 (JKR).
+
+    Examples
+    --------
+    >>> f"{hertz_load(1.0):.0f}"
+    '955'
+    """
+    lam = _parameter(tabor)
+
+    def excess_of_tension(x: Any) -> Any:
+        a, P, _ = _state(x, lam)
+        return P - (a**3 - P) / SMALL
+
+    return plain(_state(_zero(excess_of_tension, lam), lam)[1])
+
+
+def jkr_load(tabor: npt.ArrayLike) -> Number:
+    r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which JKR holds.
+
+    The adhesive lift is there 20 h0. Minus the pull-off force where it is larger along all of the
+    stable curve; never above :func:`hertz_load`.
+
+    Examples
+    --------
+    >>> f"{jkr_load(5.0):.1f}"
+    '1.1'
+    """
+    return _load_at_lift(tabor, LARGE)
+
+
+def dmt_load(tabor: npt.ArrayLike) -> Number:
+    r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which DMT holds.
+
+    The adhesive lift is there h0/20. Minus the pull-off force where it is larger along all of the
+    stable curve, so that DMT holds nowhere;
+    never above :func:`hertz_load`.
+
+    Examples
+    --------
+    >>> f"{dmt_load(0.01):.1f}"
+    '47.8'
+    """
+    return _load_at_lift(tabor, SMALL)
+
+
+def rigid_load(tabor: npt.ArrayLike) -> Number:
+    r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which the sphere is as if rigid.
+
+    .. math:: \frac{P}{\pi R \Delta\gamma_0} = \frac{4}{3 \pi} (0.05/\mu)^{3/2} - 2
+
+    Examples
+    --------
+    >>> f"{rigid_load(0.01):.2f}"
+    '2.75'
+    """
+    mu = positive(tabor=tabor)
+    return plain(4 / (3 * np.pi) * (SMALL / mu) ** 1.5 - 2)
+
+
+def regime(
+    force: float,
+    *,
+    radius: float,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    equilibrium_gap: float,
+) -> str:
+    """Return "hertz", "jkr", "maugis", "dmt" or "rigid" at a force [N], positive in compression.
+
+    A force below that of pull-off counts as pull-off.
+
+    Examples
+    --------
+    >>> tip = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, equilibrium_gap=1e-9)
+    >>> regime(1e-7, **tip)
+    'maugis'
+    """
+    case = dict(radius=radius, work_of_adhesion=work_of_adhesion)
+    mu = tabor_number(**case, contact_modulus=contact_modulus, equilibrium_gap=equilibrium_gap)
+    if not np.isfinite(force):
+        raise ValueError(f"force must be finite, got {force} N")
+    load = force / (np.pi * radius * work_of_adhesion)
+    if load > hertz_load(mu):
+        return "hertz"
+    if load < rigid_load(mu):
+        return "rigid"
+    if load <= dmt_load(mu):
+        return "dmt"
+    return "jkr" if load >= jkr_load(mu) else "maugis"
+
+
+def _parameter(tabor: npt.ArrayLike) -> Any:
+    mu = positive(tabor=tabor)
+    low, high = _RANGE
+    if np.any((mu < low) | (mu > high)):
+        raise ValueError(
+            f"tabor must lie between {low:g} and {high:g} on the map, got {np.min(mu):.3g} to "
+            f"{np.max(mu):.3g}; below it is rigid or DMT, above JKR or Hertz"
+        )
+    return np.asarray(parameter_from_tabor(mu))
+
+
+def _state(x: Any, lam: Any) -> tuple[Any, Any, Any]:
+    """Return contact radius, force and adhesive lift at x = ln(c/a - 1), in Maugis' units."""
+    a = equations.contact_radius(np.exp(x), lam)
+    P, d = equations.force_and_depth(np.exp(x), lam, a)
+    # 4/3 lambda a t itself, not the difference of the large a^2 and the depth
+    return a, P, 4 / 3 * lam * a * equations.angle(np.exp(x))[1]
+
+
+def _load_at_lift(tabor: npt.ArrayLike, lift: float) -> Any:
+    lam = _parameter(tabor)
+    unit = _GAP / np.asarray(tabor, dtype=float)
+    end = _zero(lambda x: equations.force_slope(np.exp(x), lam), lam)
+    place = _zero(lambda x: _state(x, lam)[2] - lift * unit, lam)
+    return plain(np.minimum(_state(np.minimum(place, end), lam)[1], hertz_load(tabor)))
+
+
+def _zero(function: Callable[[Any], Any], lam: Any) -> Any:
+    """Return where a function that falls through zero with ln(c/a - 1) does so, or an end."""
+    low, high = (np.full(np.shape(lam), bound) for bound in _LOG_EXCESS)
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        above = function(middle) > 0
+        low, high = np.where(above, middle, low), np.where(above, high, middle)
+    return (low + high) / 2

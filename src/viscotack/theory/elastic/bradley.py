@@ -1,0 +1,86 @@
+r"""Bradley: a rigid sphere and a rigid plane that attract by the Lennard-Jones 3-9 traction.
+
+Parameters: ``radius`` R of the sphere [m], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2],
+``equilibrium_gap`` h0 [m], where the traction of parallel planes vanishes (Eq. 2.1). The depth
+:math:`\delta` is that of the sphere below the place where the nearest gap is h0, so that the
+gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small against R, Tabor
+number tending to zero. For a deformable solid use :mod:`viscotack.theory.elastic.maugis`.
+
+Source: Bradley (1932), Philosophical Magazine 13, 853 (no DOI known to this package), with the 3-9
+traction of Eq. 2.1, that of Greenwood (1997), doi:10.1098/rspa.1997.0070.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive
+
+
+def force(
+    depth: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    equilibrium_gap: npt.ArrayLike,
+) -> Number:
+    r"""Return the force [N], positive in compression, at a depth [m] below h0.
+
+    With the nearest gap :math:`h = h_0 - \delta`,
+
+    .. math:: P = -2 \pi R \Delta\gamma_0
+              \left[ \tfrac43 (h_0/h)^2 - \tfrac13 (h_0/h)^8 \right]
+
+    Examples
+    --------
+    >>> P = force(0.0, radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
+    >>> f"{P * 1e9:.1f} nN"
+    '-314.2 nN'
+    """
+    R, w, h0 = positive(
+        radius=radius, work_of_adhesion=work_of_adhesion, equilibrium_gap=equilibrium_gap
+    )
+    d = np.asarray(depth, dtype=float)
+    if not np.all(np.isfinite(d) & (d < h0)):
+        raise ValueError(
+            f"depth must be finite and below the equilibrium gap {np.min(h0):.6g} m, got "
+            f"{np.max(d)} m; rigid bodies do not overlap"
+        )
+    x2 = (h0 / (h0 - d)) ** 2
+    return plain(-2 * np.pi * R * w * (4 * x2 - x2**4) / 3)
+
+
+def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+    r"""Return the pull-off force [N], the positive number :math:`2 \pi R \Delta\gamma_0`.
+
+    It is reached at zero depth and depends on nothing but the surface energy.
+
+    Examples
+    --------
+    >>> f"{pull_off_force(radius=1e-6, work_of_adhesion=0.05) * 1e9:.1f} nN"
+    '314.2 nN'
+    """
+    R, w = positive(radius=radius, work_of_adhesion=work_of_adhesion)
+    return plain(2 * np.pi * R * w)
+
+
+def work_to_pull_off(
+    *, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike, equilibrium_gap: npt.ArrayLike
+) -> Number:
+    r"""Return the work [J] from zero force, at h = 2^(-1/3) h0, to the force minimum at h0.
+
+    .. math:: W = 2 \pi R \Delta\gamma_0 h_0
+              \left( \tfrac{8}{7} 2^{1/3} - \tfrac{9}{7} \right)
+              = 0.20559398\ldots \times \tfrac32 \pi R \Delta\gamma_0 h_0
+
+    Examples
+    --------
+    >>> W = work_to_pull_off(radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
+    >>> f"{W * 1e18:.2f} aJ"
+    '14.53 aJ'
+    """
+    R, w, h0 = positive(
+        radius=radius, work_of_adhesion=work_of_adhesion, equilibrium_gap=equilibrium_gap
+    )
+    return plain(2 * np.pi * R * w * h0 * (8 * 2 ** (1 / 3) - 9) / 7)

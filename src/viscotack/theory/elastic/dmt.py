@@ -1,0 +1,120 @@
+r"""DMT in the form of Maugis (DMT-M): Hertz plus the rigid sphere's constant attraction.
+
+Parameters: ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa], ``work_of_adhesion``
+:math:`\Delta\gamma_0` [J/m^2]. Range: small Tabor number, attraction that reaches far against
+the elastic deformation it causes, contact radius not negative. In between and for short range
+use :mod:`viscotack.theory.elastic.maugis`; for no contact at all
+:mod:`viscotack.theory.elastic.bradley`.
+
+Source: Derjaguin, Muller & Toporov (1975), doi:10.1016/0021-9797(75)90018-1; in this form
+Maugis (1992), doi:10.1016/0021-9797(92)90285-T; Eq. 2.12 and 2.13.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, at_least, plain, positive
+
+from . import hertz
+
+
+def force(
+    contact_radius: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the force [N], positive in compression, at a contact radius [m] (Eq. 2.12).
+
+    .. math:: P = \frac{4 E^* a^3}{3 R} - 2 \pi R \Delta\gamma_0
+
+    Examples
+    --------
+    >>> P = force(1e-6, radius=1e-5, contact_modulus=1e9, work_of_adhesion=0.05)
+    >>> f"{P * 1e6:.1f} uN"
+    '130.2 uN'
+    """
+    attraction = pull_off_force(radius=radius, work_of_adhesion=work_of_adhesion)
+    return hertz.force(contact_radius, radius=radius, contact_modulus=contact_modulus) - attraction
+
+
+def depth(contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+    r"""Return the depth [m] at a contact radius [m], :math:`a^2/R` as for Hertz (Eq. 2.13).
+
+    Examples
+    --------
+    >>> f"{depth(1e-6, radius=1e-5) * 1e9:.0f} nm"
+    '100 nm'
+    """
+    return hertz.depth(contact_radius, radius=radius)
+
+
+def contact_radius_at_depth(depth: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+    r"""Return the contact radius [m] at a depth [m] that is not negative, :math:`\sqrt{R\delta}`.
+
+    Examples
+    --------
+    >>> f"{contact_radius_at_depth(1e-7, radius=1e-5) * 1e6:.1f} um"
+    '1.0 um'
+    """
+    return hertz.contact_radius_at_depth(depth, radius=radius)
+
+
+def contact_radius_at_force(
+    force: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the contact radius [m] under a force [N] not below minus the pull-off force.
+
+    .. math:: a = \left[ \frac{3 R}{4 E^*} (P + 2 \pi R \Delta\gamma_0) \right]^{1/3}
+
+    Examples
+    --------
+    >>> a = contact_radius_at_force(0.0, radius=1e-5, contact_modulus=1e9, work_of_adhesion=0.05)
+    >>> f"{a * 1e9:.0f} nm"
+    '287 nm'
+    """
+    attraction = pull_off_force(radius=radius, work_of_adhesion=work_of_adhesion)
+    P = at_least(-np.asarray(attraction), "the contact opens at -2 pi R w", force=force)
+    load = P + attraction
+    return hertz.contact_radius_at_force(load, radius=radius, contact_modulus=contact_modulus)
+
+
+def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+    r"""Return the pull-off force [N], the positive number :math:`2 \pi R \Delta\gamma_0`.
+
+    It is reached at zero contact radius and zero depth.
+
+    Examples
+    --------
+    >>> f"{pull_off_force(radius=1e-5, work_of_adhesion=0.05) * 1e6:.2f} uN"
+    '3.14 uN'
+    """
+    R, w = positive(radius=radius, work_of_adhesion=work_of_adhesion)
+    return plain(2 * np.pi * R * w)
+
+
+def work_to_pull_off(
+    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> Number:
+    r"""Return the work [J] from zero force to pull-off.
+
+    .. math:: W = \tfrac65 \left(\tfrac32\right)^{2/3} \pi R \Delta\gamma_0
+              \left( \frac{\pi^2 \Delta\gamma_0^2 R}{E^{*2}} \right)^{1/3}
+
+    Examples
+    --------
+    >>> W = work_to_pull_off(radius=1e-5, contact_modulus=1e9, work_of_adhesion=0.05)
+    >>> f"{W * 1e15:.1f} fJ"
+    '15.5 fJ'
+    """
+    R, E, w = positive(
+        radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    return plain(1.2 * 1.5 ** (2 / 3) * np.pi * R * w * np.cbrt((np.pi * w / E) ** 2 * R))

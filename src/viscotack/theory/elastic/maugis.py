@@ -1,0 +1,200 @@
+r"""Maugis-Dugdale: a rigid sphere on an elastic half-space, from long to short range of adhesion.
+
+A constant tension, the ``strength`` :math:`\sigma_0`, acts where the gap is below
+:math:`\Delta\gamma_0 / \sigma_0`: in the ring a < r < c around the contact (c the cohesive
+radius). Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E*
+[Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` [Pa], all positive. The
+one group left is :func:`maugis_parameter`; small it means DMT, large JKR. Range: elastic solid,
+c small against R. A smooth traction of the same strength and work gives nearly the same curve:
+the pull-off force of a Lennard-Jones contact differs by up to 6 %.
+
+With m = c/a everything is explicit, so a curve is traced by m from near 1 (pressed hard) to
+infinity, where the contact is a point; beyond that :func:`curve_without_contact` goes on.
+
+Source: Maugis (1992), doi:10.1016/0021-9797(92)90285-T, rederived for a rigid sphere.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import ROUND_OFF, Number, at_least, plain, positive
+from viscotack.theory._scales import contact_scales
+
+from . import _maugis_equations as equations
+from . import hertz
+from .maugis_detachment import (
+    Point,
+    maugis_parameter,
+    parameter_from_tabor,
+    pull_off,
+    pull_off_force,
+    work_to_pull_off,
+)
+
+__all__ = [
+    "Point",
+    "curve",
+    "curve_without_contact",
+    "maugis_parameter",
+    "parameter_from_tabor",
+    "pressure",
+    "pull_off",
+    "pull_off_force",
+    "touching_radius",
+    "work_to_pull_off",
+]
+
+
+def curve(
+    ratio: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    strength: npt.ArrayLike,
+) -> Point:
+    r"""Return the equilibrium state where the cohesive radius is ``ratio`` > 1 contact radii.
+
+    With :math:`t = \sqrt{m^2 - 1}`, :math:`\varphi = \sec^{-1} m` and the scales of
+    :math:`K = \frac43 E^*`: :math:`\bar a` is the positive root of
+
+    .. math:: \tfrac{\lambda}{2} \bar a^2 [t + (m^2 - 2) \varphi]
+              + \tfrac{4 \lambda^2}{3} \bar a [t \varphi - m + 1] = 1
+
+    and :math:`\bar P = \bar a^3 - \lambda \bar a^2 (t + m^2 \varphi)`,
+    :math:`\bar\delta = \bar a^2 - \frac43 \lambda \bar a t`.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, strength=2e7)
+    >>> state = curve(2.0, **case)
+    >>> f"{state.contact_radius * 1e9:.1f} nm, {state.force * 1e9:.1f} nN"
+    '37.6 nm, -263.8 nN'
+    """
+    m = np.asarray(ratio, dtype=float)
+    if not np.all(np.isfinite(m) & (m > 1)):
+        raise ValueError(
+            f"ratio must be above 1 (a cohesive ring of no width) and finite, got {np.min(m)}; "
+            "for a contact that is a point use curve_without_contact"
+        )
+    length, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    lam = np.asarray(
+        maugis_parameter(
+            radius=radius,
+            contact_modulus=contact_modulus,
+            work_of_adhesion=work_of_adhesion,
+            strength=strength,
+        )
+    )
+    a = equations.contact_radius(m - 1, lam)
+    P, d = equations.force_and_depth(m - 1, lam, a)
+    length, height = 0.75 ** (1 / 3) * length, 0.75 ** (2 / 3) * height
+    return Point(plain(a * length), plain(m * a * length), plain(d * height), plain(P * load))
+
+
+def touching_radius(
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    strength: npt.ArrayLike,
+) -> Number:
+    r"""Return the cohesive radius [m] of the state in which the sphere touches at one point.
+
+    The limit of :func:`curve` for a large ratio, the positive root of
+
+    .. math:: \frac{c^2}{2 R} + \frac{2 \sigma_0 c}{E^*} \left( 1 - \frac2\pi \right)
+              = \frac{\Delta\gamma_0}{\sigma_0}
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, strength=2e7)
+    >>> f"{touching_radius(**case) * 1e9:.1f} nm"
+    '57.7 nm'
+    """
+    R, E, w, s = positive(
+        radius=radius,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+        strength=strength,
+    )
+    b = 2 * s / E * (1 - 2 / np.pi)
+    return plain(2 * w / s / (b + np.sqrt(b**2 + 2 * w / (s * R))))
+
+
+def curve_without_contact(
+    cohesive_radius: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    strength: npt.ArrayLike,
+) -> Point:
+    r"""Return the equilibrium state that attracts over a cohesive radius [m] but does not touch.
+
+    A uniform tension over r < c lifts the surface by :math:`2 \sigma_0 c / E^*` at the centre
+    and :math:`4 \sigma_0 c / \pi E^*` at c, where the gap is :math:`\Delta\gamma_0/\sigma_0`:
+
+    .. math:: \delta = \frac{c^2}{2R} - \frac{4 \sigma_0 c}{\pi E^*}
+              - \frac{\Delta\gamma_0}{\sigma_0}, \quad P = -\pi c^2 \sigma_0
+
+    From :func:`touching_radius`, where it joins :func:`curve`, down to zero, where the sphere
+    leaves the range of adhesion. A rigid drive holds it while :math:`c > 4 \sigma_0 R/\pi E^*`.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-6, contact_modulus=1e9, work_of_adhesion=0.05, strength=2e7)
+    >>> f"{curve_without_contact(3e-8, **case).force * 1e9:.1f} nN"
+    '-56.5 nN'
+    """
+    R, E, w, s = positive(
+        radius=radius,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+        strength=strength,
+    )
+    c = at_least(0, "it is a length", cohesive_radius=cohesive_radius)
+    limit = np.asarray(touching_radius(radius=R, contact_modulus=E, work_of_adhesion=w, strength=s))
+    if np.any(c > limit * (1 + ROUND_OFF)):
+        raise ValueError(
+            f"cohesive_radius must not exceed the touching radius {np.min(limit):.6g} m, got "
+            f"{np.max(c)} m; where the sphere touches use curve"
+        )
+    d = c**2 / (2 * R) - 4 * s * c / (np.pi * E) - w / s
+    return Point(plain(0.0 * d), plain(c + 0.0 * d), plain(d), plain(-np.pi * c**2 * s))
+
+
+def pressure(
+    position: npt.ArrayLike,
+    *,
+    contact_radius: npt.ArrayLike,
+    cohesive_radius: npt.ArrayLike,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    strength: npt.ArrayLike,
+) -> Number:
+    r"""Return the pressure [Pa] at a distance [m] from the axis, positive in compression.
+
+    Inside the contact
+
+    .. math:: p = \frac{2 E^*}{\pi R} \sqrt{a^2 - r^2}
+              - \frac{2 \sigma_0}{\pi} \arctan \sqrt{\frac{c^2 - a^2}{a^2 - r^2}},
+
+    minus the strength up to c, zero beyond.
+
+    Examples
+    --------
+    >>> state = dict(contact_radius=4e-8, cohesive_radius=8e-8, radius=1e-6)
+    >>> f"{pressure(0.0, contact_modulus=1e9, strength=2e7, **state) / 1e6:.1f} MPa"
+    '12.1 MPa'
+    """
+    s = positive(strength=strength)
+    a = at_least(0, "it is a length", contact_radius=contact_radius)
+    c = at_least(a, "it is the outer radius of the ring", cohesive_radius=cohesive_radius)
+    p = hertz.pressure(position, contact_radius=a, radius=radius, contact_modulus=contact_modulus)
+    r = np.asarray(position, dtype=float)
+    inner = np.sqrt(np.maximum((a - r) * (a + r), 0))
+    tension = 2 * s / np.pi * np.arctan2(np.sqrt((c - a) * (c + a)), inner)
+    return plain(p - np.where(r < a, tension, np.where(r <= c, s, 0.0)))

@@ -1,0 +1,278 @@
+r"""Adhesion of vanishing range for any profile: flat punch, cone, power law, and the general rule.
+
+Whatever the shape, adhesion lifts a contact of radius a by the flat punch that carries the
+stress intensity of the work of adhesion:
+
+.. math:: \delta = \delta_1(a) - \sqrt{\frac{2 \pi a \Delta\gamma_0}{E^*}}, \quad
+          P = P_1(a) - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
+
+with the adhesionless depth and force at the same radius (Eq. 2.10 and 2.11). Parameters:
+``contact_modulus`` E* [Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2]; the indenter is
+rigid. Range: large Tabor number, elastic half-space, small slopes. A profile is
+:math:`z = A r^q`, with ``exponent`` q and ``coefficient`` A [m^(1-q)]: q = 1 is a cone of slope
+A, q = 2 with A = 1/2R the sphere of :mod:`viscotack.theory.elastic.jkr`.
+
+Source: Sneddon (1965), doi:10.1016/0020-7225(65)90019-4, without adhesion; Maghami, PhD thesis
+(2025), Eq. 2.10 and 2.11; the flat punch of Kendall (1971), doi:10.1088/0022-3727/4/8/320.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.special import gammaln
+
+from viscotack.theory._checks import Number, at_least, plain, positive
+
+_LENGTH = "a contact radius is a length"
+
+
+class Point(NamedTuple):
+    """A point of an equilibrium curve: contact radius [m], depth [m], force [N]."""
+
+    contact_radius: Number
+    depth: Number
+    force: Number
+
+
+def with_adhesion(
+    depth: npt.ArrayLike,
+    force: npt.ArrayLike,
+    *,
+    stiffness: npt.ArrayLike,
+    stiffness_slope: npt.ArrayLike,
+    area_slope: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> tuple[Number, Number]:
+    r"""Return depth [m] and force [N] with adhesion, from an adhesionless state (Eq. 2.10, 2.11).
+
+    .. math:: \delta_2 = \delta_1 - \sqrt{2 \Delta\gamma_0 A_1' / P_1''}, \quad
+              P_2 = P_1 - P_1' \sqrt{2 \Delta\gamma_0 A_1' / P_1''}
+
+    Parameters
+    ----------
+    depth, force : array_like
+        The adhesionless state :math:`\delta_1` [m], :math:`P_1` [N].
+    stiffness, stiffness_slope : array_like
+        First and second derivative of the adhesionless force by the depth [N/m, N/m^2], positive.
+    area_slope : array_like
+        Derivative of the adhesionless contact area by the depth [m], positive.
+    work_of_adhesion : array_like
+        :math:`\Delta\gamma_0` [J/m^2].
+
+    Notes
+    -----
+    Exact for every axisymmetric profile on a half-space; an approximation where the contact is
+    not one circle, such as a rough surface or a thin layer.
+
+    Examples
+    --------
+    A sphere of 1 mm, 10 um deep in a solid with E* = 1 MPa:
+
+    >>> found = with_adhesion(
+    ...     1e-5, 4 / 3e3, stiffness=200.0, stiffness_slope=1e7,
+    ...     area_slope=np.pi * 1e-3, work_of_adhesion=0.05,
+    ... )
+    >>> f"{found[0] * 1e6:.2f} um, {found[1] * 1e3:.3f} mN"
+    '4.40 um, 0.212 mN'
+    """
+    S, slope, A, w = positive(
+        stiffness=stiffness,
+        stiffness_slope=stiffness_slope,
+        area_slope=area_slope,
+        work_of_adhesion=work_of_adhesion,
+    )
+    lift = np.sqrt(2 * w * A / slope)
+    return plain(np.asarray(depth) - lift), plain(np.asarray(force) - S * lift)
+
+
+def punch_force(
+    depth: npt.ArrayLike, *, contact_radius: npt.ArrayLike, contact_modulus: npt.ArrayLike
+) -> Number:
+    r"""Return the force [N] of a flat circular punch, :math:`P = 2 E^* a \delta`.
+
+    In tension until :func:`punch_pull_off`.
+
+    Examples
+    --------
+    >>> f"{punch_force(-1e-6, contact_radius=1e-3, contact_modulus=1e6) * 1e3:.1f} mN"
+    '-2.0 mN'
+    """
+    a, E = positive(contact_radius=contact_radius, contact_modulus=contact_modulus)
+    return plain(2 * E * a * np.asarray(depth, dtype=float))
+
+
+def punch_pressure(
+    position: npt.ArrayLike,
+    *,
+    depth: npt.ArrayLike,
+    contact_radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+) -> Number:
+    r"""Return the pressure [Pa] under a flat punch at a distance [m] from the axis; zero outside.
+
+    .. math:: p = \frac{E^* \delta}{\pi \sqrt{a^2 - r^2}}
+
+    Examples
+    --------
+    >>> p = punch_pressure(0.0, depth=-1e-6, contact_radius=1e-3, contact_modulus=1e6)
+    >>> f"{p:.1f} Pa"
+    '-318.3 Pa'
+    """
+    a, E = positive(contact_radius=contact_radius, contact_modulus=contact_modulus)
+    r = at_least(0, "a distance from the axis is not negative", position=position)
+    if np.any(r == a):
+        raise ValueError("position must not be the edge of the punch, where the stress is infinite")
+    inside = np.where(r < a, (a - r) * (a + r), np.inf)
+    return plain(E * np.asarray(depth, dtype=float) / (np.pi * np.sqrt(inside)))
+
+
+def punch_pull_off(
+    *,
+    contact_radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Point:
+    r"""Return where a flat punch comes off, all at once, under load and depth control alike.
+
+    .. math:: P = -\sqrt{8 \pi E^* a^3 \Delta\gamma_0}, \quad
+              \delta = -\sqrt{2 \pi a \Delta\gamma_0 / E^*}
+
+    Range: the forces reach much less far than :math:`E^* \Delta\gamma_0/\sigma_0^2` is long beside
+    a; a small punch comes off uniformly, at its strength.
+
+    Examples
+    --------
+    >>> end = punch_pull_off(contact_radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{end.force * 1e3:.1f} mN at {end.depth * 1e6:.1f} um"
+    '-35.4 mN at -17.7 um'
+    """
+    a, E, w = positive(
+        contact_radius=contact_radius,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+    )
+    lift = np.sqrt(2 * np.pi * a * w / E)
+    return Point(plain(a + 0 * lift), plain(-lift), plain(-2 * E * a * lift))
+
+
+def depth(
+    contact_radius: npt.ArrayLike,
+    *,
+    exponent: npt.ArrayLike,
+    coefficient: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the depth [m] of a profile at a contact radius [m].
+
+    .. math:: \delta = A \kappa a^q - \sqrt{2 \pi a \Delta\gamma_0/E^*}, \quad
+              \kappa = \sqrt\pi \, \Gamma(1 + q/2) / \Gamma(1/2 + q/2)
+
+    Examples
+    --------
+    >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{depth(1e-4, **cone) * 1e6:.2f} um"
+    '10.10 um'
+    """
+    q, C, E, w = _checked(exponent, coefficient, contact_modulus, work_of_adhesion)
+    a = at_least(0, _LENGTH, contact_radius=contact_radius)
+    return plain(C * a**q - np.sqrt(2 * np.pi * a * w / E))
+
+
+def force(
+    contact_radius: npt.ArrayLike,
+    *,
+    exponent: npt.ArrayLike,
+    coefficient: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the force [N] of a profile at a contact radius [m], positive in compression.
+
+    .. math:: P = \frac{2 q}{q + 1} E^* A \kappa a^{q + 1} - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
+
+    with :math:`\kappa` of :func:`depth`.
+
+    Examples
+    --------
+    >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{force(1e-4, **cone) * 1e3:.3f} mN"
+    '0.450 mN'
+    """
+    q, C, E, w = _checked(exponent, coefficient, contact_modulus, work_of_adhesion)
+    a = at_least(0, _LENGTH, contact_radius=contact_radius)
+    return plain(2 * q / (q + 1) * E * C * a ** (q + 1) - np.sqrt(8 * np.pi * E * a**3 * w))
+
+
+def pull_off(
+    *,
+    exponent: npt.ArrayLike,
+    coefficient: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Point:
+    r"""Return the force minimum of a profile, where a dead load detaches.
+
+    .. math:: a^{q - 1/2} = \frac{3}{2 q A \kappa} \sqrt{2 \pi \Delta\gamma_0/E^*}, \quad
+              P = -\frac{q - 1/2}{q + 1} \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
+
+    The modulus drops out of the force for q = 2 alone. Range: q above 1/2; flatter tips keep no
+    force minimum.
+
+    Examples
+    --------
+    >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> end = pull_off(**cone)
+    >>> f"{end.force * 1e6:.1f} uN at {end.contact_radius * 1e6:.1f} um"
+    '-43.0 uN at 28.6 um'
+    """
+    return _end(exponent, coefficient, contact_modulus, work_of_adhesion, 1.5)
+
+
+def instability(
+    *,
+    exponent: npt.ArrayLike,
+    coefficient: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Point:
+    r"""Return the depth minimum of a profile, where a rigid drive detaches.
+
+    :math:`a^{q - 1/2}` is a third of that of :func:`pull_off`; range q above 1/2.
+
+    Examples
+    --------
+    >>> cone = dict(exponent=1.0, coefficient=0.1, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{instability(**cone).depth * 1e6:.2f} um"
+    '-0.50 um'
+    """
+    return _end(exponent, coefficient, contact_modulus, work_of_adhesion, 0.5)
+
+
+def _checked(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any) -> Any:
+    """Return q, A kappa, E* and w."""
+    q, A, E, w = positive(
+        exponent=exponent,
+        coefficient=coefficient,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work,
+    )
+    return q, A * np.sqrt(np.pi) * np.exp(gammaln(1 + q / 2) - gammaln(0.5 + q / 2)), E, w
+
+
+def _end(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any, factor: float) -> Point:
+    q, C, E, w = _checked(exponent, coefficient, contact_modulus, work)
+    if np.any(q <= 0.5):
+        raise ValueError(
+            f"exponent must be above 1/2, got {np.min(q)}; the force of a flatter tip has no "
+            "minimum, see punch_pull_off"
+        )
+    lift = np.sqrt(2 * np.pi * w / E)
+    a = (factor * lift / (q * C)) ** (1 / (q - 0.5))
+    # from the stationarity, without the difference of two large terms
+    d = np.sqrt(a) * lift * (factor / q - 1)
+    P = 2 * E * a**1.5 * lift * (factor / (q + 1) - 1)
+    return Point(plain(a), plain(d), plain(P))

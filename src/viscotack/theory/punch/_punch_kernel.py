@@ -1,0 +1,134 @@
+r"""A rigid punch pressed into a layer: the integral equation, solved once for all sizes.
+
+Lengths in half widths a, lambda = a/b. Under a pressure p = phi(t) / sqrt(1 - t^2) the surface
+of the layer sinks by
+
+    (2/pi) int p(s) int_0^inf kappa(u)/u cos(u lambda (t - s)) du ds,
+
+with the transfer function kappa of the base, and the punch makes that 1. The logarithm in the
+kernel is diagonal in Chebyshev polynomials, the rest is analytic for |Im(lambda t)| < 2, so
+Gauss-Chebyshev points converge geometrically. What matters is then a function of lambda alone, held
+by Chebyshev polynomials in ln(1 + lambda) up to where the two edges no longer know of each other.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import make_interp_spline
+
+from viscotack.geometry import Base, Bonded
+
+Array = npt.NDArray[np.float64]
+
+# kappa differs from 1 - exp(-2u) by u^2 exp(-2u): nothing is left at this u.
+_CUT = 22.0
+# Spacing and degree with which the smooth part of the kernel is held to round-off.
+_SPACING, _SPLINE = 0.03, 7
+# Gauss-Chebyshev points of a half: the pressure has an edge layer of a thickness.
+_POINTS, _PER_THICKNESS = 22, 3
+# exp(-this) of the interaction of the edges is left where a table ends.
+_FORGOTTEN = 30.0
+# A table of a layer nearer to incompressible would not end.
+LARGEST_POISSON_RATIO = 0.49
+
+
+class Curve(NamedTuple):
+    """The state of a punch as a function of a/b."""
+
+    longest: float
+    foundation: float
+    offset: float
+    inverse: Any
+    stress: Any
+
+    def __call__(self, ratio: Any) -> tuple[Any, Any]:
+        """Return S, force per depth and length in E*, and the pull-off stress in sqrt(E* w/a)."""
+        x = np.minimum(ratio, self.longest)
+        q = np.log1p(x)
+        S = 1 / (self.inverse(q) / (1 + x) + _half_plane(x))
+        stress = self.stress(q) * np.sqrt(1 + x)
+        thin = ratio > self.longest
+        # S = 2 zeta a/b + c, and a S' its first term alone
+        line = 2 * ratio / self.foundation
+        return (
+            np.where(thin, line + self.offset, S),
+            np.where(thin, (line + self.offset) / np.sqrt(line), stress),
+        )
+
+
+@lru_cache(maxsize=32)
+def curve(base: Base) -> Curve:
+    """Return the state of a punch on a layer with this base, computed on first use."""
+    if isinstance(base, Bonded) and base.poisson_ratio > LARGEST_POISSON_RATIO:
+        raise ValueError(
+            f"poisson_ratio of a bonded layer must be at most {LARGEST_POISSON_RATIO} here, got "
+            f"{base.poisson_ratio}: the nearer to 0.5, the farther its edges feel each other"
+        )
+    longest = _FORGOTTEN / _decay(base) + 1
+    degree = 40 + 2 * int(longest)
+    end = np.log1p(longest)
+    nodes = (1 + np.polynomial.chebyshev.chebpts1(degree + 1)) * end / 2
+    ratios = np.append(np.expm1(nodes), longest)
+    S, edge = states(ratios, base)
+    # a S' = 2 pi phi(1)^2, from the stress intensity at the edges
+    stress = S / (np.sqrt(2 * np.pi) * edge)
+    shapes = (1 / S - _half_plane(ratios)) * (1 + ratios), stress / np.sqrt(1 + ratios)
+    inverse, stress = (
+        np.polynomial.Chebyshev.fit(nodes, y[:-1], degree, domain=[0, end]) for y in shapes
+    )
+    offset = float(S[-1] - 2 * longest / base.foundation)
+    return Curve(longest, base.foundation, offset, inverse, stress)
+
+
+def states(ratios: Array, base: Base) -> tuple[Array, Array]:
+    """Return S, the force of a punch sunk by 1, and phi(1), the strength of its edges, per a/b."""
+    smooth = _smooth_kernel(2 * float(np.max(ratios)), base)
+    force, edge = np.array([_state(float(ratio), smooth) for ratio in ratios]).T
+    return force, edge
+
+
+def _half_plane(ratio: Any) -> Any:
+    """Return what 1/S has of the logarithm of a thick layer; nothing for a thin one."""
+    return np.log1p(ratio**-2.0) / np.pi
+
+
+def _decay(base: Base) -> float:
+    """Return y with which edges forget each other as exp(-y a/b): the first zero of kappa(iy/2)."""
+    if not isinstance(base, Bonded):
+        return 2 * np.pi
+    # q sin y = y
+    q, low, high = 3 - 4 * base.poisson_ratio, 1e-3, np.pi
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if q * np.sin(middle) > middle else (low, middle)
+    return (low + high) / 2
+
+
+def _smooth_kernel(longest: float, base: Base) -> Any:
+    """Return the kernel without its logarithm as a spline of the distance in thicknesses."""
+    panels = int(np.ceil(_CUT * (longest + 4) / 60)) + 2
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    width = _CUT / panels
+    u = (np.arange(panels)[:, None] * width + width / 2 * (nodes + 1)).ravel()
+    weights = np.tile(width / 2 * weights, panels)
+    rest = weights * (base.transfer(u) - 1 + np.exp(-2 * u)) / u
+    x = np.arange(-8, int(np.ceil(longest / _SPACING)) + 9) * _SPACING
+    values = np.log(x**2 + 4) / 2 + np.cos(np.multiply.outer(x, u)) @ rest
+    return make_interp_spline(x, values, k=_SPLINE)
+
+
+def _state(ratio: float, smooth: Any) -> tuple[float, float]:
+    n = _POINTS + int(np.ceil(_PER_THICKNESS * ratio))
+    angle = (2 * np.arange(n) + 1) * np.pi / (4 * n)
+    t, orders = np.cos(angle), 2 * np.arange(n)
+    # the solution is even: fold the other half onto this one
+    kernel = smooth(ratio * np.abs(t[:, None] - t)) + smooth(ratio * (t[:, None] + t))
+    polynomials = np.cos(np.outer(angle, orders))
+    logarithm = np.pi * np.append(np.log(2 / ratio), 1 / orders[1:])
+    system = 2 / np.pi * (polynomials * logarithm + np.pi / (2 * n) * kernel @ polynomials)
+    coefficients = np.linalg.solve(system, np.ones(n))
+    return np.pi * float(coefficients[0]), float(np.sum(coefficients))

@@ -1,0 +1,168 @@
+r"""What the retraction curve of a flat punch on a layer says: its surface energy, its work.
+
+From a simulation or a rig. Parameters as in :mod:`viscotack.theory.punch.punch`; stress is the
+force over the area of the punch, tension positive.
+
+Source: Maghami, PhD thesis (2025), Eq. 3.29, 3.30 and 3.36.
+"""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.geometry import Base
+from viscotack.theory._checks import Number, plain, positive
+
+from ._punch_kernel import curve
+
+
+def surface_energy(
+    pull_off_stress: npt.ArrayLike,
+    *,
+    thickness: npt.ArrayLike,
+    half_width: npt.ArrayLike,
+    ligament: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    base: Base,
+) -> Number:
+    r"""Return the surface energy [J/m^2] that a measured pull-off stress stands for.
+
+    Eq. 3.29 without its restriction to thin layers: an elastic contact as wide as the ligament
+    that is left at pull-off carries the force :math:`2 a \bar\sigma_{po}`.
+
+    Parameters
+    ----------
+    pull_off_stress : array_like
+        Largest tensile force over the area of the punch [Pa], positive.
+    thickness, half_width : array_like
+        b and a [m].
+    ligament : array_like
+        Half width :math:`a_c` [m] still in contact at pull-off, at most a.
+    contact_modulus : array_like
+        Rubbery E0* [Pa].
+    base : Frictionless or Bonded
+        What the layer rests on.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> pad = dict(thickness=5e-3, half_width=1e-3, contact_modulus=1e6, base=Frictionless())
+    >>> f"{surface_energy(2e4, ligament=0.9e-3, **pad):.3f} J/m^2"
+    '0.274 J/m^2'
+    """
+    on_ligament, b, _, c, E = _checked(
+        pull_off_stress, thickness, half_width, ligament, contact_modulus
+    )
+    _, stress = curve(base)(c / b)
+    return plain((on_ligament / stress) ** 2 * c / E)
+
+
+def thin_layer_surface_energy(
+    pull_off_stress: npt.ArrayLike,
+    *,
+    thickness: npt.ArrayLike,
+    half_width: npt.ArrayLike,
+    ligament: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    base: Base,
+) -> Number:
+    r"""Return the surface energy [J/m^2] of a measured pull-off stress, for a thin layer.
+
+    .. math:: \Delta\gamma_{eff} = \frac{\bar\sigma_{po}^2 b}{2 \zeta E_0^*}
+              \left( \frac{a}{a_c} \right)^2
+
+    Eq. 3.29, and 3.30 over the work of adhesion. Parameters as :func:`surface_energy`, which holds
+    for every thickness. A ``UserWarning`` is given for a layer thicker than
+    :math:`b_1 = 4 \zeta a/\pi`, on which this formula promises more than there is.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> pad = dict(thickness=1e-4, half_width=1e-3, contact_modulus=1e6, base=Frictionless())
+    >>> f"{thin_layer_surface_energy(4e4, ligament=0.9e-3, **pad):.4f} J/m^2"
+    '0.0988 J/m^2'
+    """
+    on_ligament, b, a, _, E = _checked(
+        pull_off_stress, thickness, half_width, ligament, contact_modulus
+    )
+    if np.any(b * base.foundation > 4 / np.pi * a):
+        warnings.warn(
+            "the layer is thicker than b1 = 4 zeta a/pi somewhere, where the thin-layer formula "
+            "overstates the surface energy: use theory.punch_curve.surface_energy",
+            UserWarning,
+            stacklevel=2,
+        )
+    return plain(on_ligament**2 * b * base.foundation / (2 * E))
+
+
+def work_of_separation(depth: npt.ArrayLike, stress: npt.ArrayLike) -> float:
+    r"""Return the work [J/m^2] that separates the punch, per area, of a retraction curve.
+
+    .. math:: w_{sep} = \int_{-\infty}^{\delta_P} \bar\sigma \, d\delta
+
+    from the last zero of the force before its maximum, at :math:`\delta_P`, to the end of the
+    curve (Eq. 3.36, whose limits and scale are misprinted; over the work of adhesion it is
+    :math:`\hat w_{sep}`). From the start where that is in tension already.
+
+    Parameters
+    ----------
+    depth : array_like, shape (N,)
+        Depth [m], positive into the layer, as it comes in time; falling in retraction.
+    stress : array_like, shape (N,)
+        Mean stress [Pa], tension positive.
+
+    Notes
+    -----
+    By trapezoids: second order in the step. For the elastic layer see
+    :func:`viscotack.theory.punch.punch_crossover.work_of_separation`.
+
+    Examples
+    --------
+    An elastic layer, 10 kPa/um, that lets go at 3 um:
+
+    >>> w = work_of_separation([1e-6, -1e-6, -3e-6, -3e-6], [-1e4, 1e4, 3e4, 0.0])
+    >>> f"{w:.3f} J/m^2"
+    '0.045 J/m^2'
+    """
+    d, s = np.asarray(depth, dtype=float), np.asarray(stress, dtype=float)
+    if d.ndim != 1 or d.shape != s.shape or d.size < 2:
+        raise ValueError(
+            f"depth and stress must be two lists of one length, got shapes {d.shape} and {s.shape}"
+        )
+    if not (np.all(np.isfinite(d)) and np.all(np.isfinite(s))):
+        raise ValueError("depth and stress must be finite: leave out what was not measured")
+    top = int(np.argmax(s))
+    if s[top] <= 0:
+        raise ValueError(f"the curve has no tension, its largest stress is {s[top]:.6g} Pa")
+    pressed = np.flatnonzero(s[:top] <= 0)
+    if pressed.size:
+        i = int(pressed[-1])
+        zero = d[i] + (d[i + 1] - d[i]) * s[i] / (s[i] - s[i + 1])
+        d, s = np.append(zero, d[i + 1 :]), np.append(0.0, s[i + 1 :])
+    return -float(np.sum((s[1:] + s[:-1]) / 2 * np.diff(d)))
+
+
+def _checked(
+    pull_off_stress: npt.ArrayLike,
+    thickness: npt.ArrayLike,
+    half_width: npt.ArrayLike,
+    ligament: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+) -> Any:
+    """Return the mean stress on the ligament, b, a, the ligament and E*."""
+    s, b, a, c, E = positive(
+        pull_off_stress=pull_off_stress,
+        thickness=thickness,
+        half_width=half_width,
+        ligament=ligament,
+        contact_modulus=contact_modulus,
+    )
+    if np.any(c > a):
+        raise ValueError(
+            "ligament must not be wider than the punch: it is the half width still in contact"
+        )
+    return s * a / c, b, a, c, E

@@ -1,0 +1,152 @@
+r"""The flat punch at the two ends of thickness: the half-plane and the thin layer.
+
+Parameters as in :mod:`viscotack.theory.punch.punch`, which joins them.
+
+Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.9 and appendix I.
+"""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.geometry import Base, Bonded
+from viscotack.theory._checks import Number, plain, positive
+
+# The thin-layer law of a bonded layer asks for a Poisson ratio up to this (appendix I).
+_THIN_POISSON = 0.45
+
+
+def fracture_length(
+    *,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    strength: npt.ArrayLike,
+) -> Number:
+    r"""Return the half width a0 [m] below which a punch on a half-plane comes off at its strength.
+
+    .. math:: a_0 = \frac{\pi E^* \Delta\gamma_0}{2 \sigma_0^2} \quad \text{(Eq. 3.3)}
+
+    Twice :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`.
+
+    Examples
+    --------
+    >>> a0 = fracture_length(contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4)
+    >>> f"{a0 * 1e6:.1f} um"
+    '31.4 um'
+    """
+    E, w, s = positive(
+        contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion, strength=strength
+    )
+    return plain(np.pi * E * w / (2 * s**2))
+
+
+def half_plane_pull_off_stress(
+    half_width: npt.ArrayLike,
+    *,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the mean stress [Pa] that pulls a punch off a half-plane.
+
+    .. math:: \bar\sigma_{po} = \sqrt{\frac{\pi E^* \Delta\gamma_0}{2 a}} \quad \text{(Eq. 3.2)}
+
+    Range: a well above :func:`fracture_length`. Times 2a it is the force per length, Eq. 3.1.
+
+    Examples
+    --------
+    >>> s = half_plane_pull_off_stress(1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{s / 1e3:.2f} kPa"
+    '8.86 kPa'
+    """
+    a, E, w = positive(
+        half_width=half_width, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    return plain(np.sqrt(np.pi * E * w / (2 * a)))
+
+
+def thin_layer_pull_off_stress(
+    thickness: npt.ArrayLike,
+    *,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    base: Base,
+) -> Number:
+    r"""Return the mean stress [Pa] that pulls a wide punch off a thin layer.
+
+    .. math:: \bar\sigma_{po} = \sqrt{\frac{2 \zeta E^* \Delta\gamma_0}{b}}
+              \quad \text{(Eq. 3.9, appendix I)}
+
+    Range: b0 < b << a; low by 0.177 b/a of itself on a frictionless base. A bonded layer with a
+    Poisson ratio above 0.45 gives a ``UserWarning``.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> layer = dict(contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> free = thin_layer_pull_off_stress(1e-4, **layer, base=Frictionless())
+    >>> glued = thin_layer_pull_off_stress(1e-4, **layer, base=Bonded(poisson_ratio=0.4))
+    >>> f"{free / 1e3:.1f} kPa, glued {glued / 1e3:.1f} kPa"
+    '31.6 kPa, glued 42.4 kPa'
+    """
+    b, E, w = positive(
+        thickness=thickness, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    return plain(np.sqrt(2 * stiffening(base) * E * w / b))
+
+
+def thin_layer_pull_off_depth(
+    thickness: npt.ArrayLike,
+    *,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+    base: Base,
+) -> Number:
+    r"""Return the depth [m] at which a wide punch comes off a thin layer, negative.
+
+    .. math:: \delta_{po} = -\sqrt{\frac{2 b \Delta\gamma_0}{\zeta E^*}} \quad \text{(Eq. 3.9)}
+
+    Exact but for terms of the order exp(-2 pi a/b), frictionless. Range otherwise as
+    :func:`thin_layer_pull_off_stress`.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> layer = dict(contact_modulus=1e6, work_of_adhesion=0.05, base=Frictionless())
+    >>> f"{thin_layer_pull_off_depth(1e-4, **layer) * 1e6:.2f} um"
+    '-3.16 um'
+    """
+    b, E, w = positive(
+        thickness=thickness, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+    )
+    return plain(-np.sqrt(2 * b * w / (stiffening(base) * E)))
+
+
+def stiffening(base: Base) -> float:
+    r"""Return zeta, how much stiffer a thin layer is than one that slides on its base.
+
+    .. math:: \zeta = \frac{(1 - \nu)^2}{1 - 2 \nu} \quad \text{(bonded, appendix I)}
+
+    A ``UserWarning`` is given for a Poisson ratio above 0.45, where only layers much thinner than
+    the punch is wide obey the thin-layer law; at 0.5 there is none, and a ``ValueError``.
+
+    Examples
+    --------
+    >>> f"{stiffening(Bonded(poisson_ratio=0.3)):.3f}"
+    '1.225'
+    """
+    if base.foundation == 0:
+        raise ValueError(
+            "the thin-layer law has no answer for a bonded layer with a Poisson ratio of 0.5: it "
+            "cannot be stretched without flowing sideways"
+        )
+    if isinstance(base, Bonded) and base.poisson_ratio > _THIN_POISSON:
+        warnings.warn(
+            f"the thin-layer law of a bonded layer asks for a Poisson ratio of {_THIN_POISSON} at "
+            f"most, got {base.poisson_ratio}: use theory.punch_crossover",
+            UserWarning,
+            stacklevel=3,
+        )
+    return 1 / base.foundation

@@ -1,0 +1,124 @@
+r"""Laws that fit measured adhesion: Gent-Schultz, the loss in the process zone, WLF.
+
+They say what a material did in a range of speed and temperature; nothing else carries them outside
+it. Speeds are those of the crack [m/s].
+
+Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25, 4.28 and Fig. 4.10b, published as
+doi:10.1016/j.jmps.2024.105844; Gent & Schultz (1972), J. Adhesion 3, 281 (no DOI known to this
+package); Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
+"""
+
+from __future__ import annotations
+
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, at_least, plain, positive
+
+_OPENS = "a crack that closes is another problem"
+# Fig. 4.10b, a silicone on a glass lens
+ZONE_SPEED, ZONE_EXPONENT = 1e-2, 0.5
+
+
+def gent_schultz(
+    speed: npt.ArrayLike, *, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike
+) -> Number:
+    r"""Return effective over intrinsic surface energy at a crack speed [m/s] (Eq. 2.19, 4.28).
+
+    .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = 1 + \left( \frac{v}{v_0} \right)^\xi
+
+    Examples
+    --------
+    The silicone of the thesis, at 100 um/s:
+
+    >>> f"{gent_schultz(1e-4, reference_speed=213.5e-6, exponent=0.4154):.3f}"
+    '1.730'
+    """
+    v0, xi = positive(reference_speed=reference_speed, exponent=exponent)
+    v = at_least(0, _OPENS, speed=speed)
+    return plain(1 + (v / v0) ** xi)
+
+
+def gent_schultz_speed(
+    amplification: npt.ArrayLike, *, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike
+) -> Number:
+    """Return the crack speed [m/s] of an amplification that is at least 1.
+
+    Examples
+    --------
+    >>> f"{gent_schultz_speed(2.0, reference_speed=213.5e-6, exponent=0.4154) * 1e6:.1f} um/s"
+    '213.5 um/s'
+    """
+    v0, xi = positive(reference_speed=reference_speed, exponent=exponent)
+    gamma = at_least(1, "a crack at rest takes the work of adhesion", amplification=amplification)
+    return plain(v0 * (gamma - 1) ** (1 / xi))
+
+
+def gent_schultz_reference_speed(
+    *, coefficient: npt.ArrayLike, shift: npt.ArrayLike, exponent: npt.ArrayLike
+) -> Number:
+    r"""Return the reference speed [m/s] from Gent and Schultz's own constants.
+
+    .. math:: v_{ref} = k_{GS}^{-1/n} / a_{GS}, \quad
+              \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = 1 + k_{GS} (a_{GS} v)^n
+
+    (the thesis prints :math:`(k_{GS} a_{GS}^n)^{-1}`, which lacks the root).
+
+    Parameters
+    ----------
+    coefficient : float
+        :math:`k_{GS}` [(s/m)^n].
+    shift : float
+        :math:`a_{GS}`, shift factor of temperature, see :func:`wlf_shift`.
+    exponent : float
+        n.
+
+    Examples
+    --------
+    >>> v = gent_schultz_reference_speed(coefficient=33.5, shift=1.0, exponent=0.4154)
+    >>> f"{v * 1e6:.1f} um/s"
+    '213.2 um/s'
+    """
+    c, a, n = positive(coefficient=coefficient, shift=shift, exponent=exponent)
+    return plain(c ** (-1 / n) / a)
+
+
+def process_zone_correction(
+    speed: npt.ArrayLike,
+    *,
+    reference_speed: npt.ArrayLike = ZONE_SPEED,
+    exponent: npt.ArrayLike = ZONE_EXPONENT,
+) -> Number:
+    r"""Return measured over linear-theory surface energy at a crack speed [m/s] (Fig. 4.10b).
+
+    .. math:: 1 + (v/v_1)^{1/2}, \quad v_1 = 10^4 \, \mathrm{um/s}
+
+    Multiplies the amplification of the bulk. The numbers given when left out are the fit to one
+    silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); another interface
+    needs its own.
+
+    Examples
+    --------
+    >>> f"{process_zone_correction(1e-4):.2f}"
+    '1.10'
+    """
+    v1, m = positive(reference_speed=reference_speed, exponent=exponent)
+    v = at_least(0, _OPENS, speed=speed)
+    return plain(1 + (v / v1) ** m)
+
+
+def wlf_shift(temperature: npt.ArrayLike, *, glass_transition: npt.ArrayLike) -> Number:
+    r"""Return the factor of times a_T at a temperature [K] over that at the glass transition [K].
+
+    .. math:: \log_{10} a_T = \frac{-17.44 (T - T_g)}{51.6 + T - T_g} \quad \text{(Eq. 4.25)}
+
+    Range: universal constants, from the glass transition to about 100 K above it. Refused below
+    it, where the law is not valid and has a pole. To shift to another temperature divide two.
+
+    Examples
+    --------
+    >>> f"{wlf_shift(293.15, glass_transition=158.15):.2e}"
+    '2.41e-13'
+    """
+    T, Tg = positive(temperature=temperature, glass_transition=glass_transition)
+    x = at_least(0, "the law does not hold below the glass transition", excess=T - Tg)
+    return plain(10 ** (-17.44 * x / (51.6 + x)))
