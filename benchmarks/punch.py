@@ -41,7 +41,7 @@ from viscotack import (
 from viscotack.bem.plain_punch import plain_solve
 from viscotack.theory import greenwood, punch_crossover, punch_map
 
-STYLE = Path(viscotack.__file__).with_name("viscotack.mplstyle")
+STYLE = Path(viscotack.__file__).parent / "pictures/viscotack.mplstyle"
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 SIZE, COHESION, K = 64.85, 0.05, 0.1
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)

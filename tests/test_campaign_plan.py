@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from viscotack import AtDepth, StandardSolid, read_case
-from viscotack.app.cli.flags import problem_from_flags
+from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import fill, grid
 from viscotack.campaign.running import expected_cost
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
@@ -63,7 +63,7 @@ def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     flags = {name.replace("_", "-"): value for name, value in INPUTS.items()}
     (case,) = plan.cases
     assert case.inputs == INPUTS
-    assert case.name == run_id(problem_from_flags(flags))
+    assert case.name == run_id(questions.stated(questions.SPHERE, flags))
     assert plan.settings == CaseSettings() and plan.suffix == ".csv"
 
 
@@ -74,7 +74,7 @@ def test_a_preload_may_be_a_force_or_a_radius(tmp_path):
         flags = INPUTS | {"tabor": 1.0, "rate": 10.0, name: 2.0}
         del flags["preload"]
         flags = {key.replace("_", "-"): value for key, value in flags.items()}
-        assert case.name == run_id(problem_from_flags(flags))
+        assert case.name == run_id(questions.stated(questions.SPHERE, flags))
 
 
 def test_a_punch_is_a_kind_of_its_own(tmp_path):
@@ -200,7 +200,11 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ("p.toml", "x = ", "not a TOML file"),
         ("p.toml", f"[grids]\n[[grid]]\n{CASE}", "unknown grids; a plan has kind"),
         ("p.toml", f"[grid]\n{CASE}", r"write \[\[grid\]\] with two brackets"),
-        ("p.toml", f'kind = "cube"\n[[grid]]\n{CASE}', "kind must be one of sphere, punch"),
+        (
+            "p.toml",
+            f'kind = "cube"\n[[grid]]\n{CASE}',
+            "kind must be one of sphere, profile, punch",
+        ),
         ("p.toml", f"[settings]\nuntl = 1\n[[grid]]\n{CASE}", r"\[settings\]: may have accuracy"),
         ("p.toml", f'[settings]\ntime_limit = "5 m"\n[[grid]]\n{CASE}', "time_limit"),
         ("p.toml", f"[settings]\naccuracy = 1\n[[grid]]\n{CASE}", "accuracy must be between"),
@@ -222,7 +226,7 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ("c.csv", HEADER + "1,0.1,0.8,5\n", "line 2: 4 values for 5 columns"),
         ("c.csv", HEADER + "1,0.1,0.8,5,10\n1,0.1,0.8,deep,10\n", "line 3: .*'deep'"),
         ("c.csv", HEADER + "1,0.1,0.8,5,10\n-1,0.1,0.8,5,10\n", "line 3: tabor must be"),
-        ("c.csv", HEADER + "1,10,0.8,5,10\n", "line 2: modulus_ratio is the rubbery"),
+        ("c.csv", HEADER + "1,10,0.8,5,10\n", "line 2: modulus_ratio must lie in .0, 1., got 10"),
         ("c.csv", HEADER + "1,0.1,0.8,5,nan\n", "line 2: rate must be"),
     ],
 )

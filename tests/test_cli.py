@@ -10,8 +10,8 @@ import pytest
 import viscotack
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
+from viscotack.app import questions
 from viscotack.app.cli import main
-from viscotack.app.cli.flags import problem_from_flags
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -141,7 +141,7 @@ def test_scales_with_units_turn_groups_into_si(fake, capsys):
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
-        ("", "--modulus-ratio and --exponent missing for --material power-law"),
+        ("", "--tabor, --modulus-ratio, --exponent and --rate missing .* exactly one of --preload"),
         ("--material elastic --preload 3", "--tabor missing"),
         ("--material sls --tabor 2 --modulus-ratio 0.1 --preload 3", "--rate missing"),
         ("--material elastic --tabor 2", "exactly one of --preload, .* got none"),
@@ -375,7 +375,7 @@ def test_version_is_printed_by_the_installed_command():
 
 def test_flags_that_nobody_gave_are_none():
     given = {"tabor": 2.0, "material": "elastic", "preload": 3.0, "rate": None, "exponent": None}
-    assert problem_from_flags(given).groups().rate == 1
+    assert questions.stated(questions.SPHERE, given).groups().rate == 1
 
 
 def test_a_true_simulation_from_a_terminal(tmp_path):

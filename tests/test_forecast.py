@@ -300,7 +300,7 @@ def test_impossible_questions_are_refused():
         start=vt.AtDepth(1.0),
         rate=1.0,
     )
-    with pytest.raises(vt.OutOfRange, match="for spheres, got PunchGroups"):
+    with pytest.raises(vt.OutOfRange, match="for spheres, got a punch"):
         vt.predict(punch)
     with pytest.raises(TypeError, match=r"got 'lens\.toml'; for a file give .*read_case"):
         vt.predict("lens.toml")

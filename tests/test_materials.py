@@ -35,14 +35,18 @@ METHODS = ["relaxation", "creep", "complex_modulus", "complex_compliance"]
 @every_class
 @pytest.mark.parametrize("wrong", [0, -1e6, math.nan, math.inf, None, "1 MPa", [1e6, 2e6]])
 def test_moduli_must_be_positive_numbers(kind, numbers, wrong):
-    with pytest.raises(ValueError, match="rubbery_modulus must be a positive, finite number"):
+    with pytest.raises(
+        ValueError, match="rubbery_modulus must be (positive|finite|a number in Pa)"
+    ):
         kind(**(numbers | dict(rubbery_modulus=wrong)))
 
 
 @every_class
 @pytest.mark.parametrize("wrong", [-0.1, 0.51, math.nan, "0.5"])
 def test_poisson_ratio_lies_between_0_and_a_half(kind, numbers, wrong):
-    with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
+    with pytest.raises(
+        ValueError, match="poisson_ratio must (lie between 0 and 0.5|be finite|be a number)"
+    ):
         kind(**(numbers | dict(poisson_ratio=wrong)))
 
 
@@ -51,16 +55,16 @@ def test_glassy_modulus_and_time_are_checked(kind):
     numbers = STANDARD if kind is StandardSolid else POWER_LAW
     with pytest.raises(ValueError, match="999999 Pa < 1e.06 Pa; perhaps the two are exchanged"):
         kind(**(numbers | dict(glassy_modulus=999999)))
-    with pytest.raises(ValueError, match="tau0 must be a positive, finite number .s., got -0.1"):
+    with pytest.raises(ValueError, match="tau0 must be positive, got -0.1 s"):
         kind(**(numbers | dict(tau0=-0.1)))
-    with pytest.raises(ValueError, match="glassy_modulus must be a positive"):
+    with pytest.raises(ValueError, match="glassy_modulus must be finite"):
         kind(**(numbers | dict(glassy_modulus=math.nan)))
 
 
 @pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
 def test_exponent_is_positive_and_at_most_3(kind):
     for wrong in (0, -0.2, math.nan):
-        with pytest.raises(ValueError, match="exponent must be a positive"):
+        with pytest.raises(ValueError, match="exponent must (lie in .0, 3.|be finite)"):
             kind(**(POWER_LAW | dict(exponent=wrong)))
     with pytest.raises(ValueError, match="exponent must lie in .0, 3., got 3.1; .*StandardSolid"):
         kind(**(POWER_LAW | dict(exponent=3.1)))

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from viscotack.app.cli.flags import problem_from_flags
+from viscotack.app import questions
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -171,12 +171,12 @@ def test_flags_may_name_a_passport(tmp_path):
     file = tmp_path / "x.toml"
     write_passport(pdms, file)
     flags = {"material": str(file), "tabor": 2.05, "preload": 30.0, "rate": 1.0}
-    assert problem_from_flags(flags).material == pdms.material.reduced()
+    assert questions.stated(questions.SPHERE, flags).material == pdms.material.reduced()
     scales = {"radius": "5.19 mm", "work-of-adhesion": "0.1523 J/m^2"}
-    solid = problem_from_flags(flags | scales).material
+    solid = questions.stated(questions.SPHERE, flags | scales).material
     assert solid.glassy_modulus == pytest.approx(3.089e9, rel=1e-14, abs=0)
     assert solid.tau0 == pdms.material.tau0
     assert solid.poisson_ratio == 0.5
     for flag, value in (("exponent", 0.3), ("tau0", "1 s"), ("modulus-ratio", 0.1)):
         with pytest.raises(ValueError, match=f"states the whole material; leave out --{flag}"):
-            problem_from_flags(flags | scales | {flag: value})
+            questions.stated(questions.SPHERE, flags | scales | {flag: value})

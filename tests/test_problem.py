@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from viscotack import problem as module
 from viscotack.geometry import Sphere
 from viscotack.materials import (
     Elastic,
@@ -15,7 +14,7 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups, Problem, revolution
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
@@ -164,13 +163,13 @@ def test_a_contact_beyond_small_strain_is_refused(start):
 def test_small_strain_is_judged_by_the_jkr_radius(start, force):
     """The estimate of the contact radius puts depth and force back on the JKR curve."""
     R, w, contact = 5.19e-3, 0.1523, E / (1 - NU**2)
-    a = module._relaxed_radius(lens(), AtForce(force))
+    a = revolution._relaxed_radius(lens(), AtForce(force))
     # Eq. 2.3 and 2.4
     load = 4 * contact * a**3 / (3 * R) - math.sqrt(8 * math.pi * w * contact * a**3)
     assert load == pytest.approx(force, rel=1e-9)
     depth = a**2 / R - math.sqrt(2 * math.pi * a * w / contact)
     if start is AtDepth:
-        assert module._relaxed_radius(lens(), AtDepth(depth)) == pytest.approx(a, rel=1e-9)
+        assert revolution._relaxed_radius(lens(), AtDepth(depth)) == pytest.approx(a, rel=1e-9)
 
 
 def test_a_start_without_a_jkr_contact_is_left_to_the_solver():
@@ -188,8 +187,8 @@ def test_a_range_of_forces_as_long_as_the_sphere_is_refused():
     [
         ("material", LennardJones(0.1, 1e-6), "material must be one of"),
         ("traction", Sphere(1.0), "traction must be a traction law"),
-        ("geometry", 5e-3, "geometry must be a Sphere, got float"),
-        ("protocol", AtForce(1e-3), "protocol must be a Retraction, got AtForce"),
+        ("geometry", 5e-3, "geometry cannot be a float; try Sphere"),
+        ("protocol", AtForce(1e-3), "protocol cannot be a AtForce; try Retraction"),
     ],
 )
 def test_a_part_in_the_wrong_place_is_refused(part, wrong, words):

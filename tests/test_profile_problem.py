@@ -10,11 +10,10 @@ from typer.testing import CliRunner
 from viscotack.app.cli import application
 from viscotack.bem import solve
 from viscotack.forecast.advice import advise
-from viscotack.geometry import Cone, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
-from viscotack.problem import Problem
+from viscotack.problem import Groups, Problem
 from viscotack.problem.case_file import read_case
-from viscotack.problem.profile_problem import ProfileGroups, ProfileProblem
 from viscotack.problem.record import from_dict, run_id, to_dict
 from viscotack.protocol import (
     Apart,
@@ -43,7 +42,7 @@ CONE, START = Cone(slope=0.2), AtForce(1e-6)
 
 def problem(profile=CONE, start=START, **others):
     parts = dict(speed=10e-6) | others
-    return ProfileProblem(SOLID, LAW, profile, Retraction(start=start, **parts))
+    return Problem(SOLID, LAW, profile, Retraction(start=start, **parts))
 
 
 # --- shapes ---------------------------------------------------------------------------------
@@ -78,7 +77,7 @@ def test_the_paraboloid_has_the_groups_and_the_scales_of_its_sphere(start):
     R, law = 5e-3, LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6)
     protocol = Retraction(start=start, speed=1e-4, moves=MOVES, stiffness=20.0)
     sphere = Problem(SOLID, law, Sphere(R), protocol)
-    square = ProfileProblem(SOLID, law, PowerLawProfile(1 / (2 * R), 2), protocol)
+    square = Problem(SOLID, law, PowerLawProfile(1 / (2 * R), 2), protocol)
     assert square.radius == pytest.approx(R, rel=1e-14)
     expected = numbers(sphere.groups())
     assert numbers(square.groups())[: len(expected)] == pytest.approx([*expected], rel=1e-12)
@@ -86,9 +85,9 @@ def test_the_paraboloid_has_the_groups_and_the_scales_of_its_sphere(start):
 
 
 def numbers(thing):
-    """Return all the numbers of a problem, the exponent of a profile last."""
+    """Return all the numbers of a problem, those of its shape last."""
     if isinstance(thing, dict):
-        items = sorted(thing.items(), key=lambda item: item[0] == "profile_exponent")
+        items = sorted(thing.items(), key=lambda item: item[0] == "geometry")
         return [number for _, value in items for number in numbers(value)]
     if isinstance(thing, list | tuple):
         return [number for value in thing for number in numbers(value)]
@@ -118,36 +117,37 @@ def test_scales_are_those_of_jkr_and_the_tabor_number_is_the_depth_over_the_rang
 def test_groups_with_their_scales_are_the_problem_again(profile, start):
     old = problem(profile, start, moves=MOVES[1:], stiffness=3.0)
     new = old.groups().in_si(
-        coefficient=profile.coefficient,
+        radius=old.radius,
         contact_modulus=SOLID.contact_modulus,
         work_of_adhesion=LAW.work_of_adhesion,
         time_unit=0.1,
         poisson_ratio=0.5,
     )
-    as_power = replace(old, profile=PowerLawProfile(profile.coefficient, profile.exponent))
-    assert numbers(new) == pytest.approx(numbers(as_power), rel=1e-11)
+    assert numbers(new) == pytest.approx(numbers(old), rel=1e-11)
 
 
 def test_impossible_scales_are_refused():
-    scales = dict(coefficient=0.2, contact_modulus=2e6, work_of_adhesion=0.15, time_unit=0.1)
+    scales = dict(radius=1e-5, contact_modulus=2e6, work_of_adhesion=0.15, time_unit=0.1)
     with pytest.raises(ValueError, match="poisson_ratio must lie between 0 and 0.5"):
         problem().groups().in_si(**scales, poisson_ratio=0.7)
-    with pytest.raises(ValueError, match="coefficient must be positive"):
-        problem().groups().in_si(**(scales | {"coefficient": -1.0}), poisson_ratio=0.5)
+    with pytest.raises(ValueError, match="radius must be positive"):
+        problem().groups().in_si(**(scales | {"radius": -1.0}), poisson_ratio=0.5)
 
 
 # --- refusals -------------------------------------------------------------------------------
 
 
 def test_parts_of_the_wrong_kind_are_refused():
-    with pytest.raises(
-        ValueError, match="profile must be a Cone or PowerLawProfile, got Sphere; try Cone"
-    ):
-        problem(Sphere(1e-3))
-    with pytest.raises(ValueError, match="protocol must be a Retraction, got AtDepth"):
-        ProfileProblem(SOLID, LAW, Cone(0.1), AtDepth(1e-6))
-    with pytest.raises(ValueError, match="profile_exponent must be between 1"):
-        replace(problem().groups(), profile_exponent=0.5)
+    with pytest.raises(ValueError, match=r"geometry cannot be a float; try Sphere\(radius=5e-3\)"):
+        problem(1e-3)
+    with pytest.raises(ValueError, match="protocol cannot be a AtDepth; try Retraction"):
+        Problem(SOLID, LAW, Cone(0.1), AtDepth(1e-6))
+    with pytest.raises(ValueError, match="a cone presses a half-space, got Layer"):
+        Problem(SOLID, LAW, CONE, Retraction(START, 1e-5), body=Layer(1e-3))
+    with pytest.raises(ValueError, match="exponent must lie between 1 and 10, got 0.5"):
+        PowerLawProfile(1.0, 0.5)
+    with pytest.raises(ValueError, match="must be a reduced shape of revolution, got FlatPunch"):
+        replace(problem().groups(), geometry=FlatPunch(1.0))
 
 
 def test_a_steep_cone_is_refused():
@@ -168,7 +168,7 @@ def test_a_contact_beyond_small_strain_is_refused():
             problem(PowerLawProfile(A, 2), start)
     with pytest.raises(ValueError, match="beyond small strain"):
         problem(PowerLawProfile(A, 2), AtDepth(1e-6), moves=(Approach(1e-6, AtForce(1.0)),))
-    assert problem(PowerLawProfile(A, 2), AtRadius(49e-6)).profile.exponent == 2
+    assert problem(PowerLawProfile(A, 2), AtRadius(49e-6)).geometry.exponent == 2
 
 
 # --- records and results --------------------------------------------------------------------
@@ -207,27 +207,27 @@ def test_how_long_a_cone_bears_a_load_is_told_in_seconds():
 
 
 def test_advice_on_spheres_is_not_given_on_cones():
-    with pytest.raises(ValueError, match="advice is for spheres, got ProfileGroups"):
+    with pytest.raises(ValueError, match="advice is for spheres, got a cone"):
         advise(problem())
 
 
 def test_a_tabor_number_that_the_mesh_cannot_serve_is_refused():
     material = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     with pytest.raises(ValueError, match="Tabor number must be between"):
-        solve(ProfileGroups(1e4, material, AtForce(0.0), 1.0, 1.0))
+        solve(Groups(1e4, material, AtForce(0.0), 1.0, geometry=Cone(1.0)))
 
 
 def test_a_cone_from_a_file_is_that_cone(tmp_path):
     example = Path(__file__).parents[1] / "examples" / "from_toml" / "cone.toml"
     problem = read_case(example)
-    assert isinstance(problem, ProfileProblem) and problem.profile == Cone(slope=0.05)
+    assert isinstance(problem, Problem) and problem.geometry == Cone(slope=0.05)
     text = example.read_text().replace(
         "slope = 0.05", 'exponent = 3\nheight = "10 um"\nat_radius = "200 um"'
     )
     (tmp_path / "cubic.toml").write_text(text)
     cubic = read_case(tmp_path / "cubic.toml")
-    assert isinstance(cubic, ProfileProblem)
-    assert float(cubic.profile.gap(200e-6)) == pytest.approx(10e-6, rel=1e-12)
+    assert isinstance(cubic, Problem)
+    assert float(cubic.geometry.gap(200e-6)) == pytest.approx(10e-6, rel=1e-12)
 
 
 def test_a_profile_is_simulated_from_the_command_line(tmp_path):

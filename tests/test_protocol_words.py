@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 from viscotack.app.cli.commands import application
 from viscotack.files.quantities import read_quantities
 from viscotack.problem.case_file import read_case
-from viscotack.problem.traction_file import law_from_words
+from viscotack.problem.law_table import law_from_words
 from viscotack.protocol import (
     Apart,
     Approach,

@@ -5,12 +5,12 @@ import json
 import numpy as np
 import pytest
 
+from viscotack.app import questions
 from viscotack.app.cli import main
-from viscotack.app.cli.punch import punch_from_flags
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.problem import Problem, PunchGroups
 from viscotack.problem.case_file import read_case
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
 from viscotack.problem.record import from_dict, run_id
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
 from viscotack.result import columns, load
@@ -101,18 +101,22 @@ def test_the_example_of_the_help_gives_the_promised_keys(capsys):
 
 def test_the_material_is_a_standard_solid_unless_it_is_said():
     flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "preload": 1, "rate": 10}
-    assert isinstance(punch_from_flags(flags | {"modulus-ratio": 0.1}).material, StandardSolid)
+    assert isinstance(
+        questions.stated(questions.PUNCH, flags | {"modulus-ratio": 0.1}).material, StandardSolid
+    )
     power = flags | {"modulus-ratio": 0.1, "exponent": 0.5, "material": "power-law"}
-    assert isinstance(punch_from_flags(power).material, RetardationPowerLaw)
+    assert isinstance(questions.stated(questions.PUNCH, power).material, RetardationPowerLaw)
     del flags["rate"]
-    assert isinstance(punch_from_flags(flags | {"material": "elastic"}).material, Elastic)
+    assert isinstance(
+        questions.stated(questions.PUNCH, flags | {"material": "elastic"}).material, Elastic
+    )
 
 
 def test_the_layer_slides_unless_it_is_bonded_and_the_start_is_by_depth_or_stress():
     flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "material": "elastic"}
-    assert punch_from_flags(flags | {"preload": -1}).base == Frictionless()
-    assert punch_from_flags(flags | {"preload": -1}).start == AtDepth(-1)
-    glued = punch_from_flags(flags | {"preload-force": 0.2, "bonded": 0.4})
+    assert questions.stated(questions.PUNCH, flags | {"preload": -1}).base == Frictionless()
+    assert questions.stated(questions.PUNCH, flags | {"preload": -1}).start == AtDepth(-1)
+    glued = questions.stated(questions.PUNCH, flags | {"preload-force": 0.2, "bonded": 0.4})
     assert glued.base == Bonded(poisson_ratio=0.4)
     assert glued.start == AtForce(0.2)
 
@@ -152,8 +156,8 @@ def test_wrong_flags_are_refused_in_words(flags, words, capsys):
 
 def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
     problem = read_case(case_file)
-    assert isinstance(problem, PunchProblem)
-    assert problem.layer.base == Bonded(poisson_ratio=0.4)
+    assert isinstance(problem, Problem)
+    assert problem.body.base == Bonded(poisson_ratio=0.4)
     assert problem.protocol.start == AtForce(2000.0)
     answer = asked([*PUNCH, case_file, "-o", tmp_path / "pad.npz"], capsys)
     for name, unit in KEYS.items():
@@ -182,7 +186,7 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
         ('"50 um"', '"50 kg"', "[layer] thickness: '50 kg' does not measure the right thing"),
         ("preload_stress", "preload_radius", "needs exactly one of preload_depth, preload_stress"),
         ('[layer]\nthickness = "50 um"\nbase = "bonded"\n', "", "the table [layer] is missing"),
-        ("[punch]", "[sphere]", "unknown table 'sphere'"),
+        ("[punch]", "[sphere]", "a [layer] goes with a [punch]; a sphere presses a half-space"),
     ],
 )
 def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, capsys):

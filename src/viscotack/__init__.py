@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from . import theory as theory
     from .bem import SimulationError as SimulationError
     from .bem import solve as solve
+    from .cards import Quantity as Quantity
     from .forecast import Advice as Advice
     from .forecast import Estimate as Estimate
     from .forecast import OutOfRange as OutOfRange
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from .geometry import Cone as Cone
     from .geometry import FlatPunch as FlatPunch
     from .geometry import Frictionless as Frictionless
+    from .geometry import HalfSpace as HalfSpace
     from .geometry import Layer as Layer
     from .geometry import PowerLawProfile as PowerLawProfile
     from .geometry import Sphere as Sphere
@@ -50,13 +52,10 @@ if TYPE_CHECKING:
     from .pictures.plot import save_figure as save_figure
     from .problem import Groups as Groups
     from .problem import Problem as Problem
+    from .problem import PunchGroups as PunchGroups
+    from .problem import PunchScales as PunchScales
     from .problem import Scales as Scales
     from .problem.case_file import read_case as read_case
-    from .problem.profile_problem import ProfileGroups as ProfileGroups
-    from .problem.profile_problem import ProfileProblem as ProfileProblem
-    from .problem.punch_problem import PunchGroups as PunchGroups
-    from .problem.punch_problem import PunchProblem as PunchProblem
-    from .problem.punch_problem import PunchScales as PunchScales
     from .problem.record import from_dict as from_dict
     from .problem.record import run_id as run_id
     from .problem.record import to_dict as to_dict
@@ -78,6 +77,7 @@ if TYPE_CHECKING:
     from .result import save as save
     from .result import write_csv as write_csv
     from .result.dead_load import time_to_detachment as time_to_detachment
+    from .result.observables import Observable as Observable
     from .result.observables import PullOff as PullOff
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
     from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
@@ -99,6 +99,7 @@ if TYPE_CHECKING:
 # Room -> the public names it has, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
+    "cards": ("Quantity",),
     "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
     "geometry": (
         "Sphere",
@@ -107,6 +108,7 @@ _NAMES = {
         "PowerLawProfile",
         "Layer",
         "Frictionless",
+        "HalfSpace",
         "Bonded",
     ),
     "protocol": (
@@ -122,14 +124,13 @@ _NAMES = {
         "Retraction",
     ),
     "materials": ("Elastic", "StandardSolid", "Prony", "RetardationPowerLaw", "RelaxationPowerLaw"),
-    "problem": ("Problem", "Groups", "Scales"),
-    "problem.punch_problem": ("PunchProblem", "PunchGroups", "PunchScales"),
-    "problem.profile_problem": ("ProfileProblem", "ProfileGroups"),
+    "problem": ("Problem", "Groups", "PunchGroups", "Scales", "PunchScales"),
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),
     "bem": ("solve", "SimulationError"),
     "result": ("Result", "Event", "Outcome", "save", "load", "columns", "write_csv"),
     "result.observables": (
+        "Observable",
         "PullOff",
         "pull_off",
         "pull_off_force",

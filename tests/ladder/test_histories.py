@@ -7,8 +7,7 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.problem import Groups
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import (
     Apart,
     Approach,

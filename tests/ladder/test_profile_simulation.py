@@ -7,9 +7,9 @@ from scipy.integrate import quad
 from viscotack.bem import Settings, solve
 from viscotack.bem.profile import ProfileContact
 from viscotack.bem.sphere import SphereContact
+from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
-from viscotack.problem.profile_problem import ProfileGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
@@ -34,12 +34,12 @@ def units(exponent):
 
 
 def tip(exponent, tabor, *, start, material=ELASTIC, rate=1.0, **others):
-    return ProfileGroups(
+    return Groups(
         tabor=tabor,
         material=material,
         start=start,
         rate=rate,
-        profile_exponent=exponent,
+        geometry=PowerLawProfile(1 / exponent, exponent),
         **others,
     )
 
@@ -64,7 +64,7 @@ def pull(groups, **settings):
 def test_the_square_is_the_sphere(start, moves):
     case = dict(tabor=2.0, material=SOLID, start=start, rate=30.0, moves=moves)
     sphere = solve(Groups(**case), estimate_error=False)
-    square = solve(ProfileGroups(**case, profile_exponent=2), estimate_error=False)
+    square = solve(Groups(**case, geometry=PowerLawProfile(0.5, 2)), estimate_error=False)
     assert square.status == sphere.status
     # round-off may decide on a step, and a step is worth about this much
     for number in (pull_off_force, work_to_pull_off, contact_radius_at_pull_off):

@@ -15,7 +15,7 @@ from viscotack.bem.plain_punch import plain_solve, triangle_matrix
 from viscotack.bem.punch import PunchContact
 from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+from viscotack.problem import Problem, PunchGroups
 from viscotack.protocol import Approach, AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
 from viscotack.result.observables import (
     crack_speed_at_pull_off,
@@ -79,13 +79,13 @@ def test_work_of_a_punch_is_its_curve_in_units_of_the_work_of_adhesion():
 
 
 def test_the_answer_of_a_punch_does_not_depend_on_the_units():
-    problem = PunchProblem(
+    problem = Problem(
         material=StandardSolid(
             rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.4
         ),
         traction=LennardJones(work_of_adhesion=0.15, equilibrium_gap=1.5e-6),
-        punch=FlatPunch(half_width=1e-3),
-        layer=Layer(thickness=50e-6, base=Bonded(poisson_ratio=0.4)),
+        geometry=FlatPunch(half_width=1e-3),
+        body=Layer(thickness=50e-6, base=Bonded(poisson_ratio=0.4)),
         protocol=Retraction(start=AtForce(2e3), speed=100e-6),
     )
     answers = [

@@ -29,9 +29,7 @@ import numpy.typing as npt
 from scipy.special import ellipkm1
 
 from viscotack.materials import Material
-from viscotack.problem import Groups, Problem
-from viscotack.problem.problems import Case
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem import Case, Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth
 from viscotack.result import Outcome, Result, receding_speed
 

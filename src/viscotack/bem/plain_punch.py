@@ -29,7 +29,7 @@ from scipy.special import sici, xlogy
 
 from viscotack.bem.plain import crossing, relaxed_depth, retract
 from viscotack.geometry import Base
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+from viscotack.problem import Problem, PunchGroups
 from viscotack.result import Result
 
 # kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.
@@ -74,13 +74,13 @@ def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArr
 
 
 def plain_solve(
-    problem: PunchProblem | PunchGroups, *, triangles: int, steps: int, last_depth: float
+    problem: Problem | PunchGroups, *, triangles: int, steps: int, last_depth: float
 ) -> Result:
     """Simulate a retraction from a relaxed depth with the published algorithm.
 
     Parameters
     ----------
-    problem : PunchProblem or PunchGroups
+    problem : Problem or PunchGroups
         The start must be by depth and the traction law Lennard-Jones.
     triangles : int
         M, spacings under the punch; the thesis takes 200.

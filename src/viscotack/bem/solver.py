@@ -17,12 +17,11 @@ from viscotack.bem.march import march
 from viscotack.bem.profile import ProfileContact
 from viscotack.bem.punch import PunchContact
 from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
+from viscotack.bem.shape import ShapeContact
 from viscotack.bem.sphere import SphereContact
+from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
-from viscotack.problem import Groups
-from viscotack.problem.problems import Case
-from viscotack.problem.profile_problem import ProfileGroups
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.result import Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 
@@ -76,7 +75,7 @@ def solve(
 
     Parameters
     ----------
-    problem : Problem, Groups, PunchProblem or PunchGroups
+    problem : Problem, Groups or PunchGroups
         What is tested, in SI or in dimensionless groups.
     accuracy : float
         Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
@@ -129,12 +128,13 @@ def solve(
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     # The matrices are small: a second BLAS thread costs many times what it brings.
     with threadpool_limits(limits=1, user_api="blas"):
-        result = _run(problem, chosen, until, fields, progress)
+        groups = problem.groups()
+        result = _run(problem, groups, chosen, until, fields, progress)
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
             estimate = _estimate(problem, result, chosen)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
-    result = replace(result, error_estimate=estimate, statistics=statistics)
+    result = replace(result, error_estimate=estimate, statistics=statistics).posed(groups)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
@@ -156,12 +156,12 @@ def has_start(problem: Case) -> bool:
 
 def _run(
     problem: Case,
+    groups: Groups | PunchGroups,
     settings: Settings,
     until: str,
     fields: bool,
     progress: Callable[[float], None] | None,
 ) -> Result:
-    groups = problem.groups()
     contact = contact_of(groups)
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
@@ -182,10 +182,10 @@ def _run(
         profiles=fields,
         progress=progress,
     )
-    return _result(problem, contact, history, modes, fields)
+    return _result(problem, groups, contact, history, modes, fields)
 
 
-def contact_of(groups: Groups | PunchGroups | ProfileGroups) -> Contact:
+def contact_of(groups: Groups | PunchGroups) -> Contact:
     """Return the contact that dimensionless groups describe."""
     if isinstance(groups, PunchGroups):
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
@@ -195,9 +195,13 @@ def contact_of(groups: Groups | PunchGroups | ProfileGroups) -> Contact:
             f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
         )
-    if isinstance(groups, ProfileGroups):
-        return ProfileContact(groups.tabor, groups.traction, groups.profile_exponent)
-    return SphereContact(groups.tabor, groups.traction)
+    match groups.geometry:
+        case Sphere():
+            return SphereContact(groups.tabor, groups.traction)
+        case Cone() | PowerLawProfile():
+            return ProfileContact(groups.tabor, groups.traction, groups.geometry.exponent)
+        case shape:
+            return ShapeContact(groups.tabor, groups.traction, shape)
 
 
 def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
@@ -211,7 +215,12 @@ def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: 
 
 
 def _result(
-    problem: Case, contact: Contact, history: History, modes: Modes, fields: bool
+    problem: Case,
+    groups: Groups | PunchGroups,
+    contact: Contact,
+    history: History,
+    modes: Modes,
+    fields: bool,
 ) -> Result:
     states, books = history.snapshots, history.books
     time = np.array([s.time for s in states])
@@ -248,7 +257,7 @@ def _result(
         },
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
-    )
+    ).posed(groups)
 
 
 def _status(history: History, residual: float) -> str:
@@ -296,7 +305,7 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
 def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
     """Return the relative errors of force and work from a coarser companion, None without one."""
     try:
-        coarse = _run(problem, settings.coarser(_COARSER), "pull-off", False, None)
+        coarse = _run(problem, result.groups, settings.coarser(_COARSER), "pull-off", False, None)
         values = [(pull_off_force(r), work_to_pull_off(r)) for r in (result, coarse)]
     except ValueError:  # the companion has no start or no pull-off: nothing is known
         return None

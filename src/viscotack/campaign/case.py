@@ -15,6 +15,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
@@ -47,18 +48,22 @@ class CaseSettings:
         Longest time of a case [s]; one that takes longer is a failure.
     memory_limit : float
         Most memory of a case [bytes], beside what its worker has at rest; only on Linux.
+    own : tuple of str
+        Python files with laws, materials, shapes and observables of the user's own.
     """
 
     accuracy: float = 2e-3
     until: str = "pull-off"
     time_limit: float = 600.0
     memory_limit: float = 400e6
+    own: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.until not in ("detached", "pull-off"):
             raise ValueError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
         if not 1e-6 <= self.accuracy <= 0.02:
             raise ValueError(f"accuracy must be between 1e-6 and 0.02, got {self.accuracy!r}")
+        object.__setattr__(self, "own", tuple(str(path) for path in self.own))
         for name, unit in (("time_limit", "s"), ("memory_limit", "bytes")):
             if not getattr(self, name) > 0:
                 raise ValueError(f"{name} must be positive, got {getattr(self, name)!r} {unit}")
@@ -111,7 +116,7 @@ def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
     row, failure, reason = None, "", ""
     try:
         with watch:
-            row = work(from_dict(json.loads(problem)), settings)
+            row = work(from_dict(json.loads(problem), own_nouns(settings.own)), settings)
     except LimitExceeded:
         row, failure, reason = None, watch.kind, watch.reason
     except MemoryError as error:
@@ -139,7 +144,7 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     if result.outcome is Outcome.STOPPED:
         raise Unsolved(result.status)
     found = pull_off(result)
-    answer = summary(result)
+    answer = summary(result, known(own_nouns(settings.own)).observables)
     errors, cost = answer["error_estimate"] or {}, answer["statistics"]
     row = {name: value for name, value in answer.items() if name not in _LEFT_OUT}
     row |= {"error_estimate": errors.get("force"), "error_estimate_work": errors.get("work")}
@@ -156,16 +161,22 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     dict
         ``travel_to_pull_off`` [h0]; ``force_at_25``, ... at 25, 50, 75 and 87.5 % of that travel;
         ``trajectory_depth``, ``trajectory_force`` and ``trajectory_contact_radius`` at the places
-        of :func:`viscotack.result.trajectory.shares`; dimensionless as in `Result`. Forces follow a
-        monotone cubic between the steps of the run, radii a straight line; None without an edge.
+        of :func:`viscotack.result.trajectory.shares`. Names, units and signs are those of the
+        columns of the geometry: of a punch ``stress``, tension positive, and ``ligament``. Forces
+        follow a monotone cubic between the steps of the run, radii a straight line; None without an
+        edge.
     """
     depths, steps, edge = retraction(result)
     start = float(depths[0])
     travel = start - found.depth
     x = (start - depths) / travel
     force = PchipInterpolator(x, steps)
+    outputs, groups = result.problem.outputs, result.groups
+    pull, width = outputs.of("force"), outputs.of("contact_radius")
+    sign, scale = pull.factor(groups), width.factor(groups)
+    load, edge_name = outputs.name_of("force"), outputs.name_of("contact_radius")
     row: dict[str, Any] = {"travel_to_pull_off": travel}
-    row |= {f"force_at_{name}": float(force(share)) for name, share in KEY_SHARES.items()}
+    row |= {f"{load}_at_{name}": sign * float(force(share)) for name, share in KEY_SHARES.items()}
     pressing = np.flatnonzero((steps > 0) & (x < 1))
     zero = _crossing(force, x, pressing[-1]) if pressing.size else 0.0
     shares = trajectory.shares(zero)
@@ -173,10 +184,11 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     # The force minimum is located between steps; the last point is that very number.
     forces[-1] = -found.force
     row["trajectory_depth"] = (start - shares * travel).tolist()
-    row["trajectory_force"] = forces.tolist()
+    row[f"trajectory_{load}"] = (sign * forces).tolist()
     radii = np.interp(shares, x, edge)
     radii[-1] = found.contact_radius
-    row["trajectory_contact_radius"] = [a if np.isfinite(a) else None for a in radii.tolist()]
+    radii = scale * radii
+    row[f"trajectory_{edge_name}"] = [a if np.isfinite(a) else None for a in radii.tolist()]
     return row
 
 

@@ -1,24 +1,27 @@
 """Which numbers state a case: the columns of a plan, by kind, and the problem that they make.
 
 A kind is a row of numbers with names. ``"sphere"`` has those of ``viscotack simulate sphere``
-(power law), ``"punch"`` those of a punch on a layer of a standard solid; with
+(power law), ``"profile"`` those of a cone or power-law tip, ``"punch"`` those of a punch on a layer
+of a standard solid; with
 ``problem = "FILE.toml"`` any number of that problem in SI is an input, named by its path.
 """
 
 import copy
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.bem import has_start
+from viscotack.cards import Quantity, card_of, cards
+from viscotack.geometry import PowerLawProfile
+from viscotack.materials import RetardationPowerLaw, StandardSolid
+from viscotack.materials.constants import ModulusRatio
+from viscotack.problem import Groups, PunchGroups, revolution
+from viscotack.problem.older import upgraded_path
 from viscotack.problem.record import from_dict, to_dict
-
-from ..bem import has_start
-from ..materials import RetardationPowerLaw, StandardSolid
-from ..problem import Groups
-from ..protocol import AtDepth, AtForce, AtRadius
-from ..units import positive
+from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.units import positive
 
 Inputs = Mapping[str, float]
 
@@ -60,44 +63,60 @@ class Kind:
             )
 
 
-_STARTS = {"preload": AtDepth, "preload_force": AtForce, "preload_radius": AtRadius}
+_STARTS: dict[str, Any] = {
+    "preload": AtDepth,
+    "preload_force": AtForce,
+    "preload_radius": AtRadius,
+}
 
 
 def _sphere(inputs: Inputs) -> Groups:
-    material = RetardationPowerLaw(**_reduced(inputs), exponent=inputs["exponent"])
-    return Groups(
-        tabor=inputs["tabor"], material=material, start=_start(inputs), rate=inputs["rate"]
-    )
+    return Groups(tabor=inputs["tabor"], **_test(inputs, RetardationPowerLaw))
+
+
+def _profile(inputs: Inputs) -> Groups:
+    q = inputs["profile_exponent"]
+    shape = PowerLawProfile(1 / positive("profile_exponent", q, "1"), q)
+    return Groups(tabor=inputs["tabor"], geometry=shape, **_test(inputs, RetardationPowerLaw))
 
 
 def _punch(inputs: Inputs) -> PunchGroups:
-    return PunchGroups(
-        size=inputs["size"],
-        thickness=inputs["thickness"],
-        cohesion=inputs["cohesion"],
-        material=StandardSolid(**_reduced(inputs)),
-        start=_start(inputs),
-        rate=inputs["rate"],
+    sizes = {name: inputs[name] for name in ("size", "thickness", "cohesion")}
+    return PunchGroups(**sizes, **_test(inputs, StandardSolid))
+
+
+def _test(inputs: Inputs, solid: Any) -> dict[str, Any]:
+    """Return material, start and rate of a case."""
+    ratio = card_of(ModulusRatio).checked("modulus_ratio", inputs["modulus_ratio"])
+    constants = {"exponent": inputs["exponent"]} if "exponent" in cards(solid) else {}
+    material = solid(
+        rubbery_modulus=1.0, glassy_modulus=1 / ratio, tau0=1.0, poisson_ratio=0.0, **constants
     )
-
-
-def _start(inputs: Inputs) -> AtDepth | AtForce | AtRadius:
     (start,) = (make(inputs[name]) for name, make in _STARTS.items() if name in inputs)
-    return start
+    return {"material": material, "start": start, "rate": inputs["rate"]}
 
 
-def _reduced(inputs: Inputs) -> dict[str, float]:
-    ratio = positive("modulus_ratio", inputs["modulus_ratio"], "1")
-    if ratio > 1:
-        raise ValueError(
-            f"modulus_ratio is the rubbery over the glassy modulus, in (0, 1], got {ratio:g}"
-        )
-    return {
-        "rubbery_modulus": 1.0,
-        "glassy_modulus": 1 / ratio,
-        "tau0": 1.0,
-        "poisson_ratio": 0.0,
+def _cards() -> dict[str, tuple[Quantity, str]]:
+    """Return the card of every input, and its unit in a case."""
+    of, punch = cards(Groups), cards(PunchGroups)
+    units = revolution.GROUPS
+    found = {
+        "tabor": (of["tabor"].card, "1"),
+        "profile_exponent": (cards(PowerLawProfile)["exponent"].card, "1"),
+        "modulus_ratio": (card_of(ModulusRatio), "1"),
+        "exponent": (cards(RetardationPowerLaw)["exponent"].card, "1"),
+        "rate": (of["rate"].card, units["speed"]),
     }
+    found |= {name: (punch[name].card, punch[name].card.unit) for name in ("size", "thickness")}
+    found["cohesion"] = (punch["cohesion"].card, "1")
+    for name, start in _STARTS.items():
+        (field,) = cards(start).values()
+        found[name] = (field.card, units[field.card.measure])
+    return found
+
+
+# What an input is, and what it is measured in; forces of a punch are stresses in sigma0.
+INPUTS = _cards()
 
 
 def has_relaxed_contact(problem: Any) -> bool:
@@ -115,14 +134,21 @@ def has_relaxed_contact(problem: Any) -> bool:
     return has_start(problem)
 
 
+_POWER_LAW = ("modulus_ratio", "exponent", "rate")
 # A kind more is an entry more. The powers of the cost were fitted to the times of 1,000 cases.
 KINDS = {
     "sphere": Kind(
         name="sphere",
-        columns=("tabor", "modulus_ratio", "exponent", "rate"),
+        columns=("tabor", *_POWER_LAW),
         choices=tuple(_STARTS),
         problem=_sphere,
         cost={"tabor": -0.14, "preload": 0.33, "rate": -0.02},
+    ),
+    "profile": Kind(
+        name="profile",
+        columns=("tabor", "profile_exponent", *_POWER_LAW),
+        choices=tuple(_STARTS),
+        problem=_profile,
     ),
     "punch": Kind(
         name="punch",
@@ -145,7 +171,7 @@ def kind_of_columns(names: set[str]) -> str:
     raise ValueError(f"its columns ({', '.join(sorted(names))}) are of no kind; known are {known}")
 
 
-def kind_of_problem(base: Any, names: set[str]) -> Kind:
+def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kind:
     """Return the kind whose cases are a problem with some of its numbers replaced.
 
     Parameters
@@ -154,6 +180,8 @@ def kind_of_problem(base: Any, names: set[str]) -> Kind:
         The problem that the other numbers come from.
     names : set of str
         Paths of the numbers in ``to_dict(base)``, such as ``protocol.speed``; in SI.
+    also : iterable of classes
+        The user's own that the problem is made of.
 
     Examples
     --------
@@ -171,20 +199,20 @@ def kind_of_problem(base: Any, names: set[str]) -> Kind:
     return Kind(
         name="problem",
         columns=tuple(sorted(names)),
-        problem=partial(_replaced, record),
+        problem=partial(_replaced, record, tuple(also)),
     )
 
 
-def _replaced(record: dict[str, Any], inputs: Inputs) -> Any:
+def _replaced(record: dict[str, Any], also: tuple[Any, ...], inputs: Inputs) -> Any:
     changed = copy.deepcopy(record)
     for name, value in inputs.items():
         _put(changed, name, float(value))
-    return from_dict(changed)
+    return from_dict(changed, also)
 
 
 def _put(record: Any, path: str, value: float) -> None:
     """Replace the number at a path such as ``material.branches.0.1`` in a record."""
-    *way, last = path.split(".")
+    *way, last = upgraded_path(path).split(".")
     at = record
     for step in way:
         at = _entry(at, step, path)

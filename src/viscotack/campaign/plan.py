@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.problem.case_file import read_case
+from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 from ..units import parse, positive
@@ -17,7 +18,7 @@ from .case import CaseSettings
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import accepted, fill, grid
 
-_KEYS = ("kind", "problem", "settings", "grid", "fill", "list")
+_KEYS = ("kind", "problem", "with", "settings", "grid", "fill", "list")
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,9 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         ]
         if not blocks:
             raise ValueError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
-        kind, base = _kind(path, tables, blocks)
+        own = (*_own(path, tables), *changed.get("own", ()))
+        changed |= {"own": own} if own else {}
+        kind, base = _kind(path, tables, blocks, own)
     cases, rejected, repeated = _cases(path, kind, blocks)
     return Plan(
         kind=kind,
@@ -132,10 +135,13 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     )
 
 
-def restored_kind(name: str, base: dict[str, Any] | None, columns: Iterable[str]) -> Kind:
+def restored_kind(
+    name: str, base: dict[str, Any] | None, columns: Iterable[str], own: Iterable[str] = ()
+) -> Kind:
     """Return the kind of a stored plan."""
     if base is not None:
-        return kind_of_problem(from_dict(base), set(columns))
+        also = own_nouns(own)
+        return kind_of_problem(from_dict(base, also), set(columns), also)
     if name not in KINDS:
         raise ValueError(f"unknown kind of case {name!r}; a newer version may know it")
     return KINDS[name]
@@ -186,21 +192,33 @@ def _file(path: Path, block: Mapping[str, Any]) -> str:
 
 
 def _kind(
-    path: Path, tables: Mapping[str, Any], blocks: list[tuple[str, Any]]
+    path: Path,
+    tables: Mapping[str, Any],
+    blocks: list[tuple[str, Any]],
+    own: tuple[str, ...],
 ) -> tuple[Kind, dict[str, Any] | None]:
     if "problem" in tables:
         if "kind" in tables:
             raise ValueError(f"{path}: kind and problem exclude each other; leave one out")
-        problem = read_case(path.parent / str(tables["problem"]))
+        also = own_nouns(own)
+        problem = read_case(path.parent / str(tables["problem"]), also=also)
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
-            return kind_of_problem(problem, names), to_dict(problem)
+            return kind_of_problem(problem, names, also), to_dict(problem)
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from None
     name = tables.get("kind", "sphere")
     if name not in KINDS:
         raise ValueError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
     return KINDS[name], None
+
+
+def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the files of the user's own that a plan names, beside it."""
+    files = tables.get("with", [])
+    if not isinstance(files, list) or not all(isinstance(file, str) for file in files):
+        raise ValueError(f'{path}: with must be a list of files, with = ["my_laws.py"]')
+    return tuple(str((path.parent / file).resolve()) for file in files)
 
 
 def _inputs(key: str, block: Any) -> set[str]:
@@ -272,7 +290,7 @@ def _checked(path: Path, kind: Kind, rows: Any) -> Iterator[dict[str, float]]:
 
 
 def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSettings:
-    names = [field.name for field in fields(CaseSettings)]
+    names = [field.name for field in fields(CaseSettings) if field.name != "own"]
     if not isinstance(given, dict) or given.keys() - set(names):
         raise ValueError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
     units = {"accuracy": "1", "time_limit": "s", "memory_limit": "byte"}

@@ -20,7 +20,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from .. import __version__
+from viscotack import __version__
+from viscotack.problem.older import upgraded
+
 from .case import CaseSettings
 from .parts import Parts, arrow, write_table, write_whole
 from .plan import Case, Plan, restored_kind
@@ -115,7 +117,7 @@ class Store:
         )
         given = self._provenance
         return Plan(
-            kind=restored_kind(given["kind"], given["problem"], inputs),
+            kind=restored_kind(given["kind"], given["problem"], inputs, self.settings.own),
             cases=cases,
             settings=self.settings,
             base=given["problem"],
@@ -199,7 +201,7 @@ def _names(parts: Parts) -> set[str]:
 
 def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     for what in ("kind", "problem"):
-        if old[what] != new[what]:
+        if upgraded(old[what]) != new[what]:
             raise ValueError(
                 f"{folder} holds cases of another {what} ({old['kind']}); give another --out"
             )

@@ -4,6 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from viscotack.campaign.columns import INPUTS, KINDS
+from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
+
 # Stated relative errors are no less than these, which benchmarks/datasets.py has shown to hold in
 # 95 % of the rows: everywhere, for spheres pressed deep, and for spheres of large Tabor number that
 # relax a thousandfold, whose trajectories come close to jumps.
@@ -30,10 +33,6 @@ class Column:
     form : {"exact", "number", "whole", "curve"}
         Exact numbers keep all digits; others have seven, far more than they are good for; a curve
         is a list of 24.
-    sign : float
-        By which the number of a campaign is multiplied.
-    over : str
-        The input by which it is divided; "" for none.
     less : str
         The number that is taken from it; "" for none.
     error : bool
@@ -45,8 +44,6 @@ class Column:
     words: str
     source: str = ""
     form: str = "number"
-    sign: float = 1.0
-    over: str = ""
     less: str = ""
     error: bool = False
 
@@ -64,11 +61,10 @@ class Column:
         value = row.get(self.source)
         if self.form in ("exact", "whole") or value is None:
             return value
-        factor = self.sign / (row[self.over] if self.over else 1.0)
         if isinstance(value, list):
             zero = row[self.less] if self.less else 0.0
-            return [None if v is None else factor * (v - zero) for v in value]
-        return max(value, least_errors(row)[self.name]) if self.error else factor * value
+            return [None if v is None else v - zero for v in value]
+        return max(value, least_errors(row)[self.name]) if self.error else value
 
 
 def least_errors(row: Mapping[str, Any]) -> dict[str, float]:
@@ -106,9 +102,32 @@ _HOW = (
 )
 
 
-def _curve(force: str, unit: str, sign: float, edge: Column) -> tuple[Column, ...]:
+def _inputs(kind: str) -> tuple[Column, ...]:
+    """Return the columns of the inputs of a kind of campaign, by their cards."""
+    names = (*KINDS[kind].columns[:-1], "preload", "rate")
+    return tuple(
+        Column(
+            name,
+            INPUTS[name][1],
+            f"{INPUTS[name][0].words} ({INPUTS[name][0].symbol})",
+            form="exact",
+        )
+        for name in names
+    )
+
+
+def _outputs(kind: Kind, words: Mapping[str, str]) -> tuple[Column, ...]:
+    """Return the columns of numbers of a summary, in the units of the geometry."""
+    return tuple(
+        Column(name, kind.observables[name].unit.text.replace("time unit", "tau0"), text)
+        for name, text in words.items()
+    )
+
+
+def _curve(kind: Kind, sense: str) -> tuple[Column, ...]:
     shares = {"25": "25", "50": "50", "75": "75", "87_5": "87.5"}
-    sense = "compression" if sign > 0 else "tension"
+    force, radius = kind.name_of("force"), kind.name_of("contact_radius")
+    unit = kind.of("force").unit.text
     words = f"{force} at 24 points of the retraction, {sense} positive"
     return (
         Column("travel_to_pull_off", "h0", "travel from the start to the pull-off"),
@@ -117,8 +136,6 @@ def _curve(force: str, unit: str, sign: float, edge: Column) -> tuple[Column, ..
                 f"{force}_at_{key}",
                 unit,
                 f"{force} at {share} % of the travel",
-                f"force_at_{key}",
-                sign=sign,
             )
             for key, share in shares.items()
         ),
@@ -130,54 +147,42 @@ def _curve(force: str, unit: str, sign: float, edge: Column) -> tuple[Column, ..
             "curve",
             less="pull_off_depth",
         ),
-        Column(f"trajectory_{force}", unit, words, "trajectory_force", "curve", sign=sign),
-        edge,
+        Column(f"trajectory_{force}", unit, words, form="curve"),
+        Column(f"trajectory_{radius}", kind.of("contact_radius").unit.text, _EDGE, form="curve"),
     )
 
 
-_FORCE, _RADIUS = "1.5 pi R dg0", "(pi R^2 dg0/E0*)^(1/3)"
 _EDGE = "contact edge at these points; null where there is none"
 # By kind of campaign.
 KEPT = {
     "sphere": (
-        Column("tabor", "1", "Tabor number mu", form="exact"),
-        Column("modulus_ratio", "1", "rubbery over glassy modulus k", form="exact"),
-        Column("exponent", "1", "exponent n of the power law by retardation", form="exact"),
-        Column("preload", "h0", "depth of the relaxed start", form="exact"),
-        Column("rate", "h0/tau0", "retraction speed", form="exact"),
-        Column("pull_off_force", _FORCE, "minus the least force"),
-        Column("work_to_pull_off", "1.5 pi R dg0 h0", "work from zero force, or from the start"),
-        Column("pull_off_depth", "h0", "depth at the pull-off, positive into the solid"),
-        Column("contact_radius_at_pull_off", _RADIUS, "contact edge there; null without one"),
-        Column("crack_speed_at_pull_off", "(R^2 dg0/E0*)^(1/3)/tau0", "speed of the edge there"),
-        *_curve(
-            "force",
-            _FORCE,
-            1.0,
-            Column("trajectory_contact_radius", _RADIUS, _EDGE, form="curve"),
+        *_inputs("sphere"),
+        *_outputs(
+            REVOLUTION,
+            {
+                "pull_off_force": "minus the least force",
+                "work_to_pull_off": "work from zero force, or from the start",
+                "pull_off_depth": "depth at the pull-off, positive into the solid",
+                "contact_radius_at_pull_off": "contact edge there; null without one",
+                "crack_speed_at_pull_off": "speed of the edge there",
+            },
         ),
+        *_curve(REVOLUTION, "compression"),
         *_HOW,
     ),
     "punch": (
-        Column("size", "a0", "half width of the punch", form="exact"),
-        Column("thickness", "a0", "thickness of the layer", form="exact"),
-        Column("cohesion", "1", "strength over relaxed contact modulus", form="exact"),
-        Column("modulus_ratio", "1", "rubbery over glassy modulus k", form="exact"),
-        Column("preload", "h0", "depth of the relaxed start", form="exact"),
-        Column("rate", "h0/tau0", "retraction speed", form="exact"),
-        Column("pull_off_stress", "sigma0", "largest mean tension"),
-        Column("work_to_pull_off", "dg0", "work of unit area from zero stress"),
-        Column("pull_off_depth", "h0", "depth at the pull-off, positive into the layer"),
-        Column("ligament_at_pull_off", "a", "half width still in contact there"),
-        Column("crack_speed_at_pull_off", "h0/tau0", "speed of the edge there; null at a jump"),
-        *_curve(
-            "stress",
-            "sigma0",
-            -1.0,
-            Column(
-                "trajectory_ligament", "a", _EDGE, "trajectory_contact_radius", "curve", over="size"
-            ),
+        *_inputs("punch"),
+        *_outputs(
+            PLANE,
+            {
+                "pull_off_stress": "largest mean tension",
+                "work_to_pull_off": "work of unit area from zero stress",
+                "pull_off_depth": "depth at the pull-off, positive into the layer",
+                "ligament_at_pull_off": "half width still in contact there",
+                "crack_speed_at_pull_off": "speed of the edge there; null at a jump",
+            },
         ),
+        *_curve(PLANE, "tension"),
         *_HOW,
     ),
 }
@@ -189,6 +194,6 @@ def units(kind: str) -> dict[str, list[str]]:
     Examples
     --------
     >>> units("sphere")["preload"]
-    ['h0', 'depth of the relaxed start']
+    ['h0', 'depth of the relaxed start, positive into the solid (delta)']
     """
     return {column.name: [column.unit, column.words] for column in KEPT[kind]}

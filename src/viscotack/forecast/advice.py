@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.problem import LARGEST_CONTACT, Groups, Problem
+from viscotack.geometry import Sphere
+from viscotack.problem import Groups, Problem
+from viscotack.problem.revolution import LARGEST_CONTACT
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import bounds, detachment, jkr, lennard_jones, persson_brener, rate, unloading
 from viscotack.traction import LennardJones
@@ -192,7 +194,7 @@ def advise(problem: Problem | Groups) -> Advice:
     good = [e for e in estimates if e.applies and e.error is not None and e.error <= 0.05]
     scales = problem.scales() if isinstance(problem, Problem) else None
     speed = strain = None
-    if scales is not None and isinstance(problem, Problem):
+    if scales is not None and isinstance(problem, Problem) and isinstance(problem.geometry, Sphere):
         if edge is not None:
             # radii are in beta, times in the unit of the material
             speed = edge * scales.edge_speed
@@ -288,8 +290,9 @@ _JKR_FORCE = 1.5 * np.pi
 
 def _check(groups: Groups) -> None:
     """Refuse tests for which the theories have no answer."""
-    if not isinstance(groups, Groups):
-        raise ValueError(f"advice is for spheres, got {type(groups).__name__}; simulate others")
+    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
+        shape = groups.geometry.word if isinstance(groups, Groups) else "punch"
+        raise ValueError(f"advice is for spheres, got a {shape}; simulate others")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:
         raise ValueError(

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.geometry import Sphere
 from viscotack.materials import RetardationPowerLaw
-from viscotack.problem import Groups, Problem
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
+from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
-from viscotack.result.outputs import si_scales
 from viscotack.traction import LennardJones
 
 from .prediction import OutOfRange, Prediction
@@ -112,7 +111,7 @@ def _out_words(
 ) -> str:
     """Return that an input is out of the range of the surrogate, with its value and the range."""
     unit, si = _UNITS.get(name, ""), ""
-    if unit and (scales := si_scales(problem)) is not None:
+    if unit and (scales := problem.scales()) is not None:
         length = scales.length if name == "preload" else scales.length / scales.time
         si = f" ({value * length:.3g} {'m' if name == 'preload' else 'm/s'})"
     least, most = limits
@@ -135,14 +134,16 @@ def _pair(interval: Array) -> tuple[float, float]:
 
 def _groups(problem: Any) -> Groups:
     """Return the groups of a sphere; refuse other indenters, and what is no problem."""
-    if isinstance(problem, PunchProblem | PunchGroups):
-        raise OutOfRange(f"predictions are for spheres, got {type(problem).__name__}; {SIMULATE}")
-    if not isinstance(problem, Problem | Groups):
+    if not isinstance(problem, Problem | Groups | PunchGroups):
         raise TypeError(
             f"predict takes a Problem or Groups, got {problem!r}; for a file give "
             "viscotack.read_case(path)"
         )
-    return problem.groups()
+    groups = problem.groups()
+    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
+        shape = "punch" if isinstance(groups, PunchGroups) else groups.geometry.word
+        raise OutOfRange(f"predictions are for spheres, got a {shape}; {SIMULATE}")
+    return groups
 
 
 def _check_test(groups: Groups) -> None:

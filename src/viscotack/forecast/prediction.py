@@ -13,8 +13,8 @@ import numpy as np
 
 from viscotack import __version__
 from viscotack.problem import Groups, Problem
+from viscotack.problem.outputs import REVOLUTION
 from viscotack.problem.record import run_id, to_dict
-from viscotack.result.outputs import SPHERE, si_scales
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Curves
@@ -86,13 +86,13 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     }
     answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
     answer = values | answer
-    if (scales := si_scales(problem)) is not None:
+    if (scales := problem.scales()) is not None:
         for name, value in values.items():
-            unit = SPHERE.observables[name].unit
+            unit = REVOLUTION.observables[name].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
         for name, (pair, of) in intervals.items():
-            unit = SPHERE.observables[of].unit
+            unit = REVOLUTION.observables[of].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if pair is None else [x * scale for x in pair]
     groups = problem.groups()
@@ -101,7 +101,7 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
         "inside": prediction.inside,
         "confidence": prediction.confidence,
         "why": prediction.why,
-        **{name: getattr(groups, name) for name in SPHERE.inputs},
+        **groups.inputs,
         "problem": to_dict(problem),
         "run_id": run_id(problem),
         "versions": {"viscotack": __version__},

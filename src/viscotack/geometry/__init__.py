@@ -1,16 +1,32 @@
 """What presses and what is pressed: rigid shapes, and the bodies under them."""
 
-from .layer import Base, Bonded, Frictionless, Layer
-from .shapes import Cone, FlatPunch, PowerLawProfile, Sphere, profile_exponent
+from .bodies import Base, Body, Bonded, Frictionless, HalfSpace, Layer
+from .shapes import (
+    Cone,
+    FlatPunch,
+    PowerLawProfile,
+    Shape,
+    Sphere,
+    equivalent_radius,
+    numbers,
+)
+
+# Word in a file -> class.
+SHAPES = {shape.word: shape for shape in (Sphere, Cone, PowerLawProfile, FlatPunch)}
 
 __all__ = [
+    "SHAPES",
     "Base",
+    "Body",
     "Bonded",
     "Cone",
     "FlatPunch",
     "Frictionless",
+    "HalfSpace",
     "Layer",
     "PowerLawProfile",
+    "Shape",
     "Sphere",
-    "profile_exponent",
+    "equivalent_radius",
+    "numbers",
 ]

@@ -1,11 +1,44 @@
-"""Shapes: the gap between the rigid indenter and the flat solid when they just touch."""
+"""Shapes: the gap between the rigid indenter and the flat body when they just touch.
 
+A shape of revolution answers :meth:`gap` and its derivative :meth:`flank`, and its twin in other
+units of length, :meth:`reduced`; `word` names it in files. A class with these names is a shape,
+wherever it was written; docs/geometry.md goes through one. What scales, limits and outputs it has
+follows from `symmetry`: "revolution", or "plane" for the flat punch in plane strain.
+"""
+
+from collections.abc import Mapping
 from dataclasses import dataclass
+from math import log
+from typing import Annotated, ClassVar, Protocol
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import brentq
 
-from viscotack.units import positive
+from viscotack.cards import Quantity, conform
+
+Array = npt.NDArray[np.float64]
+# A shape of revolution is looked at over these decades of radius [m].
+_DECADES = (-30.0, 30.0)
+
+
+class Shape(Protocol):
+    """What a shape of revolution offers, for the type checker."""
+
+    word: ClassVar[str]
+    symmetry: ClassVar[str]
+
+    def gap(self, position: npt.ArrayLike) -> Array:
+        """Return the undeformed gap [m] at a distance from the axis [m]; 0 at the tip."""
+        ...
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope of the gap at a distance from the axis [m]; it does not fall."""
+        ...
+
+    def reduced(self, along: float, height: float) -> "Shape":
+        """Return the shape with distances in `along` [m] and gaps in `height` [m]."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -28,15 +61,30 @@ class Sphere:
     '0.9634 um'
     """
 
-    radius: float
+    word: ClassVar[str] = "sphere"
+    symmetry: ClassVar[str] = "revolution"
+
+    radius: Annotated[float, Quantity("m", "R", "sphere radius", above=0, example="5.19 mm")]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", positive("radius", self.radius, "m"))
+        conform(self)
 
-    def gap(self, position: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m], r^2/(2 R)."""
         r = np.asarray(position, dtype=float)
         return r * r / (2 * self.radius)
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope of the flank at a distance from the axis [m], r/R."""
+        return np.asarray(position, dtype=float) / self.radius
+
+    def equivalent_radius(self, length: float) -> float:
+        """Return its radius [m], whatever the material's length."""
+        return self.radius
+
+    def reduced(self, along: float, height: float) -> "Sphere":
+        """Return the sphere with distances in `along` [m] and gaps in `height` [m]."""
+        return Sphere(_snapped(self.radius * height / along**2, 1.0))
 
 
 @dataclass(frozen=True)
@@ -49,10 +97,15 @@ class FlatPunch:
         Half of its width, a [m]; positive.
     """
 
-    half_width: float
+    word: ClassVar[str] = "punch"
+    symmetry: ClassVar[str] = "plane"
+
+    half_width: Annotated[
+        float, Quantity("m", "a", "half width of the punch", above=0, example="1 mm")
+    ]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "half_width", positive("half_width", self.half_width, "m"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -75,17 +128,50 @@ class PowerLawProfile:
     '0.9634 um'
     """
 
-    coefficient: float
-    exponent: float
+    word: ClassVar[str] = "profile"
+    symmetry: ClassVar[str] = "revolution"
+
+    coefficient: Annotated[
+        float, Quantity("m^(1 - exponent)", "A", "coefficient of the profile A r^q", above=0)
+    ]
+    exponent: Annotated[
+        float,
+        Quantity(
+            "1",
+            "q",
+            "exponent of the profile A r^q",
+            least=1,
+            most=10,
+            example="2",
+            advice="1 is a cone, 10 a blunt tip; for a flat punch see theory.profiles",
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        unit = "m^(1 - exponent)"
-        object.__setattr__(self, "coefficient", positive("coefficient", self.coefficient, unit))
-        object.__setattr__(self, "exponent", profile_exponent("exponent", self.exponent))
+        conform(self)
 
-    def gap(self, position: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m], A r^q."""
         return self.coefficient * np.asarray(position, dtype=float) ** self.exponent
+
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope of the flank at a distance from the axis [m], q A r^(q-1)."""
+        A, q = self.coefficient, self.exponent
+        return q * A * np.asarray(position, dtype=float) ** (q - 1)
+
+    def equivalent_radius(self, length: float) -> float:
+        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
+        return _radius_of_power_law(self.coefficient, self.exponent, length)
+
+    def reduced(self, along: float, height: float) -> "PowerLawProfile":
+        """Return the profile with distances in `along` [m] and gaps in `height` [m]."""
+        A, q = self.coefficient, self.exponent
+        return PowerLawProfile(_snapped(A * along**q / height, 1 / q), q)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """What a dimensionless problem says of the shape."""
+        return {"profile_exponent": self.exponent}
 
 
 @dataclass(frozen=True)
@@ -104,10 +190,15 @@ class Cone:
     '5.0 um'
     """
 
-    slope: float
+    word: ClassVar[str] = "cone"
+    symmetry: ClassVar[str] = "revolution"
+
+    slope: Annotated[
+        float, Quantity("1", "A", "rise of the cone over its radius", above=0, example="0.1")
+    ]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "slope", positive("slope", self.slope, "1"))
+        conform(self)
 
     @property
     def coefficient(self) -> float:
@@ -119,17 +210,69 @@ class Cone:
         """That of a cone as a power law, 1."""
         return 1.0
 
-    def gap(self, position: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    def gap(self, position: npt.ArrayLike) -> Array:
         """Return the undeformed gap [m] at a distance from the axis [m]."""
         return self.slope * np.asarray(position, dtype=float)
 
+    def flank(self, position: npt.ArrayLike) -> Array:
+        """Return the slope of the flank, the same everywhere."""
+        return np.full(np.shape(position), self.slope)
 
-def profile_exponent(name: str, value: float) -> float:
-    """Return the exponent of a profile as a float, or refuse one outside 1 to 10."""
-    q = positive(name, value, "1")
-    if not 1 <= q <= 10:
+    def equivalent_radius(self, length: float) -> float:
+        """Return the radius [m] of the sphere with the same scales, for dg0/E0* [m]."""
+        return _radius_of_power_law(self.slope, 1.0, length)
+
+    def reduced(self, along: float, height: float) -> "Cone":
+        """Return the cone with distances in `along` [m] and gaps in `height` [m]."""
+        return Cone(_snapped(self.slope * along / height, 1.0))
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """What a dimensionless problem says of the shape."""
+        return {"profile_exponent": 1.0}
+
+
+def equivalent_radius(shape: Shape, length: float) -> float:
+    r"""Return the radius R [m] of the sphere with the same Tabor number and scales.
+
+    .. math:: \beta f'(\beta)^2 = \Delta\gamma_0/E_0^*, \qquad R = \beta/f'(\beta)
+
+    for the profile f; for a sphere it is its own radius, and else it depends on the `length`
+    dg0/E0* [m].
+
+    Raises
+    ------
+    ValueError
+        If the slope is too small or too large everywhere.
+    """
+    own = getattr(shape, "equivalent_radius", None)
+    if own is not None:
+        return own(length)
+
+    def excess(decades: float) -> float:
+        beta = 10**decades
+        return log(beta * float(shape.flank(beta)) ** 2 / length)
+
+    try:
+        beta = 10 ** float(brentq(excess, *_DECADES, xtol=1e-15))  # type: ignore[arg-type]
+    except (ValueError, OverflowError, ZeroDivisionError):
         raise ValueError(
-            f"{name} must be between 1 (a cone) and 10 (a blunt tip), got {q:g}; for a flat punch "
-            "see theory.profiles"
-        )
-    return q
+            f"the flank of {shape} must rise from the tip outwards: no radius balances "
+            f"adhesion over modulus, {length:g} m"
+        ) from None
+    return beta / float(shape.flank(beta))
+
+
+def numbers(shape: Shape) -> Mapping[str, float]:
+    """Return what a dimensionless problem says of a shape beside the Tabor number."""
+    return getattr(shape, "numbers", {})
+
+
+def _radius_of_power_law(coefficient: float, exponent: float, length: float) -> float:
+    slope = exponent * coefficient
+    return (length / slope**2) ** ((2 - exponent) / (2 * exponent - 1)) / slope
+
+
+def _snapped(value: float, to: float) -> float:
+    """Return a number, without the round-off of scales where it is the expected one."""
+    return to if abs(value / to - 1) < 1e-9 else value

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.materials.checks import poisson_ratio as checked_poisson_ratio
+from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
 
 Array = npt.NDArray[np.float64]
 

@@ -17,36 +17,14 @@ def positive(name: str, value: float, unit: str) -> float:
     return number
 
 
-def poisson_ratio(value: float) -> float:
-    """Return a Poisson ratio in [0, 0.5] as a float."""
-    number = _number(value)
-    if not 0 <= number <= 0.5:
-        raise ValueError(
-            f"poisson_ratio must lie between 0 and 0.5 (incompressible), got {value!r}"
-        )
-    return number
-
-
-def glassy_modulus(value: float, *, rubbery_modulus: float) -> float:
-    """Return a short-time modulus that is not below the long-time one [Pa]."""
-    number = positive("glassy_modulus", value, "Pa")
-    if number < rubbery_modulus:
+def stiffens(material: Any) -> None:
+    """Refuse a short-time modulus below the long-time one."""
+    glassy, rubbery = material.glassy_modulus, material.rubbery_modulus
+    if glassy < rubbery:
         raise ValueError(
             "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
-            f"{number:g} Pa < {rubbery_modulus:g} Pa; perhaps the two are exchanged"
+            f"{glassy:g} Pa < {rubbery:g} Pa; perhaps the two are exchanged"
         )
-    return number
-
-
-def exponent(value: float) -> float:
-    """Return the exponent of a modified power law, in (0, 3]."""
-    number = positive("exponent", value, "-")
-    if number > 3:
-        raise ValueError(
-            f"exponent must lie in (0, 3], got {number:g}; "
-            "describe a spectrum that narrow by StandardSolid"
-        )
-    return number
 
 
 def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:

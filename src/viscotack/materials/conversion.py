@@ -18,7 +18,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.cards import conform
 from viscotack.materials import checks
+from viscotack.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Material
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
@@ -50,9 +52,9 @@ class RetardationSeries:
     '9e-07 1/Pa in 2 s'
     """
 
-    glassy_modulus: float
+    glassy_modulus: GlassyModulus
     elements: tuple[tuple[float, float], ...]
-    poisson_ratio: float
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
         checked = [
@@ -64,11 +66,10 @@ class RetardationSeries:
         ]
         if not checked:
             raise ValueError("elements must not be empty; describe a solid without any by Elastic")
+        conform(self)
         checks.store(
             self,
-            glassy_modulus=checks.positive("glassy_modulus", self.glassy_modulus, "Pa"),
             elements=tuple(sorted(checked, key=lambda element: element[1])),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
         )
 
 

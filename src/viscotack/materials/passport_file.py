@@ -102,14 +102,14 @@ def material_in(table: Mapping[str, Any]) -> Material:
     model = table["model"]
     if model not in MODELS:
         raise ValueError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
-    units = units_of(model)
+    units = units_of(MODELS[model])
     values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
     if model == "prony":
         values["branches"] = [(parse(E, "Pa"), parse(t, "s")) for E, t in table["branches"]]
     extra = table.keys() - {"model", "branches", *units}
     if extra:
         raise ValueError(f"[material] has the unknown key {min(extra)!r}")
-    return MODELS[model][0](**values)
+    return MODELS[model](**values)
 
 
 def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:

@@ -44,7 +44,8 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
     material = passport.material
     model = word_of(material)
     constants = {
-        name: _quantity(getattr(material, name), unit) for name, unit in units_of(model).items()
+        name: _quantity(getattr(material, name), unit)
+        for name, unit in units_of(type(material)).items()
     }
     if isinstance(material, Prony):
         constants["branches"] = _pairs(material.branches, "Pa", "s")

@@ -11,7 +11,7 @@ def in_words(passport: Passport) -> str:
     solid = passport.material
     model = word_of(solid)
     lines = [f"{passport.name}: {model}"]
-    for name, unit in units_of(model).items():
+    for name, unit in units_of(type(solid)).items():
         lines.append(f"  {name:<18}{getattr(solid, name):>12.5g} {'' if unit == '1' else unit}")
     lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>12.5g}")
     if model == "prony":

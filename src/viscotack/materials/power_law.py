@@ -10,12 +10,22 @@ What one form gives in closed form, the other obtains from it: its spectrum is a
 """
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.cards import conform
 from viscotack.materials import checks
 from viscotack.materials.checks import like_input, nonnegative
+from viscotack.materials.constants import (
+    Exponent,
+    GlassyModulus,
+    PoissonRatio,
+    RelaxationTime,
+    RetardationTime,
+    RubberyModulus,
+)
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import Modes, compressed
@@ -74,22 +84,17 @@ class RetardationPowerLaw:
     '0.1487'
     """
 
-    rubbery_modulus: float
-    glassy_modulus: float
-    exponent: float
-    tau0: float
-    poisson_ratio: float
+    word: ClassVar[str] = "power-law"
+
+    rubbery_modulus: RubberyModulus
+    glassy_modulus: GlassyModulus
+    exponent: Exponent
+    tau0: RetardationTime
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        rubbery = checks.positive("rubbery_modulus", self.rubbery_modulus, "Pa")
-        checks.store(
-            self,
-            rubbery_modulus=rubbery,
-            glassy_modulus=checks.glassy_modulus(self.glassy_modulus, rubbery_modulus=rubbery),
-            exponent=checks.exponent(self.exponent),
-            tau0=checks.positive("tau0", self.tau0, "s"),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
-        )
+        conform(self)
+        checks.stiffens(self)
 
     @property
     def modulus_ratio(self) -> float:
@@ -221,22 +226,17 @@ class RelaxationPowerLaw:
     '6.9378 MPa, 0.1381 1/MPa'
     """
 
-    rubbery_modulus: float
-    glassy_modulus: float
-    exponent: float
-    tau0: float
-    poisson_ratio: float
+    word: ClassVar[str] = "relaxation-power-law"
+
+    rubbery_modulus: RubberyModulus
+    glassy_modulus: GlassyModulus
+    exponent: Exponent
+    tau0: RelaxationTime
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        rubbery = checks.positive("rubbery_modulus", self.rubbery_modulus, "Pa")
-        checks.store(
-            self,
-            rubbery_modulus=rubbery,
-            glassy_modulus=checks.glassy_modulus(self.glassy_modulus, rubbery_modulus=rubbery),
-            exponent=checks.exponent(self.exponent),
-            tau0=checks.positive("tau0", self.tau0, "s"),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
-        )
+        conform(self)
+        checks.stiffens(self)
 
     @property
     def modulus_ratio(self) -> float:

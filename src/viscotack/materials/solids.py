@@ -1,12 +1,20 @@
 """Linear viscoelastic solids with no branch, one branch, or a series of branches."""
 
 from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.cards import Pairs, conform
 from viscotack.materials import checks
 from viscotack.materials.checks import like_input, nonnegative
+from viscotack.materials.constants import (
+    GlassyModulus,
+    PoissonRatio,
+    RetardationTime,
+    RubberyModulus,
+)
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import Modes, compressed, maxwell, voigt
@@ -30,15 +38,13 @@ class Elastic:
     '1.333e+06 Pa'
     """
 
-    rubbery_modulus: float
-    poisson_ratio: float
+    word: ClassVar[str] = "elastic"
+
+    rubbery_modulus: RubberyModulus
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        checks.store(
-            self,
-            rubbery_modulus=checks.positive("rubbery_modulus", self.rubbery_modulus, "Pa"),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
-        )
+        conform(self)
 
     @property
     def glassy_modulus(self) -> float:
@@ -118,20 +124,16 @@ class StandardSolid:
     '0.6689 1/MPa, relaxes in 0.20 s'
     """
 
-    rubbery_modulus: float
-    glassy_modulus: float
-    tau0: float
-    poisson_ratio: float
+    word: ClassVar[str] = "sls"
+
+    rubbery_modulus: RubberyModulus
+    glassy_modulus: GlassyModulus
+    tau0: RetardationTime
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        rubbery = checks.positive("rubbery_modulus", self.rubbery_modulus, "Pa")
-        checks.store(
-            self,
-            rubbery_modulus=rubbery,
-            glassy_modulus=checks.glassy_modulus(self.glassy_modulus, rubbery_modulus=rubbery),
-            tau0=checks.positive("tau0", self.tau0, "s"),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
-        )
+        conform(self)
+        checks.stiffens(self)
 
     @property
     def modulus_ratio(self) -> float:
@@ -239,17 +241,23 @@ class Prony:
     '2.472e+06 Pa, 3.446e-07 1/Pa'
     """
 
-    rubbery_modulus: float
-    branches: tuple[tuple[float, float], ...]
-    poisson_ratio: float
+    word: ClassVar[str] = "prony"
+
+    rubbery_modulus: RubberyModulus
+    branches: Annotated[
+        tuple[tuple[float, float], ...],
+        Pairs(
+            ("Pa", "s"),
+            "E_i, tau_i",
+            "modulus and relaxation time of each branch",
+            example='[["5 MPa", "1 ms"], ["4 MPa", "1 s"]]',
+        ),
+    ]
+    poisson_ratio: PoissonRatio
 
     def __post_init__(self):
-        checks.store(
-            self,
-            rubbery_modulus=checks.positive("rubbery_modulus", self.rubbery_modulus, "Pa"),
-            branches=_branches(self.branches),
-            poisson_ratio=checks.poisson_ratio(self.poisson_ratio),
-        )
+        conform(self)
+        checks.store(self, branches=_branches(self.branches))
 
     @property
     def glassy_modulus(self) -> float:

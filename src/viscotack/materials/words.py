@@ -3,26 +3,27 @@
 from collections.abc import Mapping
 from typing import Any
 
+from viscotack.cards import cards
 from viscotack.materials.material import Material
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
 
-_POWER_LAW = {"glassy_modulus": "Pa", "exponent": "1", "tau0": "s"}
-
-# Word in a file -> class, and the SI unit of each constant beside the two that all have.
-MODELS: Mapping[str, tuple[Any, Mapping[str, str]]] = {
-    "elastic": (Elastic, {}),
-    "sls": (StandardSolid, {"glassy_modulus": "Pa", "tau0": "s"}),
-    "prony": (Prony, {}),
-    "power-law": (RetardationPowerLaw, _POWER_LAW),
-    "relaxation-power-law": (RelaxationPowerLaw, _POWER_LAW),
+_ALL = ("rubbery_modulus", "poisson_ratio")
+# Word in a file -> class.
+MODELS: Mapping[str, Any] = {
+    kind.word: kind
+    for kind in (Elastic, StandardSolid, Prony, RetardationPowerLaw, RelaxationPowerLaw)
 }
-_ALL = {"rubbery_modulus": "Pa", "poisson_ratio": "1"}
 
 
-def units_of(model: str) -> dict[str, str]:
-    """Return the SI unit of each plain constant of a model, by its name."""
-    return _ALL | dict(MODELS[model][1])
+def units_of(model: Any) -> dict[str, str]:
+    """Return the SI unit of each plain constant of a class of materials, by its name.
+
+    Those that all materials have come first, as in files.
+    """
+    units = {name: field.card.unit for name, field in cards(model).items()}
+    first = {name: units[name] for name in _ALL if name in units}
+    return first | units
 
 
 def word_of(material: Material) -> str:
@@ -33,7 +34,10 @@ def word_of(material: Material) -> str:
     >>> word_of(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
     'elastic'
     """
-    for word, (kind, _) in MODELS.items():
-        if isinstance(material, kind):
-            return word
-    raise ValueError(f"{type(material).__name__} has no word in files; those known are {[*MODELS]}")
+    word = getattr(material, "word", None)
+    if word is None:
+        raise ValueError(
+            f"{type(material).__name__} has no word in files; give the class one, "
+            f'word: ClassVar[str] = "...", other than {", ".join(MODELS)}'
+        )
+    return word

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from viscotack.forecast.prediction import Prediction
+from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Result
-from viscotack.result.outputs import SPHERE, si_scales
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,10 +43,10 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     curve = prediction.curve
     if curve is None:
         raise ValueError(f"the theory {prediction.method!r} gives a force and no curve to draw")
-    scales = si_scales(prediction.problem)
+    scales = prediction.problem.scales()
     if scales is None:
         length, load = 1.0, 1.0
-        units = [f"/ {SPHERE.series[name].unit.drawn}" for name in ("depth", "force")]
+        units = [f"/ {REVOLUTION.series[name].unit.drawn}" for name in ("depth", "force")]
     else:
         length, load, units = scales.length * 1e6, scales.force * 1e3, ["[µm]", "[mN]"]
     with matplotlib.style.context(_STYLE):

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.problem.outputs import Unit
 from viscotack.result import Result
 from viscotack.result.observables import pull_off
-from viscotack.result.outputs import Unit, kind_of, si_scales
 from viscotack.theory.punch.punch import REGIMES
 from viscotack.theory.punch.punch_map import RegimeMap
 
@@ -93,7 +93,7 @@ def draw_energy(result: Result) -> "Figure":
         left.set_xlabel(depth_label)
         left.set_ylabel(f"energy {unit}")
         left.legend()
-        scales = si_scales(result.problem)
+        scales = result.scales
         factor_time, unit_time = (1.0, "/ time unit") if scales is None else (scales.time, "[s]")
         times, heat = energy["mode_time"] * factor_time, energy["mode_heat"] * factor
         right.vlines(times, 0, heat, color="C2", lw=6)
@@ -252,7 +252,7 @@ def _mark_pull_off(
     unit = ylabel.rpartition(" [")[2].rstrip("]")
     words = (
         f"pull-off, {abs(force):.4g}"
-        if si_scales(result.problem) is None
+        if result.scales is None
         else f"pull-off, {abs(force):.3g} {unit}"
     )
     axes.plot(getattr(found, x) * xfactor, force, "s", color="C1", ms=9, label=words, zorder=3)
@@ -260,16 +260,16 @@ def _mark_pull_off(
 
 def _work_unit(result: Result) -> tuple[float, str]:
     """Return the factor and the unit in which energies are drawn."""
-    kind = kind_of(result.problem)
+    kind = result.problem.outputs
     work = (result.energy or {})["drive"]
-    factor = kind.energy_factor(result.problem.groups())
+    factor = kind.energy_factor(result.groups)
     return _drawn(result, work, factor, kind.energy)
 
 
 def _series(result: Result, name: str) -> tuple[npt.NDArray[np.float64], float, str]:
     """Return a series as drawn, the factor that made it so, and the label of its axis."""
-    values, column = getattr(result, name), kind_of(result.problem).of(name)
-    factor = column.factor(result.problem.groups())
+    values, column = getattr(result, name), result.problem.outputs.of(name)
+    factor = column.factor(result.groups)
     factor, unit = _drawn(result, values, factor, column.unit)
     return values * factor, factor, f"{column.words} {unit}"
 
@@ -278,7 +278,7 @@ def _drawn(
     result: Result, values: npt.NDArray[np.float64], factor: float, unit: Unit
 ) -> tuple[float, str]:
     """Return the factor with which numbers of a result are drawn, and the unit that they have."""
-    scales = si_scales(result.problem)
+    scales = result.scales
     if scales is None:
         return factor, f"/ {unit.drawn}"
     factor *= getattr(scales, unit.scale)

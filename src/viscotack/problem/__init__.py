@@ -1,31 +1,7 @@
 """A problem: material, traction law, geometry and protocol, in SI, in groups and in files."""
 
-from .problem import (
-    LARGEST_CONTACT,
-    Groups,
-    Problem,
-    Scales,
-    check_parts,
-    check_reduced,
-    farthest,
-    material_in_si,
-    reduced_parts,
-    sphere_scales,
-    sphere_units,
-    tabor_number,
-)
+from .plane import PunchScales
+from .problem import Case, Groups, Problem, PunchGroups
+from .revolution import Scales
 
-__all__ = [
-    "Groups",
-    "LARGEST_CONTACT",
-    "Problem",
-    "Scales",
-    "check_parts",
-    "check_reduced",
-    "farthest",
-    "material_in_si",
-    "reduced_parts",
-    "sphere_scales",
-    "sphere_units",
-    "tabor_number",
-]
+__all__ = ["Case", "Groups", "Problem", "PunchGroups", "PunchScales", "Scales"]

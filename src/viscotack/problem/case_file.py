@@ -1,79 +1,40 @@
-"""A problem written in a file: TOML in SI with units in the text, and Prony series in CSV.
+"""A problem written in a file: TOML in SI with units in the text.
 
-docs/input.md describes both formats. Every error names the file, the table and the key.
+docs/input.md describes the format; which keys a table has is read from the cards of what it states.
 """
 
-import csv
-import difflib
 import os
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from viscotack.geometry import Sphere
-from viscotack.materials import Material
+from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
+from viscotack.materials import Material, Prony
 from viscotack.materials.passport_file import read_passport
-from viscotack.materials.words import MODELS, units_of
-from viscotack.units import parse, positive
+from viscotack.problem import plane, revolution
+from viscotack.problem.law_table import law_from_table
+from viscotack.problem.nouns import Nouns, known
+from viscotack.problem.problem import Problem
+from viscotack.problem.prony_file import read_prony
+from viscotack.problem.protocol_table import protocol_from_table
+from viscotack.problem.table import Table, refuse_unknown
+from viscotack.units import parse
 
-from . import Problem
-from .profile_file import profile_from_table
-from .profile_problem import ProfileProblem
-from .protocol_file import protocol_from_table
-from .punch_file import punch_parts
-from .punch_problem import PunchProblem
-from .traction_file import law_from_table
-
-# The tables of a problem, by its indenter.
-_TABLES = {
-    "sphere": ("material", "interface", "sphere", "protocol"),
-    "punch": ("material", "interface", "punch", "layer", "protocol"),
-    "profile": ("material", "interface", "profile", "protocol"),
-}
-_KINDS: dict[str, Any] = {
-    "sphere": Problem,
-    "punch": PunchProblem,
-    "profile": ProfileProblem,
-}
-# An example for every key, shown when it is missing or wrong.
-_EXAMPLES = {
-    "model": '"power-law"',
-    "rubbery_modulus": '"1.458 MPa"',
-    "glassy_modulus": '"3089 MPa"',
-    "tau0": '"18.76 ms"',
-    "exponent": "0.22",
-    "poisson_ratio": "0.5",
-    "passport": '"pdms.toml"',
-    "temperature": '"20 degC"',
-    "branches": '[["5 MPa", "1 ms"], ["4 MPa", "1 s"]]',
-    "law": '"lennard-jones"',
-    "work_of_adhesion": '"0.1523 J/m^2"',
-    "equilibrium_gap": '"1.55 um"',
-    "strength": '"100 kPa"',
-    "decay": "0.25",
-    "file": '"table.csv"',
-    "radius": '"5.19 mm"',
-    "half_width": '"1 mm"',
-    "thickness": '"50 um"',
-    "base": '"frictionless"',
-    "slope": "0.1",
-    "height": '"10 um"',
-    "at_radius": '"200 um"',
-    "speed": '"100 um/s"',
-    "stiffness": '"500 N/m"',
-}
+_COMMON = ("material", "interface", "protocol")
 
 
-def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem | ProfileProblem:
+def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Problem:
     """Return the problem that a TOML file states in SI.
 
     Parameters
     ----------
     path : path
-        File with the tables [material], [interface], [sphere] and [protocol], or [punch] and
-        [layer], or [profile], in place of [sphere]. Quantities are texts with units, such as
+        File with the tables [material], [interface], [protocol] and one for the indenter: [sphere],
+        [cone], [profile], or [punch] and [layer]. Quantities are texts with units, such as
         ``radius = "5.19 mm"``.
+    also : iterable of classes
+        Laws, materials and shapes of the user's own that the file may name by their words.
 
     Raises
     ------
@@ -83,208 +44,102 @@ def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem | ProfileP
         If it is not TOML, a table or key is missing, unknown or of the wrong kind, or the problem
         is impossible; with file, table and key.
     """
-    path = Path(path)
+    path, nouns = Path(path), known(also)
     try:
         tables = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ValueError(f"{path} is not a TOML file: {error}") from None
-    indenter = "punch" if tables.keys() & {"punch", "layer"} else "sphere"
-    indenter = "profile" if "profile" in tables else indenter
-    _refuse_unknown(f"{path}", tables, _TABLES[indenter], "table")
-    found = {name: _Table(path, name, tables) for name in _TABLES[indenter]}
-    law = law_from_table(found["interface"])
-    parts: dict[str, Any] = {
-        "material": _material(found["material"]),
+    shape = _shape_table(path, tables, nouns)
+    plain = nouns.shapes[shape].symmetry == "plane"
+    names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))
+    refuse_unknown(f"{path}", tables, names, "table")
+    found = {name: Table(path, name, tables) for name in names}
+    if "layer" in found and not plain:
+        raise ValueError(
+            f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
+            "under it is not known: leave the table out"
+        )
+    material = _material(found["material"], nouns)
+    law = law_from_table(found["interface"], nouns.laws)
+    kind = plane if plain else revolution
+    parts = {
+        "material": material,
         "traction": law,
-        "protocol": protocol_from_table(
-            found["protocol"], "punch" if indenter == "punch" else "sphere", law.equilibrium_gap
-        ),
+        "geometry": _shape(found[shape], nouns.shapes[shape]),
+        "body": _layer(found["layer"], material) if plain else HalfSpace(),
+        "protocol": protocol_from_table(found["protocol"], kind.SI, law.equilibrium_gap),
     }
-    if indenter == "punch":
-        parts |= punch_parts(found, parts["material"])
-    elif indenter == "profile":
-        cone = "slope" in tables["profile"]
-        try:
-            parts["profile"] = profile_from_table(found["profile"], cone=cone)
-        except ValueError as error:
-            if str(path) in str(error):
-                raise
-            raise ValueError(f"{path}, [profile] {error}") from None
-    else:
-        radius = found["sphere"].quantity("radius", "m")
-        parts["geometry"] = found["sphere"].make(Sphere, radius=radius)
     for table in found.values():
         table.finish()
     try:
-        return _KINDS[indenter](**parts)
+        return Problem(**parts)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
 
 
-def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float], ...], str]:
-    """Return the branches of a Prony series from a CSV file, and the unit of their times.
+def _shape_table(path: Path, tables: Mapping[str, Any], nouns: Nouns) -> str:
+    """Return the name of the table that states the indenter."""
+    given = [name for name in tables if name in nouns.shapes]
+    if len(given) > 1:
+        raise ValueError(f"{path}: one indenter at a time, got [{'] and ['.join(given)}]")
+    if given:
+        return given[0]
+    return "punch" if "layer" in tables else "sphere"
 
-    Parameters
-    ----------
-    path : path
-        A first row ``modulus_ratio,relaxation_time_s``, then a branch a row: its modulus over the
-        rubbery modulus, and its relaxation time. Instead of ``s`` any unit of time (``ms``,
-        ``h``); just ``relaxation_time`` means that times are pure numbers. Lines that begin with
-        ``#`` are skipped.
 
-    Returns
-    -------
-    tuple of (float, float), str
-        Branches as (modulus ratio, relaxation time in the file's unit), and that unit ("1" for
-        pure numbers).
+def _shape(table: Table, kind: Any) -> Any:
+    """Return the indenter that a table states by the cards of its class.
 
-    Raises
-    ------
-    FileNotFoundError
-        If there is no such file.
-    ValueError
-        If the header or a row is not as described; with the line.
+    A [profile] is a cone by its slope, or the exponent q and one point of z = A r^q, its height at
+    a radius, so that nobody has to type a coefficient in m^(1-q).
     """
-    path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
-    rows = list(csv.reader(x for _, x in numbered))
-    header = [x.strip() for x in rows[0]] if rows else []
-    if (
-        len(header) != 2
-        or header[0] != "modulus_ratio"
-        or not header[1].startswith("relaxation_time")
-    ):
+    if kind is not PowerLawProfile:
+        return table.make(kind, **table.numbers(kind))
+    if "slope" in table.values:
+        return table.make(Cone, **table.numbers(Cone))
+    exponent = table.quantity("exponent", "1", "2")
+    height = table.quantity("height", "m", '"10 um"')
+    radius = table.quantity("at_radius", "m", '"200 um"')
+    if not (height > 0 and radius > 0):
         raise ValueError(
-            f"{path}: the first row must be 'modulus_ratio,relaxation_time_s' (or another unit of "
-            f"time), got {','.join(header)!r}"
+            f"{table.name} height and at_radius must be positive, got {height} m and {radius} m"
         )
-    unit = header[1].removeprefix("relaxation_time").removeprefix("_") or "1"
-    if unit != "1":
-        try:
-            parse(f"1 {unit}", "s")
-        except ValueError as error:
-            raise ValueError(f"{path}, the name of the second column: {error}") from None
-    branches = []
-    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
-        try:
-            if len(row) != 2:
-                raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
-            ratio, time = row
-            branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
-        except ValueError as error:
-            raise ValueError(f"{path}, line {line}: {error}") from None
-    if not branches:
-        raise ValueError(f"{path}: there is no branch below the header")
-    return tuple(branches), unit
+    return table.make(PowerLawProfile, coefficient=height / radius**exponent, exponent=exponent)
 
 
-class _Table:
-    """One table of a file: hands out its keys, and knows which were never asked for."""
-
-    def __init__(self, path: Path, name: str, tables: dict[str, Any]) -> None:
-        self.path, self.name = path, f"{path}, [{name}]"
-        if not isinstance(tables.get(name), dict):
-            raise ValueError(f"{path}: the table [{name}] is missing; see docs/input.md")
-        self.values = tables[name]
-        self.known: set[str] = set()
-
-    def get(self, key: str) -> Any:
-        self.known.add(key)
-        if key not in self.values:
-            example = _EXAMPLES.get(key, '"..."')
-            close = difflib.get_close_matches(
-                key, self.values.keys() - self.known, n=1, cutoff=0.75
-            )
-            hint = f" (is {close[0]} meant?)" if close else ""
-            raise ValueError(
-                f"{self.name} {key} is missing{hint}; write for example {key} = {example}"
-            )
-        return self.values[key]
-
-    def quantity(self, key: str, unit: str) -> float:
-        value = self.get(key)
-        example = _EXAMPLES.get(key, f'"1 {unit}"')
-        if unit != "1" and not isinstance(value, str):
-            raise ValueError(
-                f"{self.name} {key} must be text with a unit, got {value!r}; "
-                f"write for example {key} = {example}"
-            )
-        try:
-            return parse(value, unit)
-        except ValueError as error:
-            raise ValueError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
-
-    def word(self, key: str, allowed: Iterable[str]) -> str:
-        value, allowed = self.get(key), list(allowed)
-        if value not in allowed:
-            raise ValueError(
-                f"{self.name} {key} must be one of {', '.join(allowed)}, got {value!r}"
-            )
-        return value
-
-    def make(self, kind: Any, *value: Any, **values: Any) -> Any:
-        try:
-            return kind(*value, **values)
-        except ValueError as error:
-            raise ValueError(f"{self.name} {error}") from None
-
-    def finish(self) -> None:
-        _refuse_unknown(self.name, self.values, self.known, "key")
+def _layer(table: Table, material: Material) -> Layer:
+    """Return the layer that a table states; a bonded one is as its material is."""
+    bonded = table.word("base", (Frictionless.word, Bonded.word)) == Bonded.word
+    base = Bonded(poisson_ratio=material.poisson_ratio) if bonded else Frictionless()
+    return table.make(Layer, **table.numbers(Layer), base=base)
 
 
-def _refuse_unknown(where: str, given: Iterable[str], known: Iterable[str], what: str) -> None:
-    known = sorted(known)
-    for name in given:
-        if name not in known:
-            close = difflib.get_close_matches(name, known, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}"
-            raise ValueError(f"{where}: unknown {what} {name!r}; {hint}")
-
-
-def _material(table: _Table) -> Material:
+def _material(table: Table, nouns: Nouns) -> Material:
     if "passport" in table.values:
         return _from_passport(table)
-    model = table.word("model", MODELS)
-    values: dict[str, Any] = {
-        key: table.quantity(key, unit) for key, unit in units_of(model).items()
-    }
-    if model == "prony":
-        values["branches"] = _branches(table, values["rubbery_modulus"])
-    return table.make(MODELS[model][0], **values)
+    kind = nouns.materials[table.word("model", nouns.materials)]
+    if kind is Prony and "file" in table.values:
+        return _prony(table)
+    return table.make(kind, **table.numbers(kind))
 
 
-def _from_passport(table: _Table) -> Material:
+def _from_passport(table: Table) -> Material:
     """Return the material of a passport beside the file, at the temperature asked for."""
-    passport = read_passport(table.path.parent / str(table.get("passport")))
+    passport = read_passport(table.path.parent / str(table.get("passport", '"pdms.toml"')))
     if "temperature" not in table.values:
         return passport.material
-    return table.make(passport.at_temperature, table.quantity("temperature", "K"))
+    return table.make(passport.at_temperature, table.quantity("temperature", "K", '"20 degC"'))
 
 
-def _branches(table: _Table, rubbery_modulus: float) -> tuple[tuple[float, float], ...]:
-    if "file" in table.values:
-        ratios, unit = read_prony(table.path.parent / str(table.get("file")))
-        if unit == "1":
-            raise ValueError(
-                f"{table.name} file: its times have no unit; name the column relaxation_time_s"
-            )
-        second = parse(f"1 {unit}", "s")
-        return tuple((ratio * rubbery_modulus, time * second) for ratio, time in ratios)
-    pairs = table.get("branches")
-    try:
-        return tuple(_branch(pair) for pair in pairs)
-    except (TypeError, ValueError) as error:
+def _prony(table: Table) -> Prony:
+    """Return a Prony series whose branches are in a file, in moduli over the rubbery one."""
+    ratios, unit = read_prony(table.path.parent / str(table.get("file", '"prony.csv"')))
+    if unit == "1":
         raise ValueError(
-            f"{table.name} branches: {error}; write for example "
-            f'branches = {_EXAMPLES["branches"]}, or file = "prony.csv"'
-        ) from None
-
-
-def _branch(pair: Any) -> tuple[float, float]:
-    if not isinstance(pair, list) or len(pair) != 2:
-        raise ValueError(f"a branch is a modulus and a relaxation time, got {pair!r}")
-    return parse(str(pair[0]), "Pa"), parse(str(pair[1]), "s")
+            f"{table.name} file: its times have no unit; name the column relaxation_time_s"
+        )
+    second = parse(f"1 {unit}", "s")
+    E0 = table.quantity("rubbery_modulus", "Pa")
+    branches = tuple((ratio * E0, time * second) for ratio, time in ratios)
+    nu = table.quantity("poisson_ratio", "1")
+    return table.make(Prony, rubbery_modulus=E0, branches=branches, poisson_ratio=nu)

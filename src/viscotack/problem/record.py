@@ -2,16 +2,12 @@
 
 import hashlib
 import json
+from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
-from viscotack import geometry, materials, problem, protocol, traction
-from viscotack import geometry as layer
-
-from . import profile_problem, punch_problem
-
-# Where the classes of a record may live. A new law in one of these rooms needs nothing here.
-_ROOMS = (materials, traction, geometry, layer, protocol, problem, punch_problem, profile_problem)
+from viscotack.problem.nouns import Nouns, known
+from viscotack.problem.older import naming, upgraded
 
 
 def to_dict(thing: Any) -> dict[str, Any]:
@@ -23,7 +19,8 @@ def to_dict(thing: Any) -> dict[str, Any]:
 
     Examples
     --------
-    >>> to_dict(protocol.AtForce(force=1.5e-3))
+    >>> from viscotack.protocol import AtForce
+    >>> to_dict(AtForce(force=1.5e-3))
     {'type': 'AtForce', 'force': 0.0015}
     """
     if not is_dataclass(thing) or isinstance(thing, type):
@@ -35,30 +32,22 @@ def to_dict(thing: Any) -> dict[str, Any]:
     }
 
 
-def from_dict(record: Any) -> Any:
+def from_dict(record: Any, also: Iterable[Any] = ()) -> Any:
     """Return the problem, or the part of one, that a dictionary of :func:`to_dict` describes.
+
+    Parameters
+    ----------
+    record : dict
+        Of this version, or of an older one.
+    also : iterable of classes
+        Laws, materials and shapes of the user's own that it may name.
 
     Raises
     ------
     ValueError
         If the type is unknown, a field is missing or unknown, or a value is impossible.
     """
-    if not isinstance(record, dict) or not isinstance(record.get("type"), str):
-        raise ValueError(f"a record must be a dictionary with a 'type', got {record!r:.80}")
-    found = [getattr(room, record["type"], None) for room in _ROOMS]
-    kind = next((k for k in found if isinstance(k, type) and is_dataclass(k)), None)
-    if kind is None:
-        raise ValueError(
-            f"unknown type {record['type']!r} in a record; a newer version may know it"
-        )
-    given, known = record.keys() - {"type"}, {f.name for f in fields(kind)}
-    needed = {f.name for f in fields(kind) if f.default is MISSING}
-    if not needed <= given <= known:
-        raise ValueError(
-            f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
-            f"{sorted(known - needed)}, got {sorted(given)}"
-        )
-    return kind(**{name: _made(record[name]) for name in given})
+    return _made(upgraded(record), known(also))
 
 
 def run_id(case: Any) -> str:
@@ -66,7 +55,7 @@ def run_id(case: Any) -> str:
 
     Equal problems have equal names, whatever the version, machine or day.
     """
-    text = json.dumps(to_dict(case), sort_keys=True)
+    text = json.dumps(naming(to_dict(case)), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
@@ -76,8 +65,28 @@ def _plain(value: Any) -> Any:
     return [_plain(v) for v in value] if isinstance(value, tuple) else value
 
 
-def _made(value: Any) -> Any:
+def _made(record: Any, nouns: Nouns) -> Any:
+    if not isinstance(record, dict) or not isinstance(record.get("type"), str):
+        raise ValueError(f"a record must be a dictionary with a 'type', got {record!r:.80}")
+    kind = nouns.types.get(record["type"])
+    if kind is None:
+        raise ValueError(
+            f"unknown type {record['type']!r} in a record: if it is one of your own, give its "
+            f"class (also=({record['type']},) in Python, --with FILE.py on the command line); a "
+            "newer version may know it"
+        )
+    given, names = record.keys() - {"type"}, {f.name for f in fields(kind)}
+    needed = {f.name for f in fields(kind) if f.default is MISSING}
+    if not needed <= given <= names:
+        raise ValueError(
+            f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
+            f"{sorted(names - needed)}, got {sorted(given)}"
+        )
+    return kind(**{name: _value(record[name], nouns) for name in given})
+
+
+def _value(value: Any, nouns: Nouns) -> Any:
     # A list stays one: the classes make their own tuples.
     if isinstance(value, list):
-        return [_made(entry) for entry in value]
-    return from_dict(value) if isinstance(value, dict) else value
+        return [_value(entry, nouns) for entry in value]
+    return _made(value, nouns) if isinstance(value, dict) else value

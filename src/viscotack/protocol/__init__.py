@@ -16,6 +16,7 @@ from .moves import (
     Start,
     Units,
     check_moves,
+    states,
 )
 
 __all__ = [
@@ -34,4 +35,5 @@ __all__ = [
     "Start",
     "Units",
     "check_moves",
+    "states",
 ]

@@ -6,8 +6,28 @@ about one number. In a :class:`~viscotack.problem.Problem` the number is in SI; 
 """
 
 from dataclasses import dataclass, replace
+from typing import Annotated, ClassVar
 
-from viscotack.units import finite, positive
+from viscotack.cards import Quantity, conform
+
+Speed = Annotated[
+    float,
+    Quantity("m/s", "r", "speed of the drive", above=0, measure="speed", example="100 um/s"),
+]
+Duration = Annotated[
+    float, Quantity("s", "t", "how long it takes", above=0, measure="time", example="60 s")
+]
+Stiffness = Annotated[
+    float,
+    Quantity(
+        "N/m",
+        "K",
+        "stiffness of the machine; rigid when left out",
+        above=0,
+        measure="stiffness",
+        example="500 N/m",
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -21,10 +41,21 @@ class AtDepth:
         the solid; a negative one exists while adhesion holds the contact.
     """
 
-    depth: float
+    word: ClassVar[str] = "depth"
+
+    depth: Annotated[
+        float,
+        Quantity(
+            "m",
+            "delta",
+            "depth of the relaxed start, positive into the solid",
+            measure="depth",
+            example="2 um",
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "depth", finite("depth", self.depth, "m"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -38,10 +69,21 @@ class AtForce:
         one exists down to the elastic pull-off force.
     """
 
-    force: float
+    word: ClassVar[str] = "force"
+
+    force: Annotated[
+        float,
+        Quantity(
+            "N",
+            "F",
+            "force of the relaxed start, positive in compression",
+            measure="force",
+            example="1.5 mN",
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "force", finite("force", self.force, "N"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -55,11 +97,22 @@ class AtRadius:
         [m; (pi R^2 Delta-gamma_0/E_0*)^(1/3) when dimensionless]; positive.
     """
 
-    contact_radius: float
+    word: ClassVar[str] = "radius"
+
+    contact_radius: Annotated[
+        float,
+        Quantity(
+            "m",
+            "a",
+            "contact radius of the relaxed start",
+            above=0,
+            measure="radius",
+            example="200 um",
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        radius = positive("contact_radius", self.contact_radius, "m")
-        object.__setattr__(self, "contact_radius", radius)
+        conform(self)
 
 
 Start = AtDepth | AtForce | AtRadius
@@ -77,10 +130,22 @@ class Apart:
         softer the solid is; the search says so where contact is all there is.
     """
 
-    gap: float
+    word: ClassVar[str] = "apart"
+
+    gap: Annotated[
+        float,
+        Quantity(
+            "m",
+            "h",
+            "gap between the undeformed surfaces at a start apart",
+            above=0,
+            measure="depth",
+            example="20 um",
+        ),
+    ]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "gap", positive("gap", self.gap, "m"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -95,12 +160,12 @@ class Approach:
         Where it ends: depth, force or contact radius of the indenter at that instant, not relaxed.
     """
 
-    speed: float
+    speed: Speed
     to: Start
 
     def __post_init__(self) -> None:
         _check_end(self.to, "Approach")
-        object.__setattr__(self, "speed", positive("speed", self.speed, "m/s"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -115,12 +180,12 @@ class Retract:
         Where it ends. The surfaces may have come apart by then.
     """
 
-    speed: float
+    speed: Speed
     to: Start
 
     def __post_init__(self) -> None:
         _check_end(self.to, "Retract")
-        object.__setattr__(self, "speed", positive("speed", self.speed, "m/s"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -136,12 +201,11 @@ class MoveTo:
         Time it takes [s; the time unit when dimensionless]; positive.
     """
 
-    depth: float
-    duration: float
+    depth: Annotated[float, Quantity("m", "D", "depth of the drive at the end", measure="depth")]
+    duration: Duration
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "depth", finite("depth", self.depth, "m"))
-        object.__setattr__(self, "duration", positive("duration", self.duration, "s"))
+        conform(self)
 
 
 @dataclass(frozen=True)
@@ -157,11 +221,11 @@ class Dwell:
         the force. A contact held at a tensile force may let go; the run then ends there.
     """
 
-    duration: float
+    duration: Duration
     hold: str = "drive"
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "duration", positive("duration", self.duration, "s"))
+        conform(self)
         if self.hold not in HOLDS:
             raise ValueError(f"hold must be one of {', '.join(HOLDS)}, got {self.hold!r}")
 
@@ -179,12 +243,14 @@ class LoadTo:
         Time it takes [s; the time unit when dimensionless]; positive.
     """
 
-    force: float
-    duration: float
+    force: Annotated[
+        float,
+        Quantity("N", "F", "force at the end, positive in compression", measure="force"),
+    ]
+    duration: Duration
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "force", finite("force", self.force, "N"))
-        object.__setattr__(self, "duration", positive("duration", self.duration, "s"))
+        conform(self)
 
 
 HOLDS = ("drive", "depth", "force")
@@ -228,9 +294,9 @@ class Retraction:
     """
 
     start: Start | Apart
-    speed: float | None
+    speed: Speed | None
     moves: tuple[Move, ...] = ()
-    stiffness: float | None = None
+    stiffness: Stiffness | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.start, Start | Apart):
@@ -240,10 +306,7 @@ class Retraction:
             )
         object.__setattr__(self, "moves", tuple(self.moves))
         check_moves(self.moves, self.speed, "speed")
-        if self.speed is not None:
-            object.__setattr__(self, "speed", positive("speed", self.speed, "m/s"))
-        if self.stiffness is not None:
-            object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness, "N/m"))
+        conform(self)
 
 
 def check_moves(moves: tuple[Move, ...], speed: float | None, name: str) -> None:
@@ -315,3 +378,17 @@ class Units:
                 return LoadTo(move.force * self.force, move.duration * self.time)
             case Dwell():
                 return replace(move, duration=move.duration * self.time)
+
+
+def states(protocol: Retraction) -> list[Start]:
+    """Return the states that a test goes through, each as if it were relaxed."""
+    found = [] if isinstance(protocol.start, Apart) else [protocol.start]
+    for move in protocol.moves:
+        match move:
+            case Approach() | Retract():
+                found.append(move.to)
+            case MoveTo():
+                found.append(AtDepth(move.depth))
+            case LoadTo():
+                found.append(AtForce(move.force))
+    return found

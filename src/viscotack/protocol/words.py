@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.cards import cards
 from viscotack.files.quantities import read_quantities
 from viscotack.units import parse
 
@@ -38,6 +39,14 @@ _PATTERNS = {
     "load": r"load to (?:force )?(?P<force>.+?) in (?P<time>.+)",
     "dwell": r"dwell (?:for )?(?P<time>.+)",
     "hold": rf"hold (?P<what>{'|'.join(HOLDS)}) (?:for )?(?P<time>.+)",
+}
+_CARDS = {
+    "approach": cards(Approach),
+    "retract": cards(Retract),
+    "move": cards(MoveTo),
+    "load": cards(LoadTo),
+    "dwell": cards(Dwell),
+    "hold": cards(Dwell),
 }
 _SHAPES = {
     "approach": "approach SPEED to depth|force|radius VALUE",
@@ -147,8 +156,9 @@ def history_from_file(
 
 
 def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
-    def quantity(name: str) -> float:
-        return parse(said[name], units[name])
+    def quantity(name: str, field: str = "") -> float:
+        card = _CARDS[kind][field or name].card
+        return card.checked(field or name, parse(said[name], units[name]), units[name])
 
     match kind:
         case "approach":
@@ -156,13 +166,13 @@ def _move(kind: str, said: Mapping[str, str], units: Mapping[str, str]) -> Move:
         case "retract":
             return Retract(quantity("speed"), _where(said["to"], units))
         case "move":
-            return MoveTo(quantity("depth"), quantity("time"))
+            return MoveTo(quantity("depth"), quantity("time", "duration"))
         case "load":
-            return LoadTo(quantity("force"), quantity("time"))
+            return LoadTo(quantity("force"), quantity("time", "duration"))
         case "dwell":
-            return Dwell(quantity("time"))
+            return Dwell(quantity("time", "duration"))
         case _:
-            return Dwell(quantity("time"), said["what"])
+            return Dwell(quantity("time", "duration"), said["what"])
 
 
 def _where(words: str, units: Mapping[str, str]) -> Start:

@@ -5,7 +5,6 @@ import numpy as np
 from viscotack.protocol import Dwell
 
 from . import Outcome, Result
-from .outputs import si_scales
 
 # The hold begins where the force is this near to the one held, beside it and the unit of force.
 _HELD = 1e-3
@@ -49,7 +48,7 @@ def time_to_detachment(result: Result) -> float:
     >>> f"{time_to_detachment(solve(groups, estimate_error=False)):.1f} tau0"
     '11.6 tau0'
     """
-    problem = result.problem.groups()
+    problem = result.groups
     last = problem.moves[-1] if problem.moves else None
     if problem.rate is not None or not isinstance(last, Dwell) or last.hold != "force":
         raise ValueError(
@@ -64,6 +63,6 @@ def time_to_detachment(result: Result) -> float:
     held = float(result.force[-1])
     other = np.flatnonzero(np.abs(result.force - held) > _HELD * (abs(held) + 1))
     begin = int(other[-1]) + 1 if other.size else 0
-    scales = si_scales(result.problem)
+    scales = result.scales
     unit = 1.0 if scales is None else scales.time
     return float(result.time[-1] - result.time[begin]) * unit

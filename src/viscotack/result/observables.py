@@ -5,7 +5,7 @@ force minimum and the zero crossing are located between steps, and a jump adds n
 """
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,12 +14,12 @@ import numpy.typing as npt
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
-from viscotack.problem.punch_problem import PunchGroups
+from viscotack.problem import PunchGroups
+from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
 from viscotack.theory.punch.punch_curve import thin_layer_surface_energy
 
 from . import Outcome, Result
-from .outputs import kind_of, si_scales
 
 Array = npt.NDArray[np.float64]
 
@@ -113,7 +113,7 @@ def crack_speed_at_pull_off(result: Result) -> float:
     Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit; for
     a punch h_0 per time unit.
     """
-    factor = kind_of(result.problem).of("edge_speed").factor(result.problem.groups())
+    factor = result.problem.outputs.of("edge_speed").factor(result.groups)
     return pull_off(result).crack_speed * factor
 
 
@@ -207,27 +207,70 @@ def effective_surface_energy(result: Result) -> float:
     return float(energy)
 
 
-def summary(result: Result) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Observable:
+    """A number of a result, of the user's own: ``summary(result, also=(mine,))``.
+
+    Attributes
+    ----------
+    name : str
+        Its key in summaries and its column in campaigns.
+    words : str
+        What it is, for people.
+    measure : str
+        What it measures: "force", "depth", "radius", "speed", "work", "time" or "1". The geometry
+        says the unit, and what that is in SI.
+    function : callable
+        Returns it of a `Result`, dimensionless in that unit; ValueError where it was not reached.
+
+    Examples
+    --------
+    >>> def steepest(result):
+    ...     return float(np.max(np.abs(np.diff(result.force))))
+    >>> Observable("largest_step", "largest step of the force", "force", steepest).words
+    'largest step of the force'
+    """
+
+    name: str
+    words: str
+    measure: str
+    function: Callable[[Result], float]
+
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier() or self.name in _OBSERVABLES:
+            raise ValueError(f"name must be a new name such as 'rise_time', got {self.name!r}")
+        measures = ("force", "depth", "radius", "speed", "work", "time", "1")
+        if self.measure not in measures:
+            raise ValueError(f"measure must be one of {', '.join(measures)}, got {self.measure!r}")
+
+
+def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
     """Return the observables and how the run went, ready for JSON.
 
-    Dimensionless, with the names and units of :mod:`viscotack.result.outputs`; for a problem in SI
+    Dimensionless, with the names and units of :mod:`viscotack.problem.outputs`; for a problem in SI
     the same names with a unit in addition. A number that the result does not contain is None. Every
-    key is there in every summary of the same kind.
+    key is there in every summary of the same kind, and those of `also` after them.
     """
-    kind, scales = kind_of(result.problem), si_scales(result.problem)
+    kind, scales = result.problem.outputs, result.scales
     answer: dict[str, Any] = {"status": result.status, "outcome": str(result.outcome)}
-    for name, observable in kind.observables.items():
+    units: dict[str, Unit] = {}
+    for name, output in kind.observables.items():
         answer[name], note = _number(_OBSERVABLES[name], result)
-        if observable.noted:
+        units[name] = output.unit
+        if output.noted:
             answer[f"{name}_note"] = note
+    for own in also:
+        answer[own.name], units[own.name] = (
+            _number(own.function, result)[0],
+            kind.units[own.measure],
+        )
     if scales is not None:
-        for name, observable in kind.observables.items():
-            value, unit = answer[name], observable.unit
-            scale = getattr(scales, unit.scale)
-            answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
-    groups = result.problem.groups()
+        for name, unit in units.items():
+            if unit.scale:
+                value, scale = answer[name], getattr(scales, unit.scale)
+                answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
     return answer | {
-        **{name: getattr(groups, name) for name in kind.inputs},
+        **result.groups.inputs,
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
         "events": [_plain(vars(event)) for event in result.events],
@@ -270,7 +313,7 @@ def _number(
 
 
 def _punch(result: Result) -> PunchGroups:
-    groups = result.problem.groups()
+    groups = result.groups
     if not isinstance(groups, PunchGroups):
         raise ValueError(
             "the observable is one of a punch, and the result that of another indenter"
@@ -280,7 +323,7 @@ def _punch(result: Result) -> PunchGroups:
 
 def _given(result: Result, work: float) -> float:
     """Return a work in the unit of its kind of problem."""
-    return work * kind_of(result.problem).energy_factor(result.problem.groups())
+    return work * result.problem.outputs.energy_factor(result.groups)
 
 
 def _pieces(result: Result) -> list[npt.NDArray[np.intp]]:

@@ -8,7 +8,7 @@ pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` has the factors to SI
 
 A punch has its mean stress for a force, in sigma_0 and positive in compression as well, and the
 half length of its contact in a_0 for a radius; energies are in sigma_0 h_0 of unit area. Tables
-and summaries (:mod:`viscotack.result.outputs`) give stress, ligament, crack speed and work of
+and summaries (:mod:`viscotack.problem.outputs`) give stress, ligament, crack speed and work of
 separation.
 """
 
@@ -18,21 +18,20 @@ import os
 import secrets
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.problem.problems import Case
+from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
 from viscotack.problem.record import from_dict, to_dict
 from viscotack.units import finite
-
-from .outputs import kind_of, si_scales
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
 # What NumPy, zlib and json raise for files that are cut, changed, or of another kind.
@@ -157,10 +156,9 @@ class Result:
         self._check()
 
     def _check(self) -> None:
-        if not isinstance(self.problem, Case):
+        if not isinstance(self.problem, Problem | Groups | PunchGroups):
             raise ValueError(
-                "problem must be a Problem or Groups, of a sphere, a punch or a profile, got "
-                f"{type(self.problem).__name__}"
+                f"problem must be a Problem or Groups, got {type(self.problem).__name__}"
             )
         lengths = {name: getattr(self, name).shape for name in _SERIES}
         if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:
@@ -175,6 +173,21 @@ class Result:
         if not any(self.status.startswith(o) for o in Outcome):
             known = ", ".join(repr(str(o)) for o in Outcome)
             raise ValueError(f"status must begin with one of {known}, got {self.status!r}")
+
+    @cached_property
+    def groups(self) -> Any:
+        """The dimensionless problem, Groups or PunchGroups."""
+        return self.problem.groups()
+
+    def posed(self, groups: Any) -> "Result":
+        """Return the result itself, which need not ask for its groups again."""
+        vars(self)["groups"] = groups
+        return self
+
+    @cached_property
+    def scales(self) -> Scales | PunchScales | None:
+        """What one unit of each number is in SI; None where the problem is dimensionless."""
+        return self.problem.scales()
 
     @property
     def outcome(self) -> Outcome:
@@ -223,8 +236,7 @@ def receding_speed(time: npt.ArrayLike, edge: npt.ArrayLike) -> npt.NDArray[np.f
 
 def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
     """Return the series by column name: dimensionless, then in SI with the unit in the name."""
-    outputs, groups = kind_of(result.problem).series, result.problem.groups()
-    scales = si_scales(result.problem)
+    outputs, groups, scales = result.problem.outputs.series, result.groups, result.scales
     table = {n: getattr(result, o.source) * o.factor(groups) for n, o in outputs.items()}
     if scales is None:
         return table
@@ -269,8 +281,15 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
         np.savez_compressed(file, allow_pickle=False, header=text, **arrays)
 
 
-def load(path: str | os.PathLike[str]) -> Result:
+def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     """Read a result that :func:`save` wrote.
+
+    Parameters
+    ----------
+    path : path
+        The file, of this version or an older one.
+    also : iterable of classes
+        Laws, materials and shapes of the user's own that the problem is made of.
 
     Raises
     ------
@@ -290,7 +309,7 @@ def load(path: str | os.PathLike[str]) -> Result:
         if header["format"] != _FORMAT:
             raise ValueError("its header is not one of viscotack")
         if header["format_version"] <= _FORMAT_VERSION:
-            return _from_parts(header, arrays)
+            return _from_parts(header, arrays, also)
         writer = header["versions"]["viscotack"]
     except FileNotFoundError:
         raise
@@ -304,14 +323,16 @@ def load(path: str | os.PathLike[str]) -> Result:
     )
 
 
-def _from_parts(header: dict[str, Any], arrays: dict[str, npt.NDArray]) -> Result:
+def _from_parts(
+    header: dict[str, Any], arrays: dict[str, npt.NDArray], also: Iterable[Any]
+) -> Result:
     def group(name: str) -> dict[str, npt.NDArray] | None:
         prefix = f"{name}/"
         found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
         return found if header[name] else None
 
     return Result(
-        problem=from_dict(header["problem"]),
+        problem=from_dict(header["problem"], also),
         **{name: arrays[name] for name in _SERIES},
         status=header["status"],
         events=tuple(Event(**event) for event in header["events"]),

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.result.outputs import SPHERE
+from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
 
 from .. import __version__
@@ -26,9 +26,9 @@ from .store import shipped
 
 CONFIDENCE = 0.9
 _FORCE, _WORK = (
-    SPHERE.observables[name].unit.text for name in ("pull_off_force", "work_to_pull_off")
+    REVOLUTION.observables[name].unit.text for name in ("pull_off_force", "work_to_pull_off")
 )
-_LENGTH, _RADIUS = (SPHERE.series[name].unit.text for name in ("depth", "contact_radius"))
+_LENGTH, _RADIUS = (REVOLUTION.series[name].unit.text for name in ("depth", "contact_radius"))
 INPUTS = {
     "tabor": "Tabor number (R dg0^2/(E0*^2 h0^3))^(1/3)",
     "modulus_ratio": "rubbery over glassy modulus",

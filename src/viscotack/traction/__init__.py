@@ -12,11 +12,6 @@ from viscotack.traction.lennard_jones import LennardJones
 from viscotack.traction.tabulated import Tabulated
 
 # Word in a file or a flag -> law. Every constant beside work and gap is a pure number.
-LAWS = {
-    "lennard-jones": LennardJones,
-    "dugdale": Dugdale,
-    "exponential": Exponential,
-    "table": Tabulated,
-}
+LAWS = {law.word: law for law in (LennardJones, Dugdale, Exponential, Tabulated)}
 
 __all__ = ["LAWS", "Dugdale", "Exponential", "LennardJones", "Tabulated", "Traction", "softening"]

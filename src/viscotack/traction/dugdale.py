@@ -1,12 +1,13 @@
 """The Dugdale law: a constant tension over a range, as smooth as a contact needs it."""
 
 from dataclasses import dataclass, replace
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.traction.law import check_scales, checked_gap
-from viscotack.units import finite
+from viscotack.cards import Quantity, conform
+from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
@@ -51,18 +52,19 @@ class Dugdale:
     '1.50 um, 100 kPa'
     """
 
-    work_of_adhesion: float
-    equilibrium_gap: float
-    rise: float = 1e-4
-    fall: float = 0.5
+    word: ClassVar[str] = "dugdale"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+    rise: Annotated[
+        float, Quantity("1", "r", "width over h0 of the rise of the tension", above=0, most=0.5)
+    ] = 1e-4
+    fall: Annotated[
+        float, Quantity("1", "f", "width over h0 of the fall of the tension", above=0, most=1)
+    ] = 0.5
 
     def __post_init__(self) -> None:
-        check_scales(self)
-        for name, most in (("rise", 0.5), ("fall", 1.0)):
-            value = finite(name, getattr(self, name), "1")
-            if not 0 < value <= most:
-                raise ValueError(f"{name} must be in (0, {most:g}] equilibrium gaps, got {value:g}")
-            object.__setattr__(self, name, value)
+        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

@@ -1,12 +1,13 @@
 """The exponential law: adhesion that decays over a length of its own."""
 
 from dataclasses import dataclass, replace
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.traction.law import check_scales, checked_gap
-from viscotack.units import positive
+from viscotack.cards import Quantity, conform
+from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
@@ -44,13 +45,14 @@ class Exponential:
     '147.2 kPa at 1.875 um'
     """
 
-    work_of_adhesion: float
-    equilibrium_gap: float
-    decay: float
+    word: ClassVar[str] = "exponential"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+    decay: Annotated[float, Quantity("1", "d", "decay length over h0", above=0, example="0.25")]
 
     def __post_init__(self) -> None:
-        check_scales(self)
-        object.__setattr__(self, "decay", positive("decay", self.decay, "1"))
+        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

@@ -1,12 +1,26 @@
 """What a contact asks of a traction law."""
 
 from functools import lru_cache
-from typing import Protocol
+from typing import Annotated, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.units import positive
+from viscotack.cards import Quantity
+
+WorkOfAdhesion = Annotated[
+    float,
+    Quantity(
+        "J/m^2",
+        "dg0",
+        "work to separate unit area from the equilibrium gap",
+        above=0,
+        example="0.1523 J/m^2",
+    ),
+]
+EquilibriumGap = Annotated[
+    float, Quantity("m", "h0", "gap of zero traction", above=0, example="1.55 um")
+]
 
 
 class Traction(Protocol):
@@ -45,12 +59,6 @@ def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if not (h > 0).all():
         raise ValueError(f"gap must be positive, got a minimum of {h.min()} m")
     return h
-
-
-def check_scales(law: Traction) -> None:
-    """Make floats of the work of adhesion and the equilibrium gap, or refuse impossible ones."""
-    for name, unit in (("work_of_adhesion", "J/m^2"), ("equilibrium_gap", "m")):
-        object.__setattr__(law, name, positive(name, getattr(law, name), unit))
 
 
 @lru_cache(maxsize=64)

@@ -1,11 +1,13 @@
 """The Lennard-Jones law between half-spaces."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.traction.law import check_scales, checked_gap
+from viscotack.cards import conform
+from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 
 @dataclass(frozen=True)
@@ -38,11 +40,13 @@ class LennardJones:
     '100.9 kPa at 1.86 um'
     """
 
-    work_of_adhesion: float
-    equilibrium_gap: float
+    word: ClassVar[str] = "lennard-jones"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
 
     def __post_init__(self) -> None:
-        check_scales(self)
+        conform(self)
 
     def traction(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the traction [Pa], positive in tension, at a gap [m] of any shape."""

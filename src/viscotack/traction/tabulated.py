@@ -3,14 +3,15 @@
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator, PPoly
 from scipy.optimize import brentq
 
-from viscotack.traction.law import check_scales, checked_gap
+from viscotack.cards import conform
+from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 # What the table says of its own work and zero may miss 1 by this.
 _ROUND_OFF = 1e-9
@@ -53,12 +54,14 @@ class Tabulated:
     '86 mJ/m^2, 100 kPa'
     """
 
-    work_of_adhesion: float
-    equilibrium_gap: float
+    word: ClassVar[str] = "table"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
     points: tuple[tuple[float, float], ...]
 
     def __post_init__(self) -> None:
-        check_scales(self)
+        conform(self)
         points = tuple((float(gap), float(traction)) for gap, traction in self.points)
         object.__setattr__(self, "points", points)
         _check(*np.array(points, dtype=float).reshape(-1, 2).T)

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from .commands import AsJson, application, check_files, wrong_input
+from .commands import AsJson, With, application, check_files, wrong_input
 
 campaign = typer.Typer(
     help="Run many problems: a plan, a folder that survives every stop, a table.",
@@ -147,6 +147,7 @@ def run_command(
     retry: Annotated[
         bool, Option("--retry", help="Run the cases that failed for a lasting reason once more.")
     ] = False,
+    own: With = None,
     as_json: AsJson = False,
 ) -> None:
     """Run the cases of a plan that are not in the folder yet.
@@ -162,6 +163,7 @@ def run_command(
         "until": until,
         "time_limit": time_limit,
         "memory_limit": memory_limit,
+        "own": None if own is None else tuple(str(file.resolve()) for file in own),
     }
     with _words_for_what_is_missing():
         from viscotack.campaign import AllCrashed, read_plan, run

@@ -10,27 +10,26 @@ import json
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
 
 import typer
-from typer import Argument, Option
+from typer import Argument, Context, Option
 
 from viscotack import __version__
+from viscotack.app.cli.asking import answers, asking
+from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, stated
+from viscotack.errors import InputError
+from viscotack.geometry import Cone
 from viscotack.pictures import plot
-from viscotack.problem import Problem
+from viscotack.problem import Case, Problem
 from viscotack.problem.case_file import read_case
-from viscotack.problem.problems import Case
-from viscotack.problem.profile_problem import ProfileProblem
-from viscotack.problem.punch_problem import PunchProblem
+from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
-from viscotack.result.observables import summary
-from viscotack.result.outputs import kind_of
-
-from .flags import problem_from_flags
+from viscotack.result.observables import Observable, summary
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -97,11 +96,6 @@ AsJson = Annotated[
 ]
 
 
-def flag(name: str, metavar: str, words: str) -> Any:
-    """Return an option of a command that states a problem."""
-    return Option(name, metavar=metavar, help=words, show_default=False)
-
-
 CaseFile = Annotated[
     Path | None,
     Argument(
@@ -111,42 +105,14 @@ CaseFile = Annotated[
         show_default=False,
     ),
 ]
-Ratio = Annotated[
-    float | None, flag("--modulus-ratio", "K", "Rubbery over glassy modulus, in (0, 1].")
-]
-Exponent = Annotated[float | None, flag("--exponent", "N", "Exponent of the power law, in (0, 3].")]
-Rate = Annotated[
-    float | None,
-    flag(
-        "--rate",
-        "RATE",
-        "Retraction speed, in h0/tau0 (prony: h0 per unit of time); with --move it may be left "
-        "out, and the test ends with the last move.",
-    ),
-]
-Gap = Annotated[
-    float | None,
-    flag("--apart", "GAP", "Or: start at rest with the surfaces this far apart, in h0."),
-]
-Moves = Annotated[
-    list[str] | None,
-    flag(
-        "--move",
-        "WORDS",
-        "What the machine does before the retraction; give it once for each move. 'approach "
-        "SPEED to WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a "
-        "number), 'move to DEPTH in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold "
-        "drive|depth|force TIME'; all dimensionless.",
-    ),
-]
-LawName = Annotated[
-    str | None,
-    flag(
-        "--law",
-        "LAW",
-        "Forces across the gap: lennard-jones (also when left out), dugdale, "
-        "exponential:DECAY (decay length over h0), or table:FILE, a CSV file with the header "
-        "'gap_nm,traction_kPa' or other units.",
+With = Annotated[
+    list[Path] | None,
+    Option(
+        "--with",
+        metavar="FILE.py",
+        help="A Python file with laws, materials, shapes or observables of your own, see "
+        "docs/own.md; it is executed. Give it once for each file.",
+        show_default=False,
     ),
 ]
 
@@ -160,83 +126,10 @@ def _viscotack(
         raise typer.Exit
 
 
-@simulate.command("sphere")
-def simulate_sphere(
+def _simulate(
+    context: Context,
     case: CaseFile = None,
-    tabor: Annotated[
-        float | None,
-        flag("--tabor", "MU", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)."),
-    ] = None,
-    material: Annotated[
-        str | None,
-        flag(
-            "--material",
-            "MATERIAL",
-            "power-law (also when left out): modified power law by its retardation spectrum. "
-            "elastic: no memory; --rate is only needed in SI, in h0/s. sls: standard linear solid, "
-            "tau0 is its retardation time. prony:FILE: CSV file with the header "
-            "'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
-            "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) "
-            "is then that of the header: s, ms, ..., or none. FILE.toml: a passport, as `viscotack "
-            "material fit` writes it.",
-        ),
-    ] = None,
-    modulus_ratio: Ratio = None,
-    exponent: Exponent = None,
-    preload: Annotated[
-        float | None,
-        flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the solid."),
-    ] = None,
-    preload_force: Annotated[
-        float | None,
-        flag(
-            "--preload-force",
-            "FORCE",
-            "Or: relaxed start under this force, in 1.5 pi R dg0, positive in compression.",
-        ),
-    ] = None,
-    preload_radius: Annotated[
-        float | None,
-        flag(
-            "--preload-radius",
-            "RADIUS",
-            "Or: relaxed start at this contact radius, in (pi R^2 dg0/E0*)^(1/3).",
-        ),
-    ] = None,
-    apart: Gap = None,
-    move: Moves = None,
-    stiffness: Annotated[
-        float | None,
-        flag("--stiffness", "K", "Of the machine, in 1.5 pi R dg0/h0; rigid when left out."),
-    ] = None,
-    rate: Rate = None,
-    law: LawName = None,
-    radius: Annotated[
-        str | None,
-        flag(
-            "--radius",
-            "LENGTH",
-            'For answers in SI as well: sphere radius R with its unit, "5.19 mm". The next ones '
-            "go with it.",
-        ),
-    ] = None,
-    contact_modulus: Annotated[
-        str | None,
-        flag("--contact-modulus", "PRESSURE", 'SI: E0* = E0/(1 - nu^2), "1.94 MPa".'),
-    ] = None,
-    work_of_adhesion: Annotated[
-        str | None,
-        flag("--work-of-adhesion", "ENERGY", 'SI: dg0, "0.1523 J/m^2"; or --equilibrium-gap.'),
-    ] = None,
-    equilibrium_gap: Annotated[
-        str | None, flag("--equilibrium-gap", "LENGTH", 'SI: h0, "1.55 um".')
-    ] = None,
-    tau0: Annotated[
-        str | None, flag("--tau0", "TIME", 'SI: the time of the material, "18.76 ms".')
-    ] = None,
-    poisson_ratio: Annotated[
-        str | None, flag("--poisson-ratio", "NU", "SI: Poisson ratio, 0 to 0.5.")
-    ] = None,
+    own: With = None,
     until: HowFar = Until.DETACHED,
     accuracy: Accuracy = 2e-3,
     plot_file: PlotFile = None,
@@ -245,7 +138,21 @@ def simulate_sphere(
     save_file: SaveFile = None,
     as_json: AsJson = False,
 ) -> None:
-    """Pull a rigid sphere off a soft viscoelastic half-space.
+    door = _DOORS.get(context.info_name or "")
+    carry_out(
+        lambda: stated_problem(case, context, door, own),
+        own=own,
+        accuracy=accuracy,
+        until=until,
+        files=(plot_file, csv_file, save_file),
+        plot_kind=plot_kind,
+        as_json=as_json,
+    )
+
+
+_DOORS = {door.word: door for door in (SPHERE, PUNCH, PROFILE)}
+_HELP = {
+    "sphere": """Pull a rigid sphere off a soft viscoelastic half-space.
 
     The problem is stated by dimensionless numbers, or in SI by a file. R is the sphere radius,
     E0 the rubbery modulus, dg0 the work of adhesion, h0 the equilibrium gap, tau0 the time of the
@@ -253,84 +160,70 @@ def simulate_sphere(
 
     Example: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
     --preload 73 --rate 316.23
-    """
-    flags = {
-        "tabor": tabor,
-        "material": material,
-        "modulus-ratio": modulus_ratio,
-        "exponent": exponent,
-        "preload": preload,
-        "preload-force": preload_force,
-        "preload-radius": preload_radius,
-        "apart": apart,
-        "move": move or None,
-        "stiffness": stiffness,
-        "rate": rate,
-        "law": law,
-        "radius": radius,
-        "contact-modulus": contact_modulus,
-        "work-of-adhesion": work_of_adhesion,
-        "equilibrium-gap": equilibrium_gap,
-        "tau0": tau0,
-        "poisson-ratio": poisson_ratio,
-    }
-    carry_out(
-        lambda: stated_problem(case, flags, problem_from_flags, Problem),
-        accuracy=accuracy,
-        until=until,
-        files=(plot_file, csv_file, save_file),
-        plot_kind=plot_kind,
-        as_json=as_json,
-    )
+    """,
+    "punch": """Pull a rigid flat punch off a soft viscoelastic layer.
 
+    Plane strain. The problem is stated by dimensionless numbers, or in SI by a file. a is the half
+    width of the punch, b the thickness of the layer, E0* the rubbery contact modulus, dg0 the work
+    of adhesion, sigma0 the strength of the interface, h0 the equilibrium gap, tau0 the time of the
+    material, and a0 = pi E0* dg0/(2 sigma0^2).
 
-@simulate.command("profile")
-def simulate_profile(
-    case: Annotated[Path, Argument(metavar="CASE.toml", help="Problem in SI, see docs/input.md.")],
-    until: HowFar = Until.DETACHED,
-    accuracy: Accuracy = 2e-3,
-    plot_file: PlotFile = None,
-    plot_kind: PlotWhat = PlotKind.FORCE,
-    csv_file: CsvFile = None,
-    save_file: SaveFile = None,
-    as_json: AsJson = False,
-) -> None:
-    """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic half-space.
+    Example: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
+    """,
+    "profile": """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic
+    half-space.
 
-    The file has a table [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and
-    `height` at a radius `at_radius`.
+    By dimensionless numbers, R being the equivalent radius, or in SI by a file that has a table
+    [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and `height` at a radius
+    `at_radius`.
 
     Example: viscotack simulate profile examples/from_toml/cone.toml
-    """
-    carry_out(
-        lambda: stated_problem(case, {}, problem_from_flags, ProfileProblem),
-        accuracy=accuracy,
-        until=until,
-        files=(plot_file, csv_file, save_file),
-        plot_kind=plot_kind,
-        as_json=as_json,
-    )
+    """,
+}
+for _word, _door in _DOORS.items():
+    simulate.command(_word, cls=asking(_door), help=_HELP[_word])(_simulate)
+simulate.command(
+    "case",
+    help="""Simulate what a file states in SI, with whatever indenter.
+
+    Shapes of your own have their table by their word, and --with says where they are.
+
+    Example: viscotack simulate case examples/from_toml/cone.toml
+    """,
+)(_simulate)
 
 
 def stated_problem(
-    case: Path | None, flags: Mapping[str, Any], from_flags: Callable[[Any], Case], kind: type
+    case: Path | None,
+    context: Context,
+    door: Door | None,
+    own: Iterable[Path] | None = None,
 ) -> Case:
-    """Return the problem that a file or the flags state; one in a file must be of the kind."""
+    """Return the problem that a file or the flags state; one in a file must be of the door."""
+    given, also = answers(context), own_nouns(own or ())
     if case is None:
-        return from_flags(flags)
-    given = [f"--{name}" for name, value in flags.items() if value is not None]
-    if given:
-        raise ValueError(f"{case} states the whole problem; leave out {', '.join(given)}")
-    problem = read_case(case)
-    if not isinstance(problem, kind):
-        found = {PunchProblem: "punch", ProfileProblem: "profile"}.get(type(problem), "sphere")
-        raise ValueError(f"{case} states a {found}, which has commands of its own")
-    return problem
+        if door is None:
+            raise InputError("CASE.toml missing: the file that states the problem")
+        return stated(door, given, also)
+    flags = [f"--{name}" for name in given_of(given)]
+    if flags:
+        raise ValueError(f"{case} states the whole problem; leave out {', '.join(flags)}")
+    problem = read_case(case, also=also)
+    if door is None or door.word == _door_of(problem):
+        return problem
+    raise ValueError(f"{case} states a {_door_of(problem)}, which has commands of its own")
+
+
+def _door_of(problem: Problem) -> str:
+    """Return the command that simulates a problem in SI."""
+    return "profile" if isinstance(problem.geometry, Cone) else problem.geometry.word
 
 
 def carry_out(
     state: Callable[[], Case],
     *,
+    own: Iterable[Path] | None,
     accuracy: float,
     until: Until,
     files: tuple[Path | None, Path | None, Path | None],
@@ -351,7 +244,7 @@ def carry_out(
     if save_file is not None:
         save(result, save_file)
         typer.echo(f"saved {save_file}", err=True)
-    _report(result, as_json, plot_file, plot_kind, csv_file)
+    _report(result, as_json, plot_file, plot_kind, csv_file, own)
     if result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
 
@@ -362,6 +255,7 @@ def show(
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
+    own: With = None,
     as_json: AsJson = False,
 ) -> None:
     """Show a saved result.
@@ -372,8 +266,8 @@ def show(
         check_files(plot_file, csv_file)
         if file.is_dir():
             raise ValueError(f"{file} is a folder; give the name of a file")
-        result = load(file)
-    _report(result, as_json, plot_file, plot_kind, csv_file)
+        result = load(file, also=own_nouns(own or ()))
+    _report(result, as_json, plot_file, plot_kind, csv_file, own)
 
 
 def check_files(plot_file: Path | None, *files: Path | None) -> None:
@@ -390,7 +284,12 @@ def check_files(plot_file: Path | None, *files: Path | None) -> None:
 
 
 def _report(
-    result: Result, as_json: bool, plot_file: Path | None, kind: PlotKind, csv_file: Path | None
+    result: Result,
+    as_json: bool,
+    plot_file: Path | None,
+    kind: PlotKind,
+    csv_file: Path | None,
+    own: Iterable[Path] | None,
 ) -> None:
     if csv_file is not None:
         write_csv(result, csv_file)
@@ -398,18 +297,22 @@ def _report(
     if plot_file is not None:
         plot.save_figure(_DRAW[kind](result), plot_file)
         typer.echo(f"drew {plot_file}", err=True)
-    answer = summary(result)
-    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer))
+    also = known(own_nouns(own or ())).observables
+    answer = summary(result, also)
+    words = "" if as_json else _words(result, answer, also)
+    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else words)
 
 
-def _words(result: Result, answer: dict[str, Any]) -> str:
+def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -> str:
     """Return a summary as lines a person reads."""
-    lines = [answer["status"]]
-    for name, observable in kind_of(result.problem).observables.items():
-        value, unit = answer[name], observable.unit
+    lines, kind = [answer["status"]], result.problem.outputs
+    said = {name: (output.words, output.unit) for name, output in kind.observables.items()}
+    said |= {own.name: (own.words, kind.units[own.measure]) for own in also}
+    for name, (words, unit) in said.items():
+        value = answer[name]
         if value is None:
             continue
-        line = f"  {observable.words:<21}{value:>12.5g}  {unit.text:<30}"
+        line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
         if f"{name}_{unit.tail}" in answer:
             line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
         lines.append(line.rstrip())

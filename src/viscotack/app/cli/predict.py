@@ -8,25 +8,35 @@ import numpy as np
 import typer
 from typer import Argument, Option
 
+from viscotack.app.questions import SPHERE, given_of
 from viscotack.forecast import predict
 from viscotack.forecast.prediction import Prediction, prediction_summary
 from viscotack.pictures import plot
 from viscotack.problem import Groups, Problem
+from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import summary
-from viscotack.result.outputs import SPHERE, si_scales
 
-from .commands import AsJson, application, check_files, stated_problem, wrong_input
-from .flags import problem_from_flags
-from .same_flags import as_flags, with_sphere_flags
+from .asking import answers, asking
+from .commands import (
+    AsJson,
+    CaseFile,
+    With,
+    application,
+    check_files,
+    stated_problem,
+    wrong_input,
+)
 
 # What a simulation would only repeat.
-_SAID_ONCE = ("problem", "run_id", *SPHERE.inputs)
+_SAID_ONCE = ("problem", "run_id", "tabor", "modulus_ratio", "rate")
 # Of both answers, what is compared.
 _COMPARED = {"pull_off_force": "interval", "work_to_pull_off": "work_interval"}
 
 
+@application.command("predict", cls=asking(SPHERE))
 def _predict(
+    context: typer.Context,
     what: Annotated[
         str,
         Argument(
@@ -61,8 +71,9 @@ def _predict(
         Path | None,
         Option("--csv", metavar="FILE", help="Where the rows of CASES.csv go, with their answers."),
     ] = None,
+    case: CaseFile = None,
+    own: With = None,
     as_json: AsJson = False,
-    **flags: Any,
 ) -> None:
     """Say at once how hard one must pull, and how sure that is.
 
@@ -77,7 +88,6 @@ def _predict(
 
     Thousands: viscotack predict cases.csv --csv answers.csv
     """
-    case = flags.pop("case")
     with wrong_input():
         check_files(plot_file, curve_file, csv_file)
         if Path(what).suffix.lower() == ".csv":
@@ -87,7 +97,7 @@ def _predict(
                 "--plot": plot_file,
                 "the second file": case,
             }
-            others |= {f"--{name}": value for name, value in as_flags(flags).items()}
+            others |= {f"--{name}": value for name, value in given_of(answers(context)).items()}
             _refuse(others, f"{what} is a table of cases")
             from .predict_table import predict_file
 
@@ -95,7 +105,7 @@ def _predict(
             typer.echo(json.dumps(answer, indent=2) if as_json else _counts(answer))
             return
         _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
-        problem = _problem(what, case, as_flags(flags))
+        problem = _problem(what, case, context, own)
         found = predict(problem, confidence=confidence)
         if found.curve is None and (curve_file or plot_file):
             raise ValueError(
@@ -111,16 +121,15 @@ def _predict(
         raise typer.Exit(1)
 
 
-application.command("predict")(with_sphere_flags(_predict))
-
-
 def _refuse(others: dict[str, Any], why: str) -> None:
     given = [name for name, value in others.items() if value is not None and value is not False]
     if given:
         raise ValueError(f"{why}; leave out {', '.join(given)}")
 
 
-def _problem(what: str, case: Path | None, flags: dict[str, Any]) -> Problem | Groups:
+def _problem(
+    what: str, case: Path | None, context: typer.Context, own: list[Path] | None
+) -> Problem | Groups:
     if what != "sphere":
         if case is not None:
             raise ValueError(f"give one file, got {what} and {case}")
@@ -129,7 +138,7 @@ def _problem(what: str, case: Path | None, flags: dict[str, Any]) -> Problem | G
                 f"predictions are for 'sphere', a file CASE.toml or a table CASES.csv, got {what!r}"
             )
         case = Path(what)
-    problem = stated_problem(case, flags, problem_from_flags, Problem)
+    problem = stated_problem(case, context, SPHERE if case is None else None, own)
     assert isinstance(problem, Problem | Groups)
     return problem
 
@@ -181,8 +190,8 @@ def _curve(found: Prediction) -> dict[str, Any]:
     assert found.curve is not None, "checked before anything is written"
     names = ("depth", "force", "contact_radius")
     table = {name: np.asarray(getattr(found.curve, name)) for name in names}
-    if (scales := si_scales(found.problem)) is not None:
-        units = {name: SPHERE.series[name].unit for name in names}
+    if (scales := found.problem.scales()) is not None:
+        units = {name: REVOLUTION.series[name].unit for name in names}
         table |= {f"{n}_{u.tail}": table[n] * getattr(scales, u.scale) for n, u in units.items()}
     return table
 
@@ -191,7 +200,7 @@ def _words(found: Prediction, answer: dict[str, Any]) -> str:
     """Return a prediction as lines a person reads."""
     lines = [found.why if found.inside else f"outside what was learned: {found.why}"]
     held = f"{100 * found.confidence:.4g}"
-    for name, observable in SPHERE.observables.items():
+    for name, observable in REVOLUTION.observables.items():
         value, unit = answer.get(name), observable.unit
         if value is None:
             continue
@@ -218,7 +227,7 @@ def _comparison_words(answer: dict[str, Any]) -> list[str]:
     took = simulated["wall_time_s"]
     lines = ["simulated" + ("" if took is None else f" in {took:.2g} s")]
     for name in _COMPARED:
-        words, true = SPHERE.observables[name].words, simulated[name]
+        words, true = REVOLUTION.observables[name].words, simulated[name]
         if true is None:
             lines.append(f"  {words:<21}{'none':>12}  {simulated['status']}")
             continue

@@ -1,4 +1,4 @@
-"""The commands of a flat punch on a layer: simulate it, or ask the theory how thick to make it."""
+"""The command of a pad: a flat punch on a layer, and what the theory says of its thickness."""
 
 import json
 from collections.abc import Mapping
@@ -10,15 +10,13 @@ import numpy as np
 import typer
 from typer import Option
 
-from viscotack.geometry import Base, Bonded, Frictionless
+from viscotack.app.questions import PUNCH, material_from, require
+from viscotack.geometry import Base, Bonded, FlatPunch, Frictionless
 from viscotack.materials import Elastic, Material
 from viscotack.materials.passport_file import read_passport
 from viscotack.pictures import plot
-from viscotack.problem import material_in_si
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
-from viscotack.problem.traction_file import law_from_words
-from viscotack.protocol import Apart, AtDepth, AtForce, Start
-from viscotack.protocol.words import PURE_NUMBERS, move_from_words
+from viscotack.problem.case_file import read_case
+from viscotack.problem.units import material_in_si
 from viscotack.theory import (
     greenwood,
     persson_brener,
@@ -29,36 +27,17 @@ from viscotack.theory import (
     punch_rate,
     punch_unloading,
 )
-from viscotack.units import finite, parse
+from viscotack.units import parse
 
 from .commands import (
-    Accuracy,
     AsJson,
     CaseFile,
-    CsvFile,
-    Exponent,
-    Gap,
-    HowFar,
-    LawName,
-    Moves,
-    PlotFile,
-    PlotKind,
-    PlotWhat,
-    Rate,
-    Ratio,
-    SaveFile,
-    Until,
-    carry_out,
     check_files,
-    flag,
-    simulate,
-    stated_problem,
     wrong_input,
 )
-from .flags import material_from_flags, one_of, require
+from .options import Exponent, Ratio, flag
 from .theory import theory
 
-_STARTS = {"preload": AtDepth, "preload-force": AtForce, "apart": Apart}
 # Of a regime map: thicknesses and speeds, and how thin and thick it gets beside b0 and a.
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
@@ -73,15 +52,8 @@ Solid = Annotated[
         "elastic, prony:FILE and FILE.toml as for simulate sphere.",
     ),
 ]
-Glued = Annotated[
-    float | None,
-    flag(
-        "--bonded",
-        "NU",
-        "The layer is glued to its base and has this Poisson ratio, 0 to 0.5; without it, it "
-        "slides on its base.",
-    ),
-]
+_GLUED = next(question.words for question in PUNCH.questions if question.name == "bonded")
+Glued = Annotated[float | None, flag("--bonded", "NU", _GLUED)]
 
 
 class Law(StrEnum):
@@ -94,124 +66,8 @@ class Law(StrEnum):
 _LAWS = {Law.GREENWOOD: greenwood, Law.PERSSON_BRENER: persson_brener}
 
 
-@simulate.command("punch")
-def simulate_punch(
-    case: CaseFile = None,
-    size: Annotated[float | None, flag("--size", "A", "Half width of the punch, a/a0.")] = None,
-    thickness: Annotated[
-        float | None, flag("--thickness", "B", "Thickness of the layer, b/a0.")
-    ] = None,
-    cohesion: Annotated[
-        float | None, flag("--cohesion", "S", "Strength of the interface, sigma0/E0*.")
-    ] = None,
-    bonded: Glued = None,
-    material: Solid = None,
-    modulus_ratio: Ratio = None,
-    exponent: Exponent = None,
-    preload: Annotated[
-        float | None,
-        flag("--preload", "DEPTH", "Relaxed start at this depth, in h0, positive into the layer."),
-    ] = None,
-    preload_force: Annotated[
-        float | None,
-        flag(
-            "--preload-force",
-            "STRESS",
-            "Or: relaxed start under this mean stress, in sigma0, positive in compression.",
-        ),
-    ] = None,
-    apart: Gap = None,
-    move: Moves = None,
-    stiffness: Annotated[
-        float | None,
-        flag("--stiffness", "K", "Of the machine, in sigma0/h0; rigid when left out."),
-    ] = None,
-    rate: Rate = None,
-    law: LawName = None,
-    until: HowFar = Until.DETACHED,
-    accuracy: Accuracy = 2e-3,
-    plot_file: PlotFile = None,
-    plot_kind: PlotWhat = PlotKind.FORCE,
-    csv_file: CsvFile = None,
-    save_file: SaveFile = None,
-    as_json: AsJson = False,
-) -> None:
-    """Pull a rigid flat punch off a soft viscoelastic layer.
-
-    Plane strain. The problem is stated by dimensionless numbers, or in SI by a file. a is the half
-    width of the punch, b the thickness of the layer, E0* the rubbery contact modulus, dg0 the work
-    of adhesion, sigma0 the strength of the interface, h0 the equilibrium gap, tau0 the time of the
-    material, and a0 = pi E0* dg0/(2 sigma0^2).
-
-    Example: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
-    --modulus-ratio 0.1 --preload 1 --rate 10
-    """
-    flags = {
-        "size": size,
-        "thickness": thickness,
-        "cohesion": cohesion,
-        "bonded": bonded,
-        "material": material,
-        "modulus-ratio": modulus_ratio,
-        "exponent": exponent,
-        "preload": preload,
-        "preload-force": preload_force,
-        "apart": apart,
-        "move": move,
-        "stiffness": stiffness,
-        "rate": rate,
-        "law": law,
-    }
-    carry_out(
-        lambda: stated_problem(case, flags, punch_from_flags, PunchProblem),
-        accuracy=accuracy,
-        until=until,
-        files=(plot_file, csv_file, save_file),
-        plot_kind=plot_kind,
-        as_json=as_json,
-    )
-
-
-def punch_from_flags(flags: Mapping[str, Any]) -> PunchGroups:
-    """Return the punch that the flags state.
-
-    Parameters
-    ----------
-    flags : mapping
-        Names without dashes in front, such as ``"preload-force"``; None where not given.
-
-    Raises
-    ------
-    ValueError
-        If a flag is missing, does not go with another, or is impossible.
-    """
-    given = _given(flags)
-    solid, _ = material_from_flags({"material": "sls", **given})
-    moves = tuple(move_from_words(words, PURE_NUMBERS) for words in given.get("move", ()))
-    # An elastic solid has no time of its own, and its answer does not depend on the rate.
-    timeless = isinstance(solid, Elastic)
-    require(given, ["size", "thickness", "cohesion", *([] if timeless or moves else ["rate"])])
-    return PunchGroups(
-        size=given["size"],
-        thickness=given["thickness"],
-        cohesion=given["cohesion"],
-        material=solid,
-        start=_start(given),
-        rate=given.get("rate", None if moves else 1.0),
-        base=_base(given),
-        traction=law_from_words(given.get("law", "lennard-jones")),
-        moves=moves,
-        stiffness=given.get("stiffness"),
-    )
-
-
 def _given(flags: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in flags.items() if value is not None}
-
-
-def _start(given: Mapping[str, Any]) -> Start | Apart:
-    name = one_of(given, _STARTS)
-    return _STARTS[name](finite(f"--{name}", given[name], "1"))
 
 
 def _base(given: Mapping[str, Any]) -> Base:
@@ -316,16 +172,25 @@ def _stated_pad(
     if case is None:
         pad = _pad_from_flags(_given(flags))
     else:
-        problem = stated_problem(case, flags, punch_from_flags, PunchProblem)
-        assert isinstance(problem, PunchProblem)
+        problem = _pad_problem(case, flags)
         pad = _pad_of(problem)
         stated = {"speed": problem.protocol.speed}
         if "stress" not in wanted:
-            stated["thickness"] = problem.layer.thickness
+            stated["thickness"] = problem.body.thickness
         wanted = _given(stated) | wanted
     if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
         raise ValueError('--speed missing, the retraction speed; for example --speed "100 um/s"')
     return pad, wanted
+
+
+def _pad_problem(case: Path, flags: Mapping[str, Any]) -> Any:
+    given = [f"--{name}" for name in _given(flags)]
+    if given:
+        raise ValueError(f"{case} states the whole problem; leave out {', '.join(given)}")
+    problem = read_case(case)
+    if not isinstance(problem.geometry, FlatPunch):
+        raise ValueError(f"{case} states a {problem.geometry.word}, which has commands of its own")
+    return problem
 
 
 def _quantity(name: str, text: str, unit: str) -> float:
@@ -335,15 +200,15 @@ def _quantity(name: str, text: str, unit: str) -> float:
         raise ValueError(f"--{name}: {error}") from None
 
 
-def _pad_of(problem: PunchProblem) -> dict[str, Any]:
+def _pad_of(problem: Any) -> dict[str, Any]:
     law = problem.traction
     return {
-        "half_width": problem.punch.half_width,
+        "half_width": problem.geometry.half_width,
         "contact_modulus": problem.material.contact_modulus,
         "work_of_adhesion": law.work_of_adhesion,
         "strength": law.strength,
         "material": problem.material,
-        "base": problem.layer.base,
+        "base": problem.body.base,
     }
 
 
@@ -365,7 +230,7 @@ def _pad_from_flags(given: dict[str, Any]) -> dict[str, Any]:
 
 
 def _solid_in_si(given: Mapping[str, Any], contact_modulus: float) -> Material:
-    solid, unit = material_from_flags({"material": "sls", **given})
+    solid, unit = material_from({"material": "sls", **given})
     if isinstance(solid, Elastic):
         time = 1.0
     elif unit == "1":

@@ -9,16 +9,25 @@ import numpy as np
 import typer
 from typer import Option
 
+from viscotack.app.questions import SPHERE, material_from
 from viscotack.pictures import plot
 from viscotack.problem import Groups, Problem
 from viscotack.theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
 from viscotack.theory.crack.modulus_file import read_modulus
 from viscotack.units import parse, positive
 
-from . import commands
-from .commands import AsJson, Exponent, PlotFile, Ratio, application, check_files, wrong_input
-from .flags import material_from_flags, problem_from_flags
-from .same_flags import as_flags, with_sphere_flags
+from .asking import asking
+from .commands import (
+    AsJson,
+    CaseFile,
+    PlotFile,
+    With,
+    application,
+    check_files,
+    stated_problem,
+    wrong_input,
+)
+from .options import Exponent, Ratio
 
 # Of a table over the range that matters.
 _ROWS = 41
@@ -204,9 +213,10 @@ def theory_greenwood(
     _crack("greenwood", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
 
 
-@application.command("advise")
-@with_sphere_flags
-def _advise(as_json: AsJson = False, **flags: Any) -> None:
+@application.command("advise", cls=asking(SPHERE))
+def _advise(
+    context: typer.Context, case: CaseFile = None, own: With = None, as_json: AsJson = False
+) -> None:
     """Say which regime a contact is in, and which answer to trust.
 
     The problem is stated as for simulate sphere, by flags or by a file in SI.
@@ -216,9 +226,8 @@ def _advise(as_json: AsJson = False, **flags: Any) -> None:
     """
     from viscotack.forecast.advice import advise
 
-    case = flags.pop("case")
     with wrong_input():
-        problem = commands.stated_problem(case, as_flags(flags), problem_from_flags, Problem)
+        problem = stated_problem(case, context, SPHERE, own)
         assert isinstance(problem, Problem | Groups)
         advice = advise(problem)
     if as_json:
@@ -284,7 +293,7 @@ def _crack(
 def _of_material(
     law: Any, given: dict[str, Any], speed: list[float] | None
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    solid, _ = material_from_flags(given)
+    solid, _ = material_from(given)
     if speed:
         v = np.array(speed)
     elif solid.modulus_ratio < 1:

@@ -1,50 +1,40 @@
 """The table [interface] of a case file, and the flag for the same: a traction law in words."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, fields
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
+from viscotack.cards import Field, cards
 from viscotack.files.quantities import read_quantities
+from viscotack.problem.table import Table
 from viscotack.traction import LAWS, Tabulated, Traction
 from viscotack.units import finite, positive
 
 
-class Table(Protocol):
-    """What a table of a case file offers, with errors that name file, table and key."""
-
-    path: Path
-    name: str
-    values: Mapping[str, Any]
-
-    def get(self, key: str) -> Any: ...  # noqa: D102
-    def quantity(self, key: str, unit: str) -> float: ...  # noqa: D102
-    def word(self, key: str, allowed: Iterable[str]) -> str: ...  # noqa: D102
-    def make(self, kind: Any, *value: Any, **values: Any) -> Any: ...  # noqa: D102
-
-
-def law_from_table(table: Table) -> Traction:
+def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
     """Return the law of the table [interface]; its range by equilibrium_gap or by strength."""
-    kind: Any = LAWS[table.word("law", LAWS)]
+    kind: Any = laws[table.word("law", laws)]
     if kind is Tabulated:
-        return _tabulated(table.path.parent / str(table.get("file")))
+        return _tabulated(table.path.parent / str(table.get("file", '"table.csv"')))
+    scales = cards(kind)
     constants = {
-        constant.name: table.quantity(constant.name, "1")
-        for constant in _constants(kind)
-        if constant.default is MISSING or constant.name in table.values
+        field.name: table.number(field)
+        for field in _constants(kind)
+        if field.needed or field.name in table.values
     }
-    work = table.quantity("work_of_adhesion", "J/m^2")
+    work = table.number(scales["work_of_adhesion"])
     if "strength" not in table.values:
-        gap = table.quantity("equilibrium_gap", "m")
+        gap = table.number(scales["equilibrium_gap"])
     elif "equilibrium_gap" in table.values:
         raise ValueError(f"{table.name} strength and equilibrium_gap say the same; leave out one")
     else:
-        strength = table.make(positive, "strength", table.quantity("strength", "Pa"), "Pa")
+        strength = table.quantity("strength", "Pa", '"100 kPa"')
+        strength = table.make(positive, "strength", strength, "Pa")
         gap = table.make(kind, 1.0, 1.0, **constants).strength * work / strength
     return table.make(kind, work_of_adhesion=work, equilibrium_gap=gap, **constants)
 
 
-def law_from_words(words: str) -> Traction:
+def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """Return the reduced law that a flag states: its name and, after a colon, what it needs.
 
     Examples
@@ -55,15 +45,15 @@ def law_from_words(words: str) -> Traction:
     1.0
     """
     name, _, rest = words.partition(":")
-    if name not in LAWS:
-        raise ValueError(f"the law must be one of {', '.join(LAWS)}, got {words!r}")
-    kind: Any = LAWS[name]
+    if name not in laws:
+        raise ValueError(f"the law must be one of {', '.join(laws)}, got {words!r}")
+    kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:
             raise ValueError("a law of the kind table needs its file: table:FILE.csv")
         return _tabulated(rest).reduced()
     constants = [constant.name for constant in _constants(kind)]
-    needed = [constant.name for constant in _constants(kind) if constant.default is MISSING]
+    needed = [constant.name for constant in _constants(kind) if constant.needed]
     given = rest.split(",") if rest else []
     if not len(needed) <= len(given) <= len(constants):
         wanted = ",".join(constant.upper() for constant in constants)
@@ -75,9 +65,13 @@ def law_from_words(words: str) -> Traction:
     return kind(1.0, 1.0, **values)
 
 
-def _constants(kind: Any) -> list[Any]:
-    """Return the fields of a law beside its work and gap; all are pure numbers."""
-    return [x for x in fields(kind) if x.name not in ("work_of_adhesion", "equilibrium_gap")]
+def _constants(kind: Any) -> list[Field]:
+    """Return the cards of a law beside its work and gap; all are pure numbers."""
+    return [
+        field
+        for name, field in cards(kind).items()
+        if name not in ("work_of_adhesion", "equilibrium_gap")
+    ]
 
 
 def _tabulated(path: str | Path) -> Tabulated:

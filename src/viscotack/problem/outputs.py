@@ -6,13 +6,8 @@ Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. One :class:`Kind` st
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
-
-from viscotack.problem import Groups
-from viscotack.problem.problems import Case
-from viscotack.problem.profile_problem import ProfileGroups, ProfileProblem
-from viscotack.problem.punch_problem import PunchGroups, PunchProblem
 
 
 @dataclass(frozen=True)
@@ -59,7 +54,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Observable:
+class Output:
     """A number of a summary: the function of that name in :mod:`viscotack.result.observables`.
 
     A `noted` one has a note beside it, what the function warned of.
@@ -80,8 +75,8 @@ class Kind:
         The columns of its table, by name.
     observables : mapping
         The numbers of its summary, by name.
-    inputs : tuple of str
-        Attributes of the groups that a summary repeats.
+    units : mapping
+        What a force, a depth, a radius, a speed, a work, a time and a pure number are given in.
     energy : Unit
         What energies and works are given in.
     energy_factor : callable
@@ -89,16 +84,21 @@ class Kind:
     """
 
     series: Mapping[str, Series]
-    observables: Mapping[str, Observable]
-    inputs: tuple[str, ...]
+    observables: Mapping[str, Output]
+    units: Mapping[str, Unit]
     energy: Unit
     energy_factor: Factor = _as_it_is
 
     def of(self, source: str) -> Series:
         """Return the column that a series of a `Result` becomes."""
-        return next(column for column in self.series.values() if column.source == source)
+        return self.series[self.name_of(source)]
+
+    def name_of(self, source: str) -> str:
+        """Return the name of that column."""
+        return next(name for name, column in self.series.items() if column.source == source)
 
 
+_PURE = Unit("", "", "", "")
 _TIME = Unit("time unit", "time unit", "time", "s")
 _LENGTH = Unit("h0", "$h_0$", "length", "m")
 _FORCE = Unit("1.5 pi R dg0", r"$1.5\,\pi R\,\Delta\gamma_0$", "force", "N")
@@ -111,7 +111,7 @@ _SPEED = Unit(
 )
 _WORK = Unit("1.5 pi R dg0 h0", r"$1.5\,\pi R\,\Delta\gamma_0 h_0$", "work", "J")
 
-SPHERE = Kind(
+REVOLUTION = Kind(
     series={
         "time": Series("time", "time", _TIME),
         "depth": Series("depth", "depth", _LENGTH),
@@ -120,35 +120,39 @@ SPHERE = Kind(
         "edge_speed": Series("edge_speed", "crack speed", _SPEED),
     },
     observables={
-        "pull_off_force": Observable("pull-off force", _FORCE),
-        "work_to_pull_off": Observable("work to pull-off", _WORK),
-        "work_of_separation": Observable("work of separation", _WORK),
-        "pull_off_depth": Observable("depth at pull-off", _LENGTH),
-        "contact_radius_at_pull_off": Observable("contact radius there", _RADIUS),
-        "crack_speed_at_pull_off": Observable("crack speed there", _SPEED),
+        "pull_off_force": Output("pull-off force", _FORCE),
+        "work_to_pull_off": Output("work to pull-off", _WORK),
+        "work_of_separation": Output("work of separation", _WORK),
+        "pull_off_depth": Output("depth at pull-off", _LENGTH),
+        "contact_radius_at_pull_off": Output("contact radius there", _RADIUS),
+        "crack_speed_at_pull_off": Output("crack speed there", _SPEED),
     },
-    inputs=("tabor", "modulus_ratio", "rate"),
+    units={
+        "force": _FORCE,
+        "depth": _LENGTH,
+        "radius": _RADIUS,
+        "speed": _SPEED,
+        "work": _WORK,
+        "time": _TIME,
+        "1": _PURE,
+    },
     energy=_WORK,
 )
 
 
-# That of the sphere, R being the profile's equivalent radius.
-PROFILE = replace(SPHERE, inputs=("tabor", "profile_exponent", "modulus_ratio", "rate"))
-
-
-def _tension(groups: PunchGroups) -> float:
+def _tension(groups: Any) -> float:
     return -1.0
 
 
-def _per_half_width(groups: PunchGroups) -> float:
+def _per_half_width(groups: Any) -> float:
     return 1 / groups.size
 
 
-def _crack_speed(groups: PunchGroups) -> float:
+def _crack_speed(groups: Any) -> float:
     return groups.fracture_length  # a Result counts lengths in a0
 
 
-def _per_work_of_adhesion(groups: PunchGroups) -> float:
+def _per_work_of_adhesion(groups: Any) -> float:
     return groups.traction.strength  # sigma_0 h_0 over Delta-gamma_0
 
 
@@ -157,7 +161,7 @@ _WIDTH = Unit("a", "$a$", "half_width", "m")
 _CRACK = Unit("h0/time unit", "$h_0$ per time unit", "crack_speed", "m/s")
 _ENERGY = Unit("dg0", r"$\Delta\gamma_0$", "work", "J/m^2")
 
-PUNCH = Kind(
+PLANE = Kind(
     series={
         "time": Series("time", "time", _TIME),
         "depth": Series("depth", "depth", _LENGTH),
@@ -166,27 +170,23 @@ PUNCH = Kind(
         "crack_speed": Series("edge_speed", "crack speed", _CRACK, _crack_speed),
     },
     observables={
-        "pull_off_stress": Observable("pull-off stress", _STRESS),
-        "work_to_pull_off": Observable("work to pull-off", _ENERGY),
-        "work_of_separation": Observable("work of separation", _ENERGY),
-        "pull_off_depth": Observable("depth at pull-off", _LENGTH),
-        "ligament_at_pull_off": Observable("ligament there", _WIDTH),
-        "crack_speed_at_pull_off": Observable("crack speed there", _CRACK),
-        "effective_surface_energy": Observable("surface energy there", _ENERGY, noted=True),
+        "pull_off_stress": Output("pull-off stress", _STRESS),
+        "work_to_pull_off": Output("work to pull-off", _ENERGY),
+        "work_of_separation": Output("work of separation", _ENERGY),
+        "pull_off_depth": Output("depth at pull-off", _LENGTH),
+        "ligament_at_pull_off": Output("ligament there", _WIDTH),
+        "crack_speed_at_pull_off": Output("crack speed there", _CRACK),
+        "effective_surface_energy": Output("surface energy there", _ENERGY, noted=True),
     },
-    inputs=("size", "thickness", "cohesion", "modulus_ratio", "rate"),
+    units={
+        "force": _STRESS,
+        "depth": _LENGTH,
+        "radius": _WIDTH,
+        "speed": _CRACK,
+        "work": _ENERGY,
+        "time": _TIME,
+        "1": _PURE,
+    },
     energy=_ENERGY,
     energy_factor=_per_work_of_adhesion,
 )
-
-
-def kind_of(problem: Case) -> Kind:
-    """Return what a problem's answer is given in."""
-    if isinstance(problem, PunchProblem | PunchGroups):
-        return PUNCH
-    return PROFILE if isinstance(problem, ProfileProblem | ProfileGroups) else SPHERE
-
-
-def si_scales(problem: Case) -> Any | None:
-    """Return what one unit of each number is in SI; None for a problem in groups."""
-    return None if isinstance(problem, Groups | PunchGroups | ProfileGroups) else problem.scales()

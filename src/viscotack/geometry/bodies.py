@@ -1,4 +1,4 @@
-r"""How an elastic layer rests on the rigid body below it.
+r"""Bodies: the half-space, and a layer that rests on a rigid body below it.
 
 A pressure :math:`\cos \xi x` on a layer of the thickness b moves its surface by
 :math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, plane strain. The transfer function kappa
@@ -9,13 +9,21 @@ rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to 0, of a thin layer
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.units import positive
+from viscotack.cards import Quantity, conform
 
 Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """A body without an end: as thick as the contact is small."""
+
+    word: ClassVar[str] = "half-space"
 
 
 @dataclass(frozen=True)
@@ -31,6 +39,8 @@ class Frictionless:
     >>> Frictionless().foundation
     1.0
     """
+
+    word: ClassVar[str] = "frictionless"
 
     @property
     def foundation(self) -> float:
@@ -65,13 +75,14 @@ class Bonded:
     '1.225'
     """
 
-    poisson_ratio: float
+    word: ClassVar[str] = "bonded"
+
+    poisson_ratio: Annotated[
+        float, Quantity("1", "nu", "Poisson ratio of the layer", least=0, most=0.5, example="0.5")
+    ]
 
     def __post_init__(self) -> None:
-        nu = float(self.poisson_ratio)
-        if not 0 <= nu <= 0.5:
-            raise ValueError(f"poisson_ratio must lie between 0 and 0.5, got {nu}")
-        object.__setattr__(self, "poisson_ratio", nu)
+        conform(self)
 
     @property
     def foundation(self) -> float:
@@ -106,12 +117,19 @@ class Layer:
     0.331
     """
 
-    thickness: float
+    word: ClassVar[str] = "layer"
+
+    thickness: Annotated[
+        float, Quantity("m", "b", "thickness of the layer", above=0, example="50 um")
+    ]
     base: Base = Frictionless()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "thickness", positive("thickness", self.thickness, "m"))
+        conform(self)
         if not isinstance(self.base, Base):
             raise ValueError(
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
+
+
+Body = HalfSpace | Layer

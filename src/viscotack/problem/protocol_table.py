@@ -1,53 +1,43 @@
 """The table [protocol] of a case file: what the machine does, in words with units."""
 
+from collections.abc import Mapping
 from typing import Any
 
+from viscotack.cards import cards
+from viscotack.problem.table import Table
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Move, Retraction, Start
-from viscotack.protocol.words import (
-    PUNCH_UNITS,
-    SPHERE_UNITS,
-    history_from_file,
-    move_from_words,
-    start_from_words,
-)
+from viscotack.protocol.words import history_from_file, move_from_words, start_from_words
 
-from .traction_file import Table
-
-# The forces of a punch are mean stresses.
-_UNITS = {"sphere": SPHERE_UNITS, "punch": PUNCH_UNITS}
-_PRELOADS: dict[str, dict[str, tuple[Any, str]]] = {
-    "sphere": {
-        "preload_depth": (AtDepth, "m"),
-        "preload_force": (AtForce, "N"),
-        "preload_radius": (AtRadius, "m"),
-    },
-    "punch": {"preload_depth": (AtDepth, "m"), "preload_stress": (AtForce, "Pa")},
-}
-_STIFFNESS = {"sphere": "N/m", "punch": "Pa/m"}
+_TEST = cards(Retraction)
+# Starts that have a key of their own; the force of a punch is a mean stress, and so is its key.
+_STARTS = {"preload_depth": AtDepth, "preload_force": AtForce, "preload_radius": AtRadius}
+_STRESS_STARTS = {"preload_depth": AtDepth, "preload_stress": AtForce}
 
 
-def protocol_from_table(table: Table, indenter: str, equilibrium_gap: float) -> Retraction:
-    """Return the test that the table [protocol] states for a "sphere" or a "punch".
+def protocol_from_table(
+    table: Table, units: Mapping[str, str], equilibrium_gap: float
+) -> Retraction:
+    """Return the test that the table [protocol] states, in the units of a geometry.
 
     The equilibrium gap [m] tells where the displacement of a history is zero.
     """
     if "history" in table.values:
-        start, moves = _history(table, indenter, equilibrium_gap)
+        start, moves = _history(table, units, equilibrium_gap)
     else:
-        start, moves = _start(table, indenter), _moves(table, indenter)
+        start, moves = _start(table, units), _moves(table, units)
     moves *= _cycles(table)
     speed = stiffness = None
     if "speed" in table.values or not moves:
-        speed = table.quantity("speed", "m/s")
+        speed = table.number(_TEST["speed"])
     if "stiffness" in table.values:
-        stiffness = table.quantity("stiffness", _STIFFNESS[indenter])
+        stiffness = table.number(_TEST["stiffness"], unit=units["stiffness"])
     return table.make(Retraction, start=start, speed=speed, moves=moves, stiffness=stiffness)
 
 
 def _history(
-    table: Table, indenter: str, equilibrium_gap: float
+    table: Table, units: Mapping[str, str], equilibrium_gap: float
 ) -> tuple[Start | Apart, tuple[Move, ...]]:
-    for key in (*_PRELOADS[indenter], "start", "moves"):
+    for key in (*_preloads(units), "start", "moves"):
         if key in table.values:
             raise ValueError(
                 f"{table.name} history states the start and the moves; leave out {key}"
@@ -55,8 +45,8 @@ def _history(
     return history_from_file(table.path.parent / str(table.get("history")), equilibrium_gap)
 
 
-def _start(table: Table, indenter: str) -> Start | Apart:
-    preloads = _PRELOADS[indenter]
+def _start(table: Table, units: Mapping[str, str]) -> Start | Apart:
+    preloads = _preloads(units)
     known = [*preloads, "start"]
     given = [key for key in known if key in table.values]
     if len(given) != 1:
@@ -66,12 +56,17 @@ def _start(table: Table, indenter: str) -> Start | Apart:
             'write for example preload_depth = "2 um", or start = "apart 20 um"'
         )
     if given == ["start"]:
-        return table.make(start_from_words, str(table.get("start")), _UNITS[indenter])
-    kind, unit = preloads[given[0]]
-    return table.make(kind, table.quantity(given[0], unit))
+        return table.make(start_from_words, str(table.get("start")), units)
+    kind: Any = preloads[given[0]]
+    (field,) = cards(kind).values()
+    return kind(table.number(field, key=given[0], unit=units[field.card.measure]))
 
 
-def _moves(table: Table, indenter: str) -> tuple[Move, ...]:
+def _preloads(units: Mapping[str, str]) -> Mapping[str, type]:
+    return _STARTS if units["force"] == "N" else _STRESS_STARTS
+
+
+def _moves(table: Table, units: Mapping[str, str]) -> tuple[Move, ...]:
     if "moves" not in table.values:
         return ()
     moves = table.get("moves")
@@ -80,7 +75,7 @@ def _moves(table: Table, indenter: str) -> tuple[Move, ...]:
             f"{table.name} moves must be a list, got {moves!r}; write for example "
             'moves = ["approach 10 um/s to 1.5 mN", "dwell 60 s"]'
         )
-    return tuple(table.make(move_from_words, move, _UNITS[indenter]) for move in moves)
+    return tuple(table.make(move_from_words, move, units) for move in moves)
 
 
 def _cycles(table: Table) -> int:

@@ -1,0 +1,436 @@
+"""What a command, or a page, asks to state a problem by numbers; read from the cards of the nouns.
+
+A :class:`Door` is an indenter that can be stated so. Its :attr:`Door.questions` have names, words,
+units and examples; :func:`stated` makes the problem of the answers.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from viscotack.cards import Quantity, card_of, cards
+from viscotack.geometry import Bonded, Frictionless, PowerLawProfile, Sphere
+from viscotack.materials import (
+    Elastic,
+    Material,
+    Prony,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
+from viscotack.materials.constants import ContactModulus, ModulusRatio
+from viscotack.materials.passport_file import read_passport
+from viscotack.materials.words import MODELS
+from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
+from viscotack.problem.law_table import law_from_words
+from viscotack.problem.nouns import Nouns, known
+from viscotack.problem.prony_file import read_prony
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.protocol.words import PURE_NUMBERS, move_from_words
+from viscotack.traction import LennardJones
+from viscotack.units import parse, positive
+
+# What a start is called in a flag.
+STARTS: dict[str, Any] = {
+    "preload": AtDepth,
+    "preload-force": AtForce,
+    "preload-radius": AtRadius,
+    "apart": Apart,
+}
+# Contact radius of the start, in the unit of --preload-radius: a mesh for more has no end.
+_LARGEST_START = 1000.0
+_SOLID = cards(RetardationPowerLaw)
+# What takes a sphere to SI.
+SCALES: dict[str, Quantity] = {
+    "radius": cards(Sphere)["radius"].card,
+    "contact-modulus": card_of(ContactModulus),
+    "work-of-adhesion": cards(LennardJones)["work_of_adhesion"].card,
+    "equilibrium-gap": cards(LennardJones)["equilibrium_gap"].card,
+    "tau0": _SOLID["tau0"].card,
+    "poisson-ratio": _SOLID["poisson_ratio"].card,
+}
+_MOVES = (
+    "What the machine does before the retraction; give it once for each move. 'approach SPEED to "
+    "WHERE', 'retract SPEED to WHERE' (WHERE: depth, force or radius and a number), 'move to DEPTH "
+    "in TIME', 'load to FORCE in TIME', 'dwell TIME', 'hold drive|depth|force TIME'; all "
+    "dimensionless."
+)
+_LAWS = (
+    "Forces across the gap: lennard-jones (also when left out), dugdale, exponential:DECAY (decay "
+    "length over h0), or table:FILE, a CSV file with the header 'gap_nm,traction_kPa' or other "
+    "units; NAME:NUMBERS for one of --with."
+)
+_MATERIALS = {
+    "power-law": "modified power law by its retardation spectrum",
+    "sls": "standard linear solid, tau0 is its retardation time",
+}
+_OTHER_MATERIALS = (
+    "elastic: no memory; --rate is only needed in SI, in h0/s. prony:FILE: CSV file with the "
+    "header 'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
+    "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) is then "
+    "that of the header: s, ms, ..., or none. FILE.toml: a passport, as `viscotack material fit` "
+    "writes it. NAME:NUMBERS for one of --with."
+)
+
+
+@dataclass(frozen=True)
+class Question:
+    """A number or a few words that help to state a problem.
+
+    Attributes
+    ----------
+    name : str
+        Of the flag, without dashes in front.
+    words : str
+        What is asked, with its unit.
+    text : bool
+        Whether the answer is words (a quantity with its unit, a name) and not a number.
+    many : bool
+        Whether there may be several answers.
+    """
+
+    name: str
+    words: str
+    text: bool = False
+    many: bool = False
+
+
+@dataclass(frozen=True)
+class Door:
+    """An indenter that can be stated by numbers.
+
+    Attributes
+    ----------
+    word : str
+        Of its command.
+    numbers : mapping
+        What the geometry asks: name of the flag -> card.
+    units : mapping
+        What a machine's numbers are in.
+    starts : tuple of str
+        Ways to begin.
+    material : str
+        The solid that is meant where none is stated.
+    in_si : bool
+        Whether the answer may be asked in SI.
+    """
+
+    word: str
+    numbers: Mapping[str, Quantity]
+    units: Mapping[str, str]
+    starts: tuple[str, ...]
+    material: str
+    in_si: bool = False
+
+    @cached_property
+    def questions(self) -> tuple[Question, ...]:
+        """All that can be asked."""
+        solid = "; ".join(
+            f"{word}{' (also when left out)' if word == self.material else ''}: {words}"
+            for word, words in _MATERIALS.items()
+        )
+        asked = [
+            *(Question(name, _sentence(card, "")) for name, card in self.numbers.items()),
+            *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
+            Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
+            Question("modulus-ratio", _sentence(card_of(ModulusRatio), "")),
+            Question("exponent", _sentence(_SOLID["exponent"].card, "")),
+        ]
+        for number, name in enumerate(self.starts):
+            (field,) = cards(STARTS[name]).values()
+            words = _sentence(field.card, self.units[field.card.measure])
+            asked.append(Question(name, f"Or: {words[0].lower()}{words[1:]}" if number else words))
+        test = cards(Groups)
+        asked += [
+            Question("move", _MOVES, text=True, many=True),
+            Question("stiffness", _sentence(test["stiffness"].card, self.units["stiffness"])),
+            Question(
+                "rate",
+                f"Retraction speed, in {self.units['speed']} (prony: h0 per unit of time); with "
+                "--move it may be left out, and the test ends with the last move.",
+            ),
+            Question("law", _LAWS, text=True),
+        ]
+        if self.in_si:
+            asked += [
+                Question(name, f"For answers in SI as well: {_sentence(card, '')}", text=True)
+                for name, card in SCALES.items()
+            ]
+        return tuple(asked)
+
+
+def _sentence(card: Quantity, unit: str) -> str:
+    """Return what a card asks, its unit, its range and an example."""
+    head, comma, rest = card.words.partition(",")
+    words = f"{head[0].upper()}{head[1:]}" + (f", in {unit}" if unit else "") + comma + rest
+    words += f" ({card.symbol}); must {card.range}" if card.bounded and not unit else ""
+    return words + (f', for example "{card.example}"' if card.example and not unit else "") + "."
+
+
+_GLUED = (
+    "The layer is glued to its base and has this Poisson ratio, 0 to 0.5; without it, it slides on "
+    "its base."
+)
+_TABOR = {"tabor": cards(Groups)["tabor"].card}
+_PUNCH = {name: cards(PunchGroups)[name].card for name in ("size", "thickness", "cohesion")}
+
+SPHERE = Door("sphere", _TABOR, revolution.GROUPS, tuple(STARTS), "power-law", in_si=True)
+PROFILE = Door(
+    "profile",
+    _TABOR | {"profile-exponent": cards(PowerLawProfile)["exponent"].card},
+    revolution.GROUPS,
+    tuple(STARTS),
+    "power-law",
+)
+PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
+
+
+def stated(
+    door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()
+) -> Groups | PunchGroups | Problem:
+    """Return the problem that the answers state: dimensionless, or in SI when scales are given.
+
+    Parameters
+    ----------
+    door : Door
+        Which indenter.
+    answers : mapping
+        By the names of the questions; None where not given.
+    also : iterable of classes
+        Laws and materials of the user's own.
+
+    Raises
+    ------
+    ValueError
+        If an answer is missing, does not go with another, or is impossible.
+    """
+    given, nouns = given_of(answers), known(also)
+    given |= _scales_of_passport(given)
+    in_si = bool(given.keys() & SCALES.keys())
+    _kind_of_material(given.get("material", door.material), nouns)
+    _refuse_missing(door, given, in_si)
+    solid, unit = material_from({"material": door.material, **given}, nouns)
+    elastic = isinstance(solid, Elastic)
+    moves = tuple(move_from_words(words, PURE_NUMBERS) for words in given.get("move", ()))
+    numbers = {
+        name.replace("-", "_"): card.checked(f"--{name}", given[name], "1")
+        for name, card in door.numbers.items()
+    }
+    parts: dict[str, Any] = {
+        "material": solid,
+        "start": _start(door, given, numbers),
+        # An elastic solid has no time of its own: without a rate the time unit of a dimensionless
+        # answer is that in which the drive travels h0. Seconds need a speed.
+        "rate": _positive(given, "rate", None if moves else 1.0),
+        "traction": law_from_words(given.get("law", LennardJones.word), nouns.laws),
+        "moves": moves,
+        "stiffness": _positive(given, "stiffness", None),
+    }
+    if door is PUNCH:
+        glued = "bonded" in given
+        base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
+        return PunchGroups(**numbers, **parts, base=base)
+    q = numbers.pop("profile_exponent", None)
+    groups = Groups(**numbers, **parts)
+    if q is not None:
+        groups = Groups(**numbers, **parts, geometry=PowerLawProfile(1 / q, q))
+    return _in_si(groups, given, "s" if elastic else unit) if in_si else groups
+
+
+def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple[Material, str]:
+    """Return the reduced material, and the unit of its times if a file states one, else "1"."""
+    nouns = known() if nouns is None else nouns
+    name = given.get("material", "power-law")
+    if name.endswith(".toml"):
+        for flag in ("modulus-ratio", "exponent"):
+            if flag in given:
+                raise ValueError(f"{name} states the whole material; leave out --{flag}")
+        return read_passport(name).material.reduced(), "1"
+    kind = _kind_of_material(name, nouns)
+    word, _, rest = name.partition(":")
+    require(given, material_needs(given), f" for --material {word}")
+    numbers = material_numbers(kind)
+    for flag in ("modulus-ratio", "exponent"):
+        if flag in given and flag not in numbers:
+            raise ValueError(f"--{flag} does not go with --material {word}; leave it out")
+    values: dict[str, Any] = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
+    if kind is Prony:
+        branches, unit = read_prony(rest)
+        return Prony(**values, branches=branches), unit
+    if "modulus-ratio" in numbers:
+        k = positive("--modulus-ratio", given["modulus-ratio"], "1")
+        if k > 1:
+            raise ValueError(
+                f"--modulus-ratio is the rubbery over the glassy modulus, in (0, 1], got {k:g}; "
+                f"perhaps {1 / k:.4g} is meant"
+            )
+        values["glassy_modulus"] = 1 / k
+    if "tau0" in cards(kind):
+        values["tau0"] = 1.0
+    if "exponent" in numbers:
+        values["exponent"] = positive("--exponent", given["exponent"], "1")
+    return kind(**values | _own_numbers(kind, values, rest, name)), "1"
+
+
+def _kind_of_material(name: str, nouns: Nouns) -> Any:
+    """Return the class of a material that a flag names, None for a passport."""
+    if name.endswith(".toml"):
+        return None
+    word, _, rest = name.partition(":")
+    kind = nouns.materials.get(word)
+    spelled = kind in (RetardationPowerLaw, Elastic, StandardSolid, Prony)
+    if kind is None or kind is RelaxationPowerLaw or spelled and (kind is Prony) != bool(rest):
+        own = [w for w in nouns.materials if w not in MODELS]
+        raise ValueError(
+            "--material must be a passport FILE.toml, "
+            f"{', '.join(['power-law', 'elastic', 'sls', *own])} or prony:FILE, got {name!r}"
+        )
+    return kind
+
+
+def material_numbers(kind: Any) -> list[str]:
+    """Return the flags that a dimensionless material of a class takes."""
+    fields = cards(kind)
+    asked = {"modulus-ratio": "glassy_modulus", "exponent": "exponent"}
+    return [flag for flag, name in asked.items() if name in fields]
+
+
+def material_needs(given: Mapping[str, Any]) -> list[str]:
+    """Return the flags without which the material of a command is not stated."""
+    word = given.get("material", "power-law").partition(":")[0]
+    needs = {"power-law": ["modulus-ratio", "exponent"], "sls": ["modulus-ratio"]}
+    return needs.get(word, [])
+
+
+def _own_numbers(kind: Any, values: Mapping[str, Any], rest: str, name: str) -> dict[str, float]:
+    """Return the pure numbers of a user's own material, NAME:NUMBERS in the order of its fields."""
+    fields = [f for f in cards(kind).values() if f.name not in values]
+    given = [text for text in rest.split(",") if text]
+    needed = [f for f in fields if f.needed]
+    if not len(needed) <= len(given) <= len(fields):
+        wanted = ",".join(f.name.upper() for f in fields)
+        raise ValueError(
+            f"write {kind.word}{':' if wanted else ''}{wanted} for --material, got {name!r}"
+        )
+    return {f.name: f.card.checked(f.name, text) for f, text in zip(fields, given, strict=False)}
+
+
+def given_of(answers: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the answers that were given."""
+    return {name: value for name, value in answers.items() if value is not None and value != ()}
+
+
+def _positive(given: Mapping[str, Any], name: str, otherwise: float | None) -> float | None:
+    return positive(f"--{name}", given[name], "1") if name in given else otherwise
+
+
+def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool) -> None:
+    """Name all that is missing at once."""
+    solid = {"material": door.material, **given}
+    elastic = solid["material"] == Elastic.word
+    moved = bool(given.get("move"))
+    rate = ["rate"] if not moved and (in_si or not elastic) else []
+    missing = [
+        f"--{name}" for name in (*door.numbers, *material_needs(solid), *rate) if name not in given
+    ]
+    start = ""
+    if not given.keys() & set(door.starts):
+        start = f"exactly one of {', '.join(f'--{name}' for name in door.starts)}"
+    if missing:
+        of_solid = [name for name in material_needs(solid) if name not in given]
+        why = f" for --material {solid['material']}" if of_solid else ""
+        more = f", and {start}, of which none is given" if start else ""
+        raise ValueError(f"{_listed(missing)} missing{why}{more}; --help says what they are")
+    if start:
+        raise ValueError(f"give {start}, got none; --help says what they are")
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a passport says of the scales, where the answer is wanted in SI."""
+    name = given.get("material", "")
+    if not name.endswith(".toml") or not given.keys() & SCALES.keys():
+        return {}
+    for flag in ("contact-modulus", "poisson-ratio", "tau0"):
+        if flag in given:
+            raise ValueError(f"{name} states the whole material; leave out --{flag}")
+    solid = read_passport(name).material
+    scales = {
+        "contact-modulus": f"{solid.contact_modulus!r} Pa",
+        "poisson-ratio": solid.poisson_ratio,
+    }
+    return scales if isinstance(solid, Elastic) else scales | {"tau0": f"{solid.time_unit!r} s"}
+
+
+def _start(door: Door, given: Mapping[str, Any], numbers: Mapping[str, float]) -> Start | Apart:
+    name = one_of(given, door.starts)
+    kind = STARTS[name]
+    (field,) = cards(kind).values()
+    value = field.card.checked(f"--{name}", given[name], "1")
+    if "tabor" in numbers:
+        _refuse_large(name, kind, value, numbers["tabor"])
+    return kind(value)
+
+
+def _refuse_large(name: str, kind: Any, value: float, tabor: float) -> None:
+    # a large contact is Hertz's
+    radius = {
+        AtDepth: (max(value, 0.0) / tabor) ** (1 / 2) / np.cbrt(np.pi),
+        AtForce: (9 / 8 * max(value, 0.0)) ** (1 / 3),
+        AtRadius: value,
+        Apart: 0.0,
+    }[kind]
+    if radius > _LARGEST_START:
+        raise ValueError(
+            f"--{name} {value:g} is a contact of radius {radius:.3g} (pi R^2 dg0/E0*)^(1/3), and "
+            f"a simulation takes up to {_LARGEST_START:g}; give less"
+        )
+
+
+def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
+    """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must tell it."""
+    lengths = [name for name in ("equilibrium-gap", "work-of-adhesion") if name in given]
+    if len(lengths) != 1:
+        raise ValueError(
+            "for SI give exactly one of --equilibrium-gap and --work-of-adhesion, "
+            f"got {'both' if lengths else 'none'}; the Tabor number tells the other"
+        )
+    needed = ["radius", "contact-modulus", "poisson-ratio", *(["tau0"] if unit == "1" else [])]
+    require(given, needed, " to go to SI")
+    if unit != "1" and "tau0" in given:
+        raise ValueError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
+    scales = {}
+    for name, card in SCALES.items():
+        if name in given:
+            example = f'"{card.example}"' if card.unit != "1" else card.example
+            try:
+                scales[name.replace("-", "_")] = parse(given[name], card.unit)
+            except ValueError as error:
+                raise ValueError(f"--{name}: {error}; for example --{name} {example}") from None
+    time_unit = scales.pop("tau0", None)
+    if time_unit is None:
+        time_unit = parse(f"1 {unit}", "s")
+    return groups.in_si(**scales, time_unit=time_unit)
+
+
+def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
+    """Return which one of some flags is given; refuse none and several."""
+    found = [name for name in names if name in given]
+    if len(found) != 1:
+        got = " and ".join(f"--{name}" for name in found) or "none"
+        known = ", ".join(f"--{name}" for name in names)
+        raise ValueError(f"give exactly one of {known}, got {got}")
+    return found[0]
+
+
+def require(given: Mapping[str, Any], names: Iterable[str], why: str = "") -> None:
+    """Refuse flags of which some are missing, and say which."""
+    missing = [f"--{name}" for name in names if name not in given]
+    if missing:
+        raise ValueError(f"{_listed(missing)} missing{why}; --help says what they are")

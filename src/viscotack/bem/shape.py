@@ -1,0 +1,128 @@
+r"""Any shape of revolution on the half-space: where it differs from the sphere.
+
+Lengths along the surface are in :math:`\beta`, of the profile as
+:mod:`viscotack.problem.revolution` has it, and the reduced profile f has the slope 1 at 1: the
+discrete surface is that of the sphere under the rigid gap :math:`1 + \mu f(r)`. Its JKR contact
+comes by quadrature.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq, minimize_scalar
+
+from viscotack.bem.halfspace import half_space
+from viscotack.bem.sphere import SphereContact
+from viscotack.bem.surface import Surface
+from viscotack.geometry import Shape
+from viscotack.theory.elastic import indenter
+
+# Radii [beta] between which contacts are looked for.
+_LEAST, _MOST = 1e-6, 1e9
+
+
+@dataclass(frozen=True)
+class ShapeContact(SphereContact):
+    """A reduced shape of revolution; see :class:`viscotack.bem.contact.Contact`."""
+
+    shape: Shape
+
+    @property
+    def _jkr(self) -> dict[str, Any]:
+        # lengths along the surface in beta, depths in mu h0, forces in R dg
+        return {"shape": self.shape, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+
+    def rise(self, radius: Any) -> Any:
+        """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
+        return self.tabor * self.shape.gap(radius)
+
+    def radius_of_rise(self, rise: float) -> float:
+        """Return the radius [beta] at which the indenter has risen by this much [h0]."""
+        return _inverse(lambda r: float(self.rise(r)), rise, _LEAST)
+
+    def bare_radius(self, depth: float) -> float:
+        """Return the contact radius [beta] at a depth [h0] without adhesion."""
+        if depth <= 0:
+            return 0.0
+        return _inverse(
+            lambda a: self.tabor * float(indenter.bare_depth(a, shape=self.shape)), depth, _LEAST
+        )
+
+    def jkr_depth(self, radius: float) -> float:
+        """Return the JKR depth [h0] at a contact radius [beta]."""
+        return self.tabor * float(indenter.depth(radius, **self._jkr))
+
+    def jkr_radius(self, depth: float) -> float:
+        """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
+        return _inverse(self.jkr_depth, depth, self._last_by_depth)
+
+    def jkr_radius_at_force(self, force: float) -> float:
+        """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
+        return _inverse(self._jkr_force, force, self._last_by_force)
+
+    def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
+        """Return the JKR gap [h0] around a contact of this radius [beta]."""
+        return self.tabor * indenter.gap(nodes, contact_radius=radius, **self._jkr)
+
+    @property
+    def zone(self) -> float:
+        """Length over which the gap opens at a relaxed edge [beta].
+
+        That of a crack, or a part of the distance over which the tip rises by h0: for a sphere its
+        own.
+        """
+        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(2) * self.radius_of_rise(1.0))
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the half-space with these nodes [beta].
+
+        On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
+        has there: see :class:`viscotack.bem.profile.ProfileContact`.
+        """
+        r = nodes[-1]
+        q = float(r * self.shape.flank(r) / self.shape.gap(r))
+        surface = half_space(nodes, self.tabor)
+        # of a sphere the area between two gaps is 1/mu of their difference, here r/f' of it
+        flank = surface.flank * (r / float(self.shape.flank(r))) * q / (1.5 * q - 1)
+        return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))
+
+    def _jkr_force(self, radius: float) -> float:
+        return float(indenter.force(radius, **self._jkr))
+
+    @cached_property
+    def _last_by_depth(self) -> float:
+        return _lowest(self.jkr_depth)
+
+    @cached_property
+    def _last_by_force(self) -> float:
+        return _lowest(self._jkr_force)
+
+
+def _lowest(function: Callable[[float], float]) -> float:
+    """Return the radius at which a function that falls and then grows is least."""
+    # all lengths are of the order of beta where adhesion and elasticity balance
+    found = minimize_scalar(
+        lambda x: function(float(np.exp(x))), bounds=(-5.0, 5.0), method="bounded"
+    )
+    return float(np.exp(found.x))
+
+
+def _inverse(function: Callable[[float], float], value: float, low: float) -> float:
+    """Return where a function that grows from a radius on has this value; `low` past its end."""
+    if value <= function(low):
+        return low
+    high = 2 * low
+    while function(high) < value:
+        high *= 2
+        if high > _MOST:
+            raise ValueError(
+                f"the indenter does not rise to {value:g} h0 within {_MOST:g} lengths beta; "
+                "a shape rises without bound"
+            )
+    return float(brentq(lambda a: function(a) - value, low, high, xtol=1e-14 * high))  # type: ignore[arg-type]

@@ -1,0 +1,197 @@
+"""Cards: what a number that a user can set is called, measured in, and allowed to be.
+
+A noun (a solid, a law, a shape, a start) is a frozen dataclass, and the annotation of each of its
+numbers carries a card::
+
+    radius: Annotated[float, Quantity("m", "R", "radius of the sphere", above=0, example="5.19 mm")]
+
+Flags, keys of files, columns of campaigns, the JSON schema and the tables of the docs are read from
+the cards and restate nothing. :func:`conform` holds the numbers of a noun to them.
+"""
+
+import types
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, fields
+from functools import lru_cache
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+
+from viscotack.units import finite
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """The card of a number.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit; "1" for a pure number.
+    symbol : str
+        As formulas write it.
+    words : str
+        What it is, without its unit.
+    above, least, most : float or None
+        Open lower bound, lower and upper bound; None for none.
+    example : str
+        As a file or a flag may state it.
+    measure : str
+        For what a machine does: "depth", "force", "radius", "speed", "time" or "stiffness". The
+        geometry says what that is measured in, a force in N or a stress in Pa.
+    advice : str
+        What to do about a number out of range.
+    """
+
+    unit: str
+    symbol: str
+    words: str
+    above: float | None = None
+    least: float | None = None
+    most: float | None = None
+    example: str = ""
+    measure: str = ""
+    advice: str = ""
+
+    def checked(self, name: str, value: Any, unit: str | None = None) -> float:
+        """Return a value as a float within the range, or say what is wrong with it."""
+        unit = self.unit if unit is None else unit
+        number = finite(name, value, unit)
+        low = self.above is not None and not number > self.above
+        if (
+            low
+            or number < (self.least if self.least is not None else number)
+            or (self.most is not None and number > self.most)
+        ):
+            words = "" if unit == "1" else f" {unit}"
+            cure = f"; {self.advice}" if self.advice else ""
+            raise ValueError(f"{name} must {self.range}, got {number}{words}{cure}")
+        return number
+
+    @property
+    def range(self) -> str:
+        """The range in words that follow "must"."""
+        if self.above == 0 and self.most is None:
+            return "be positive"
+        if self.most is None:
+            return f"be at least {self.least:g}"
+        if self.above is not None:
+            return f"lie in ({self.above:g}, {self.most:g}]"
+        return f"lie between {self.least:g} and {self.most:g}"
+
+    @property
+    def bounded(self) -> bool:
+        """Whether there is a range."""
+        return not (self.above is None and self.least is None and self.most is None)
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
+        """Add to the JSON schema of the number what the card says."""
+        schema = handler(core)
+        schema |= {"description": self.words, "unit": self.unit, "symbol": self.symbol}
+        bounds = {
+            "exclusiveMinimum": self.above,
+            "minimum": self.least,
+            "maximum": self.most,
+        }
+        schema |= {name: bound for name, bound in bounds.items() if bound is not None}
+        return schema | ({"examples": [self.example]} if self.example else {})
+
+
+@dataclass(frozen=True)
+class Pairs:
+    """The card of a list of pairs of numbers.
+
+    Attributes
+    ----------
+    units : tuple of str
+        SI units of the first and the second of a pair.
+    symbol, words, example : str
+        As for a `Quantity`.
+    """
+
+    units: tuple[str, str]
+    symbol: str
+    words: str
+    example: str = ""
+
+    def __get_pydantic_json_schema__(self, core: Any, handler: Any) -> dict[str, Any]:
+        """Add to the JSON schema of the list what the card says."""
+        return handler(core) | {
+            "description": self.words,
+            "units": list(self.units),
+            "symbol": self.symbol,
+        }
+
+
+@dataclass(frozen=True)
+class Field:
+    """A number of a noun: its name, its card, its default, and whether None will do."""
+
+    name: str
+    card: Any
+    default: Any = MISSING
+    optional: bool = False
+
+    @property
+    def needed(self) -> bool:
+        """Whether it must be given."""
+        return self.default is MISSING
+
+
+@lru_cache(maxsize=256)
+def cards(noun: type, kind: type = Quantity) -> Mapping[str, Field]:
+    """Return the fields of a noun that have a card, by name, in their order.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> cards(Sphere)["radius"].card.unit
+    'm'
+    """
+    hints = get_type_hints(noun, include_extras=True)
+    found = {}
+    for field in fields(noun):
+        card = _card(hints[field.name], kind)
+        if card is not None:
+            found[field.name] = Field(
+                field.name, card, field.default, optional=type(None) in get_args(hints[field.name])
+            )
+    return found
+
+
+def card_of(annotation: Any) -> Quantity:
+    """Return the card of an annotated number that belongs to no noun, such as a ratio of two."""
+    return _card(annotation, Quantity)
+
+
+def _card(hint: Any, kind: type) -> Any:
+    if get_origin(hint) is Annotated:
+        return next((x for x in hint.__metadata__ if isinstance(x, kind)), None)
+    if get_origin(hint) in (Union, types.UnionType):
+        return next((card for part in get_args(hint) if (card := _card(part, kind))), None)
+    return None
+
+
+def conform(noun: Any) -> None:
+    """Make floats of the numbers of a noun, within the ranges of their cards; for __post_init__.
+
+    Raises
+    ------
+    ValueError
+        If a number is none, or out of its range; with its unit.
+    """
+    for field in cards(type(noun)).values():
+        value = getattr(noun, field.name)
+        if isinstance(value, str | bytes):
+            raise ValueError(
+                f"{field.name} must be a number in {field.card.unit}, got {value!r}; "
+                f"viscotack.parse({value!r}, {field.card.unit!r}) reads text"
+            )
+        if value is not None or not field.optional:
+            object.__setattr__(noun, field.name, field.card.checked(field.name, value))
+
+
+def rows(noun: type) -> list[tuple[str, str, str, str]]:
+    """Return word, symbol, unit and meaning of the numbers of a noun, for tables of the docs."""
+    return [
+        (field.name, field.card.symbol, field.card.unit, field.card.words)
+        for field in cards(noun).values()
+    ]

@@ -1,0 +1,146 @@
+"""What a problem may be made of: the laws, materials and shapes that are known, and a user's own.
+
+Nothing is registered: a class says itself what it is, by what it answers, and `word` names it in
+files and flags.
+"""
+
+import importlib.util
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, is_dataclass
+from functools import lru_cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from viscotack import geometry, materials, problem, protocol
+from viscotack.geometry import SHAPES
+from viscotack.materials.words import MODELS
+from viscotack.traction import LAWS
+
+# What tells a noun from another class, and where it belongs.
+_SIGNS = {
+    "laws": ("traction", "energy", "stiffness", "reduced"),
+    "materials": ("retardation_modes", "creep", "reduced"),
+    "shapes": ("gap", "flank", "reduced"),
+}
+_ROOMS = (materials, geometry, protocol, problem)
+
+
+@dataclass(frozen=True)
+class Nouns:
+    """The classes that are known.
+
+    Attributes
+    ----------
+    laws, materials, shapes : mapping
+        Word in files and flags -> class.
+    types : mapping
+        Name -> class, of everything that a record may hold.
+    observables : tuple
+        Numbers of results of the user's own.
+    """
+
+    laws: Mapping[str, Any]
+    materials: Mapping[str, Any]
+    shapes: Mapping[str, Any]
+    types: Mapping[str, Any]
+    observables: tuple[Any, ...] = ()
+
+
+def known(also: Iterable[Any] = ()) -> Nouns:
+    """Return what is known, and these classes and observables of a user's own beside it.
+
+    Raises
+    ------
+    ValueError
+        If one is no law, material, shape or observable, or has a name or a word that is taken.
+    """
+    also = tuple(also)
+    own = {"laws": dict(LAWS), "materials": dict(MODELS), "shapes": dict(SHAPES)}
+    types = dict(_types())
+    observables = []
+    for noun in also:
+        if hasattr(noun, "function") and not isinstance(noun, type):
+            observables.append(noun)
+            continue
+        room = _room(noun)
+        if noun.word in own[room] or noun.__name__ in types:
+            raise ValueError(
+                f"{noun.__name__} ({noun.word!r}) has a name or a word that is taken; choose others"
+            )
+        own[room][noun.word] = types[noun.__name__] = noun
+    return Nouns(**own, types=types, observables=tuple(observables))
+
+
+def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
+    """Return the laws, materials, shapes and observables that Python files define.
+
+    The files are executed: they are programs of the user's own.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If a file is no Python, or defines nothing of the kind.
+    """
+    found: list[Any] = []
+    for path in paths:
+        found += _defined(Path(path).resolve(), sha256(Path(path).read_bytes()).hexdigest())
+    return tuple(found)
+
+
+@lru_cache(maxsize=32)
+def _defined(path: Path, content: str) -> tuple[Any, ...]:
+    name = f"viscotack_own_{content[:16]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise ValueError(f"{path} is not a Python file; give one that ends in .py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:
+        del sys.modules[name]
+        raise ValueError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
+    found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
+    if not found:
+        raise ValueError(
+            f"{path} defines no law, material, shape or observable; docs/own.md shows how one looks"
+        )
+    return found
+
+
+def _is_own(thing: Any, module: str) -> bool:
+    if isinstance(thing, type):
+        return thing.__module__ == module and hasattr(thing, "word") and is_dataclass(thing)
+    return is_dataclass(thing) and hasattr(thing, "function") and hasattr(thing, "words")
+
+
+def _room(noun: Any) -> str:
+    if (
+        isinstance(noun, type)
+        and is_dataclass(noun)
+        and isinstance(getattr(noun, "word", None), str)
+    ):
+        for room, signs in _SIGNS.items():
+            if all(hasattr(noun, sign) for sign in signs):
+                return room
+    wanted = "; ".join(f"{room}: {', '.join(signs)}" for room, signs in _SIGNS.items())
+    raise ValueError(
+        f"{getattr(noun, '__name__', noun)!r} is no law, material or shape: a frozen dataclass "
+        f"with a `word` and ({wanted}), or an Observable"
+    )
+
+
+@lru_cache(maxsize=1)
+def _types() -> dict[str, Any]:
+    """Return the dataclasses of the rooms by name."""
+    found = {
+        name: thing
+        for room in _ROOMS
+        for name, thing in vars(room).items()
+        if isinstance(thing, type) and is_dataclass(thing)
+    }
+    return found | {law.__name__: law for law in LAWS.values()}

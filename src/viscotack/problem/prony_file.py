@@ -1,0 +1,68 @@
+"""A Prony series in a CSV file."""
+
+import csv
+import os
+from pathlib import Path
+
+from viscotack.units import parse, positive
+
+
+def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float], ...], str]:
+    """Return the branches of a Prony series from a CSV file, and the unit of their times.
+
+    Parameters
+    ----------
+    path : path
+        A first row ``modulus_ratio,relaxation_time_s``, then a branch a row: its modulus over the
+        rubbery modulus, and its relaxation time. Instead of ``s`` any unit of time (``ms``,
+        ``h``); just ``relaxation_time`` means that times are pure numbers. Lines that begin with
+        ``#`` are skipped.
+
+    Returns
+    -------
+    tuple of (float, float), str
+        Branches as (modulus ratio, relaxation time in the file's unit), and that unit ("1" for
+        pure numbers).
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        If the header or a row is not as described; with the line.
+    """
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is not a text file") from None
+    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
+    rows = list(csv.reader(x for _, x in numbered))
+    header = [x.strip() for x in rows[0]] if rows else []
+    if (
+        len(header) != 2
+        or header[0] != "modulus_ratio"
+        or not header[1].startswith("relaxation_time")
+    ):
+        raise ValueError(
+            f"{path}: the first row must be 'modulus_ratio,relaxation_time_s' (or another unit of "
+            f"time), got {','.join(header)!r}"
+        )
+    unit = header[1].removeprefix("relaxation_time").removeprefix("_") or "1"
+    if unit != "1":
+        try:
+            parse(f"1 {unit}", "s")
+        except ValueError as error:
+            raise ValueError(f"{path}, the name of the second column: {error}") from None
+    branches = []
+    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+        try:
+            if len(row) != 2:
+                raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
+            ratio, time = row
+            branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
+        except ValueError as error:
+            raise ValueError(f"{path}, line {line}: {error}") from None
+    if not branches:
+        raise ValueError(f"{path}: there is no branch below the header")
+    return tuple(branches), unit

@@ -1,0 +1,220 @@
+r"""An indenter of revolution: its scales, its Tabor number, its limits, its outputs.
+
+The relaxed solid and the profile f have one length along the surface, and an equivalent radius,
+
+.. math:: \beta f'(\beta)^2 = \frac{\Delta\gamma_0}{E_0^*}, \quad R = \frac{\beta}{f'(\beta)}, \quad
+          \mu = \left(\frac{R \Delta\gamma_0^2}{E_0^{*2} h_0^3}\right)^{1/3}
+              = \frac{\beta^2}{R h_0},
+
+and with R all scales are those of the sphere, for which it is the radius: forces in
+:math:`1.5 \pi R \Delta\gamma_0`, contact radii in :math:`(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}`. For
+another shape R depends on the modulus and the work of adhesion, like the pull-off force of the
+elastic solid; neither knows the range h_0. For a power law :math:`z = A r^q`,
+:math:`\beta = (\Delta\gamma_0/(E_0^* (q A)^2))^{1/(2 q - 1)}`.
+
+Source for the sphere: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and 31, the Tabor number as
+corrected in Eq. 31.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp, log
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import brentq
+
+from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
+from viscotack.materials import Material
+from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
+from viscotack.theory.elastic import indenter
+from viscotack.traction import Traction
+
+# Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
+# sphere's and strains are of order a/R: linear elasticity of the half-space ends about here. For
+# another shape it is the steepest flank at the edge of a contact.
+LARGEST_CONTACT = STEEPEST_FLANK = 0.5
+# A profile that reaches the limit nowhere near: 10^15 m.
+_FAR = log(1e15)
+# What a protocol's numbers are in, in SI and dimensionless.
+SI = {
+    "depth": "m",
+    "force": "N",
+    "radius": "m",
+    "speed": "m/s",
+    "time": "s",
+    "stiffness": "N/m",
+}
+GROUPS = {
+    "depth": "h0",
+    "force": "1.5 pi R dg0",
+    "radius": "(pi R^2 dg0/E0*)^(1/3)",
+    "speed": "h0/tau0",
+    "time": "tau0",
+    "stiffness": "1.5 pi R dg0/h0",
+}
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What one unit of each dimensionless output is in SI.
+
+    Attributes
+    ----------
+    force : float
+        1.5 pi R Delta-gamma_0 [N], the JKR pull-off force.
+    length : float
+        h_0 [m], for depths and gaps.
+    radius : float
+        (pi R^2 Delta-gamma_0/E_0*)^(1/3) [m], for contact radii.
+    work : float
+        1.5 pi R Delta-gamma_0 h_0 [J].
+    time : float
+        The material's time unit [s].
+    edge_speed : float
+        (R^2 Delta-gamma_0/E_0*)^(1/3) over the time unit [m/s]; no pi.
+    stress : float
+        Delta-gamma_0/h_0 [Pa], for pressures and tractions.
+    """
+
+    force: float
+    length: float
+    radius: float
+    work: float
+    time: float
+    edge_speed: float
+    stress: float
+
+
+def radius_of(problem: Any) -> float:
+    """Return the radius R [m] of the sphere with the same Tabor number and scales."""
+    adhesion = problem.traction.work_of_adhesion / problem.material.contact_modulus
+    return equivalent_radius(problem.geometry, adhesion)
+
+
+def tabor_number(radius: float, material: Material, traction: Traction) -> float:
+    """Return the Tabor number of a sphere of this radius [m]."""
+    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
+    return (radius * w**2 / (material.contact_modulus**2 * h0**3)) ** (1 / 3)
+
+
+def scales_of(radius: float, material: Material, traction: Traction) -> Scales:
+    """Return what one unit of each dimensionless output is for a sphere of this radius [m]."""
+    w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
+    beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
+    force, time = 1.5 * np.pi * radius * w, material.time_unit
+    return Scales(
+        force=force,
+        length=h0,
+        radius=np.pi ** (1 / 3) * beta,
+        work=force * h0,
+        time=time,
+        edge_speed=beta / time,
+        stress=w / h0,
+    )
+
+
+def to_groups(scales: Scales) -> Units:
+    """Return what takes the numbers of a protocol from SI to those of the groups."""
+    return Units(1 / scales.length, 1 / scales.force, 1 / scales.radius, 1 / scales.time)
+
+
+def check(problem: Any) -> None:
+    """Refuse a problem in SI beyond small strain.
+
+    Raises
+    ------
+    ValueError
+        If the relaxed contact of a sphere would be larger than half its radius, or the flank of
+        another shape steeper than 0.5 at the edge of a contact as JKR has it; or if that is so
+        where the undeformed gap is h_0.
+    """
+    if not isinstance(problem.body, HalfSpace):
+        raise ValueError(
+            f"a {problem.geometry.word} presses a half-space, got {problem.body}; a layer under it "
+            "is not known: leave it out, or take a FlatPunch"
+        )
+    if isinstance(problem.geometry, Sphere):
+        _check_sphere(problem)
+    else:
+        _check_flank(problem)
+
+
+def _check_sphere(problem: Any) -> None:
+    R = problem.geometry.radius
+    for state in states(problem.protocol):
+        a = _relaxed_radius(problem, state)
+        if a <= LARGEST_CONTACT * R:
+            continue
+        raise ValueError(
+            "the start lies beyond small strain: its relaxed contact radius is about "
+            f"{a:.3g} m = {a / R:.2g} sphere radii, and the theory holds to {LARGEST_CONTACT}; "
+            f"reduce the preload of {state}, or use a larger sphere"
+        )
+    rim = float(np.sqrt(2 * R * problem.traction.equilibrium_gap))
+    if rim > LARGEST_CONTACT * R:
+        raise ValueError(
+            f"equilibrium_gap of {problem.traction.equilibrium_gap:.3g} m is too long beside the "
+            f"sphere radius of {R:.3g} m: the forces would reach where a sphere is no longer a "
+            f"paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
+        )
+
+
+def _check_flank(problem: Any) -> None:
+    shape, h0 = problem.geometry, problem.traction.equilibrium_gap
+    rim = _where(lambda r: float(shape.gap(r)), h0)
+    flank = float(shape.flank(rim))
+    if flank > STEEPEST_FLANK:
+        raise ValueError(
+            f"the flank of {shape} is too steep: its slope is {flank:.3g} where the gap "
+            f"is equilibrium_gap = {h0:.3g} m, and the theory holds to {STEEPEST_FLANK}"
+        )
+    # the largest contact there may be
+    a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    if a >= exp(_FAR):
+        return  # nowhere as steep
+    solid = {
+        "shape": shape,
+        "contact_modulus": problem.material.contact_modulus,
+        "work_of_adhesion": problem.traction.work_of_adhesion,
+    }
+    for state in states(problem.protocol):
+        if isinstance(state, AtDepth):
+            given, most, unit = state.depth, indenter.depth(a, **solid), "m"
+        elif isinstance(state, AtForce):
+            given, most, unit = state.force, indenter.force(a, **solid), "N"
+        else:
+            given, most, unit = state.contact_radius, a, "m"
+        if given > most:
+            raise ValueError(
+                f"{state} lies beyond small strain: the slope of the flank at the edge of its "
+                f"contact would be over {STEEPEST_FLANK}; it may be up to {most:.3g} {unit}"
+            )
+
+
+def _where(function: Any, value: float) -> float:
+    """Return the radius [m] at which a rising function has this value, 1e15 for none."""
+    if function(exp(_FAR)) <= value:
+        return exp(_FAR)
+    found = brentq(lambda x: log(max(function(exp(x)), 1e-300) / value), -_FAR, _FAR)
+    return exp(float(found))  # type: ignore[arg-type]
+
+
+def _relaxed_radius(problem: Any, start: Start) -> float:
+    """Return the JKR contact radius of a relaxed state [m], or 0 where JKR has none."""
+    E = problem.material.contact_modulus
+    R, w = problem.geometry.radius, problem.traction.work_of_adhesion
+    if isinstance(start, AtRadius):
+        return start.contact_radius
+    if isinstance(start, AtForce):
+        P, P1 = start.force, 1.5 * np.pi * R * w
+        # eq. (2.3) solved for the radius, on the branch that a dead load keeps
+        return float((3 * R / (4 * E) * (np.sqrt(max(P + P1, 0)) + np.sqrt(P1)) ** 2) ** (1 / 3))
+    # eq. (2.4), delta = a^2/R - sqrt(2 pi a w/E*), with sqrt(a) = y (c R)^(1/3)
+    c = np.sqrt(2 * np.pi * w / E)
+    roots: Sequence[complex] | npt.NDArray = np.roots(
+        [1, 0, 0, -1, -start.depth * R / (c * R) ** (4 / 3)]
+    )
+    real = [y.real for y in roots if abs(y.imag) < 1e-9 * max(1.0, abs(y))]
+    return float(max(real, default=0.0) ** 2 * (c * R) ** (2 / 3))

@@ -1,0 +1,126 @@
+"""One table of a case file: hands out its keys by the cards of a noun.
+
+Every error names the file, the table and the key, and gives an example.
+"""
+
+import difflib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from viscotack.cards import Field, Pairs, cards
+from viscotack.units import parse
+
+
+class Table:
+    """A table of a file: hands out its keys, and knows which were never asked for."""
+
+    def __init__(self, path: Path, name: str, tables: Mapping[str, Any]) -> None:
+        self.path, self.name = path, f"{path}, [{name}]"
+        if not isinstance(tables.get(name), dict):
+            raise ValueError(f"{path}: the table [{name}] is missing; see docs/input.md")
+        self.values: Mapping[str, Any] = tables[name]
+        self.known: set[str] = set()
+
+    def get(self, key: str, example: str = '"..."') -> Any:
+        """Return what a key says, or say how it is written."""
+        self.known.add(key)
+        if key not in self.values:
+            close = difflib.get_close_matches(
+                key, self.values.keys() - self.known, n=1, cutoff=0.75
+            )
+            hint = f" (is {close[0]} meant?)" if close else ""
+            raise ValueError(
+                f"{self.name} {key} is missing{hint}; write for example {key} = {example}"
+            )
+        return self.values[key]
+
+    def quantity(self, key: str, unit: str, example: str = "") -> float:
+        """Return the number of a key in an SI unit."""
+        example = example or ("1" if unit == "1" else f'"1 {unit}"')
+        value = self.get(key, example)
+        if unit != "1" and not isinstance(value, str):
+            raise ValueError(
+                f"{self.name} {key} must be text with a unit, got {value!r}; "
+                f"write for example {key} = {example}"
+            )
+        try:
+            return parse(value, unit)
+        except ValueError as error:
+            raise ValueError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
+
+    def number(self, field: Field, key: str = "", unit: str = "") -> float:
+        """Return the number that a card describes, by the name of its field or another key."""
+        card, key = field.card, key or field.name
+        unit = unit or card.unit
+        value = self.quantity(key, unit, _example(card.example, unit))
+        try:
+            return card.checked(key, value, unit)
+        except ValueError as error:
+            raise ValueError(f"{self.name} {error}") from None
+
+    def pairs(self, field: Field) -> tuple[tuple[float, float], ...]:
+        """Return the list of pairs that a card describes."""
+        card, key = field.card, field.name
+        given = self.get(key, card.example)
+        first, second = card.units
+        try:
+            return tuple(
+                (parse(str(x), first), parse(str(y), second))
+                for x, y in (_pair(x, card.words) for x in given)
+            )
+        except (TypeError, ValueError) as error:
+            raise ValueError(
+                f"{self.name} {key}: {error}; write for example {key} = {card.example}"
+            ) from None
+
+    def numbers(self, noun: type) -> dict[str, Any]:
+        """Return the numbers of a noun that the table states; all that have no default must be."""
+        found: dict[str, Any] = {
+            field.name: self.number(field)
+            for field in cards(noun).values()
+            if field.needed or field.name in self.values
+        }
+        return found | {f.name: self.pairs(f) for f in cards(noun, Pairs).values()}
+
+    def word(self, key: str, allowed: Iterable[str]) -> str:
+        """Return the word of a key, one of those allowed."""
+        allowed = list(allowed)
+        value = self.get(key, f'"{allowed[0]}"')
+        if value not in allowed:
+            raise ValueError(
+                f"{self.name} {key} must be one of {', '.join(allowed)}, got {value!r}"
+            )
+        return value
+
+    def make(self, kind: Any, *value: Any, **values: Any) -> Any:
+        """Return what a class or a function makes, its errors with the name of the table."""
+        try:
+            return kind(*value, **values)
+        except ValueError as error:
+            raise ValueError(f"{self.name} {error}") from None
+
+    def finish(self) -> None:
+        """Refuse keys that nobody asked for."""
+        refuse_unknown(self.name, self.values, self.known, "key")
+
+
+def refuse_unknown(where: str, given: Iterable[str], known: Iterable[str], what: str) -> None:
+    """Refuse names that are not known, and say which may be meant."""
+    known = sorted(known)
+    for name in given:
+        if name not in known:
+            close = difflib.get_close_matches(name, known, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}"
+            raise ValueError(f"{where}: unknown {what} {name!r}; {hint}")
+
+
+def _pair(given: Any, words: str) -> tuple[Any, Any]:
+    if not isinstance(given, list) or len(given) != 2:
+        raise ValueError(f"each entry is a pair, {words}, got {given!r}")
+    return given[0], given[1]
+
+
+def _example(text: str, unit: str) -> str:
+    """Return an example as TOML writes it: quantities are texts, pure numbers are not."""
+    return text if unit == "1" or not text else f'"{text}"'

@@ -1,0 +1,97 @@
+r"""JKR for any rigid indenter of revolution, by quadrature of its profile.
+
+With the slope f' of the profile, the adhesionless contact of radius a has the depth and the force
+
+.. math:: D(a) = a \int_0^{\pi/2} f'(a \sin\theta)\, d\theta, \quad
+          P(a) = 2 E^* a^2 \int_0^{\pi/2} \sin^2\theta\, f'(a \sin\theta)\, d\theta
+
+(Sneddon (1965), doi:10.1016/0020-7225(65)90019-4), and with adhesion, Eq. 2.10 and 2.11 of Maghami,
+PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}` and
+:math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms.
+Range: short-range adhesion, small slopes, a slope that does not fall outwards.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive
+
+Array = npt.NDArray[np.float64]
+# Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+_ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
+
+
+class Flank(Protocol):
+    """A profile that says how steep it is."""
+
+    def gap(self, position: npt.ArrayLike) -> Array: ...  # noqa: D102
+    def flank(self, position: npt.ArrayLike) -> Array: ...  # noqa: D102
+
+
+def bare_depth(contact_radius: npt.ArrayLike, *, shape: Flank) -> Number:
+    """Return the depth [m] at which a contact has this radius [m] without adhesion."""
+    a = positive(contact_radius=contact_radius)
+    return plain(a * _mean(shape, a, np.ones_like(_ANGLE)))
+
+
+def depth(
+    contact_radius: npt.ArrayLike, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+) -> Number:
+    """Return the depth [m] of a contact of this radius [m], with adhesion.
+
+    Examples
+    --------
+    A sphere of 1 mm has JKR's:
+
+    >>> from viscotack.geometry import Sphere
+    >>> solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
+    >>> f"{depth(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
+    '4.395 um'
+    """
+    a = positive(contact_radius=contact_radius)
+    return plain(
+        bare_depth(a, shape=shape) - np.sqrt(2 * np.pi * a * work_of_adhesion / contact_modulus)
+    )
+
+
+def force(
+    contact_radius: npt.ArrayLike, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+) -> Number:
+    """Return the force [N] of a contact of this radius [m], positive in compression."""
+    a, E = positive(contact_radius=contact_radius), contact_modulus
+    bare = 2 * E * a**2 * _mean(shape, a, np.sin(_ANGLE) ** 2)
+    return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
+
+
+def gap(
+    position: npt.ArrayLike,
+    *,
+    contact_radius: float,
+    shape: Flank,
+    contact_modulus: float,
+    work_of_adhesion: float,
+) -> Array:
+    r"""Return the gap [m] around a contact at a distance from the axis [m]; 0 within.
+
+    .. math:: g(r) = f(r) - \delta + \frac{2}{\pi} \int_0^a
+              \frac{\delta - D(t)}{\sqrt{r^2 - t^2}}\, dt
+    """
+    a = float(contact_radius)
+    r = np.maximum(np.asarray(position, dtype=float), a)
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    deep = float(depth(a, shape=shape, **solid))
+    # t = a sin(angle) takes the root off the edge of the contact where r is near it
+    t = a * np.sin(_ANGLE)
+    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(_ANGLE) * _WEIGHT
+    lifted = deep * np.arcsin(a / r) - (hollow / np.sqrt(r[..., None] ** 2 - t**2)).sum(axis=-1)
+    return np.maximum(shape.gap(r) - deep + 2 / np.pi * lifted, 0.0)
+
+
+def _mean(shape: Flank, a: npt.NDArray, weight: Array) -> npt.NDArray:
+    """Return the integral of the slope over the angle, with a weight."""
+    return (np.asarray(shape.flank(np.multiply.outer(a, np.sin(_ANGLE)))) * weight) @ _WEIGHT
