@@ -1,7 +1,8 @@
-"""The cases that the benchmarks share, and where published data lie."""
+"""The cases that the benchmarks have in common, and where published data lie."""
 
 from __future__ import annotations
 
+import argparse
 import csv
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -13,8 +14,8 @@ from scipy.stats import qmc
 
 from viscotack import AtDepth, AtForce, Groups, RetardationPowerLaw, StandardSolid
 
-# Data that are not part of the project: looked for beside the checkout, skipped where absent.
-PUBLISHED = Path(__file__).resolve().parents[2] / "shared/data/sphere_bem_published/rows.csv"
+# A sample of the table that the authors of the thesis published; tests/data/README.md says of it.
+SAMPLE = Path(__file__).resolve().parents[1] / "tests/data/sphere_bem_published/rows.csv"
 
 
 def power_law(modulus_ratio: float, exponent: float) -> RetardationPowerLaw:
@@ -71,11 +72,30 @@ def spread(count: int, seed: int) -> list[Groups]:
     ]
 
 
-def published_rows(count: int, seed: int) -> list[dict[str, float]]:
-    """Return rows of the published table, drawn at random; [] where it is not at hand."""
-    if not PUBLISHED.exists():
-        return []
-    with PUBLISHED.open(newline="") as file:
+def add_table(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says where the published table is."""
+    parser.add_argument(
+        "--table",
+        type=_table,
+        default=str(SAMPLE),
+        metavar="PATH",
+        help="CSV of published detachments; the sample in tests/data if left out",
+    )
+
+
+def _table(path: str) -> Path:
+    if Path(path).is_file():
+        return Path(path)
+    raise argparse.ArgumentTypeError(
+        f"there is no file {path}; take the table that the authors of the thesis published, from "
+        "Data_Files of https://github.com/alimaghamii/ML4Adhesion, or the sample of it in "
+        "tests/data/sphere_bem_published of this repository"
+    )
+
+
+def published_rows(table: Path, count: int, seed: int) -> list[dict[str, float]]:
+    """Return rows of a published table, drawn at random."""
+    with table.open(newline="", encoding="utf-8-sig") as file:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
     chosen = np.random.default_rng(seed).choice(len(rows), min(count, len(rows)), replace=False)
     return [rows[i] for i in chosen]

@@ -155,8 +155,8 @@ def page(rows: Sequence[Row]) -> str:
         "",
         f"{len(rows):,} rows of the table of detachments that the authors of the thesis published, "
         "each simulated here at the default accuracy of 2e-3. This page is written by "
-        "`python benchmarks/published.py --write`. Differences are published over ours, less one; "
-        "they are relative.",
+        "`python benchmarks/published.py --table PATH --write`. Differences are published over "
+        "ours, less one; they are relative.",
         "",
         f"- The pull-off force differs by {percent(np.median(force))} in the median; 95 % of the "
         f"rows are below {percent(np.quantile(force, 0.95), 1)}, the largest is "

@@ -1,7 +1,7 @@
 """Write what the shipped surrogate is worth into docs/surrogate.md.
 
-`python benchmarks/surrogate_page.py [--write]`: the scores that its file holds, its speed here,
-and, where ../shared is at hand, how far it is from the published rows.
+`python benchmarks/surrogate_page.py [--table PATH] [--write]`: the scores that its file holds, its
+speed here, and how far it is from the published rows, of which tests/data has a sample.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from cases import PUBLISHED
+from cases import add_table
 
 from viscotack import Groups, predict
 from viscotack.materials import RetardationPowerLaw
@@ -143,17 +143,15 @@ def speed() -> str:
     )
 
 
-def published() -> str:
-    """Return the sentence about the published rows; "" where they are not at hand."""
-    if not PUBLISHED.exists():
-        return ""
-    rows = read_detachments(PUBLISHED)
+def published(table: Path) -> str:
+    """Return the sentence about the published rows."""
+    rows = read_detachments(table)
     groups = np.column_stack([getattr(rows, name) for name in physics.INPUTS])
     inside = shipped().inside(groups).all(axis=1)
     said = shipped().evaluate(groups[inside])
     off = np.abs(said.pull_off_force / rows.pull_off_force[inside] - 1)
     return (
-        f"Of the {len(rows):,} rows that the authors of the thesis published, {inside.sum():,} lie "
+        f"Of {len(rows):,} rows that the authors of the thesis published, {inside.sum():,} lie "
         f"in the range: the forces differ by {percent(float(np.median(off)))} in the median and by "
         f"less than {percent(float(np.quantile(off, 0.95)))} in 95 % of them. Where they differ by "
         "more, [a converged simulation decided](published-data.md)."
@@ -169,6 +167,7 @@ def replaced(text: str, start: str, end: str, words: str) -> str:
 def main() -> None:
     """Print, or write into the pages."""
     parser = argparse.ArgumentParser(description=__doc__)
+    add_table(parser)
     parser.add_argument("--write", action="store_true")
     chosen = parser.parse_args()
     facts = store.facts()
@@ -181,7 +180,7 @@ def main() -> None:
         curves(at_random),
         speed(),
     ]
-    parts.append(published())
+    parts.append(published(chosen.table))
     if scores.get("bands kept apart"):
         parts.append(
             "How well the force of a whole band is told from the others, by one smaller network "
@@ -189,7 +188,7 @@ def main() -> None:
             "between the limits):"
         )
         parts.append("\n".join(bands(scores["bands kept apart"])))
-    words = "\n\n".join(part for part in parts if part)
+    words = "\n\n".join(parts)
     print(words)
     if chosen.write:
         text = PAGE.read_text(encoding="utf-8")

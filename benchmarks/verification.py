@@ -12,7 +12,15 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-from cases import REFINED, case, power_law, published_rows, spread_out, standard_solid
+from cases import (
+    REFINED,
+    add_table,
+    case,
+    power_law,
+    published_rows,
+    spread_out,
+    standard_solid,
+)
 from published import measure as measure_published
 
 from viscotack import (
@@ -166,11 +174,9 @@ def order_rows() -> list[Row]:
     ]
 
 
-def published_row(count: int) -> list[Row]:
+def published_row(table: Path, count: int) -> list[Row]:
     """Return the difference from published rows."""
-    found = spread_out(measure_published, published_rows(count, 7))
-    if not found:
-        return []
+    found = spread_out(measure_published, published_rows(table, count, 7))
     differences = np.abs([row["force_difference"] for row in found])
     measured = (
         f"median {100 * np.median(differences):.2f} %, "
@@ -239,10 +245,11 @@ def main() -> None:
     """Measure, print, and write the page when asked."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--write", action="store_true", help=f"write {PAGE.name}")
+    add_table(parser)
     parser.add_argument("--rows", type=int, default=200, help="published rows to compare")
     chosen = parser.parse_args()
     rows = elastic_rows() + fast_limit_row() + slow_limit_row() + order_rows()
-    rows += twin_rows() + refined_rows() + published_row(chosen.rows)
+    rows += twin_rows() + refined_rows() + published_row(chosen.table, chosen.rows)
     rows += history_rows() + punch_rows()
     table = "".join(f"| {' | '.join(row)} |\n" for row in rows)
     print(table)

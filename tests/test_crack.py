@@ -1,29 +1,16 @@
 """The viscoelastic crack as a user meets it: verified values, shapes, errors, time."""
 
-import json
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from reference_data import reference
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.theory import greenwood, persson_brener
 
-REFERENCE = Path(__file__).resolve().parents[1].parent / "shared/theory/reference.json"
 # peak stress of the Lennard-Jones traction times h0 over the work of adhesion, inverted
 ALPHA_LJ = 9 * np.sqrt(3) / 16
-
-
-def reference(*equations):
-    if not REFERENCE.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
-    rows = json.loads(REFERENCE.read_text())["values"]
-    return [
-        pytest.param(row, id=f"{row['equation']}-{row['id']}")
-        for row in rows
-        if row["equation"] in equations
-    ]
 
 
 def standard(modulus_ratio):

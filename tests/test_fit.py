@@ -1,11 +1,10 @@
 """Fits to measured moduli: constants found again, intervals that hold, honesty at the ends."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from reference_data import DMA
 from viscotack.lab import fit, master_curve, read_dma, read_relaxation
 from viscotack.lab.fit_passport import issued
 from viscotack.lab.fit_power_law import fit_constants
@@ -18,7 +17,6 @@ from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.shift import WLF
 from viscotack.pictures.lab import draw_fit
 
-DATA = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)
 # The points of the thesis's DMA: 1 Hz, -130 to 20 C in steps of 10 K.
@@ -218,14 +216,8 @@ def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():
 # ---- measured data -----------------------------------------------------------------------------
 
 
-def published_file(name):
-    if not (DATA / name).exists():
-        pytest.skip("the published DMA files are not beside this checkout")
-    return DATA / name
-
-
 def test_published_sweeps_become_a_series_within_three_percent():
-    sweeps = read_dma(published_file("freq_user_raw.csv"))
+    sweeps = read_dma(DMA / "freq_user_raw.csv")
     data = master_curve(sweeps, reference_temperature=298.15)
     report = fit(data, poisson_ratio=0.35, model="prony", draws=5)
     modulus = report.material.complex_modulus(data.angular_frequency)
@@ -234,7 +226,7 @@ def test_published_sweeps_become_a_series_within_three_percent():
 
 
 def test_published_master_curve_contradicts_itself_and_that_is_said():
-    sweeps = read_dma(published_file("freq_user_master.csv"), temperature=298.15)
+    sweeps = read_dma(DMA / "freq_user_master.csv", temperature=298.15)
     data = master_curve(sweeps, reference_temperature=298.15)
     report = fit(data, poisson_ratio=0.35, model="prony")
     assert "contradict each other (Kramers-Kronig)" in report.words()
@@ -246,7 +238,7 @@ def test_published_master_curve_contradicts_itself_and_that_is_said():
 
 
 def test_published_relaxation_master_curve_is_met():
-    data = read_relaxation(published_file("time_user_master.csv"))
+    data = read_relaxation(DMA / "time_user_master.csv")
     report = fit(data, poisson_ratio=0.35, model="prony", draws=0)
     assert report.median_error < 0.003
 

@@ -4,15 +4,13 @@ What no reader can see is a digit changed into another digit in a number that st
 once; so the bytes that are put in here are not digits where the numbers themselves are compared.
 """
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import lab_files
+from reference_data import DMA
 from viscotack.lab import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
 
-PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
 TEXTS = {**lab_files.TEXTS, "reptate": lab_files.reptate()}
 every_text = pytest.mark.parametrize("name", TEXTS)
 STRANGE = b"~@$!?&|"
@@ -201,12 +199,11 @@ def test_a_damaged_new_workbook_gives_right_points_or_an_error(damage, tmp_path)
             assert_right(sweeps, whole)
 
 
-@pytest.mark.skipif(not PUBLISHED.exists(), reason="the published measurements are not here")
 @pytest.mark.parametrize("damage", ["cut", "scrambled"])
 def test_a_damaged_old_workbook_gives_sweeps_or_an_error(damage, tmp_path):
     pytest.importorskip("xlrd")
     path, rng = tmp_path / "film.xls", np.random.default_rng(5)
-    content = (PUBLISHED / "freq_Eplexor_raw.xls").read_bytes()
+    content = (DMA / "freq_Eplexor_raw.xls").read_bytes()
     whole = read(path, content)
     for _ in range(12):
         changed = bytearray(content)

@@ -1,11 +1,10 @@
 """Shifts from overlap, master curves, laws of shift, and the Kramers-Kronig check."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from reference_data import DMA
 from viscotack.lab import (
     FrequencySweeps,
     MasterCurve,
@@ -22,10 +21,6 @@ from viscotack.lab import (
 from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
-PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
-published = pytest.mark.skipif(
-    not PUBLISHED.exists(), reason="the published measurements are not beside this checkout"
-)
 ROOM = 293.15
 # the thesis's PDMS (Eq. 4.27) and its shift (Eq. 4.25)
 PDMS = RetardationPowerLaw(
@@ -256,9 +251,8 @@ PYVISCO = np.array(
 )  # fmt: skip
 
 
-@published
 def test_an_independent_code_finds_the_same_shifts_from_the_published_sweeps():
-    found = shift_factors(read_dma(PUBLISHED / "freq_user_raw.csv"), reference_temperature=298.15)
+    found = shift_factors(read_dma(DMA / "freq_user_raw.csv"), reference_temperature=298.15)
     difference = np.abs(np.diff(found.log10_shift) - np.diff(PYVISCO))
     # 18 of 20 steps, of 0.6 to 2.3 decades each; all above 3 C
     assert np.sum(difference < 0.1) >= 18
@@ -267,11 +261,10 @@ def test_an_independent_code_finds_the_same_shifts_from_the_published_sweeps():
     assert np.max(difference) < 0.3
 
 
-@published
 def test_the_published_shift_factors_do_not_belong_to_the_published_sweeps():
     """They belong to the published master curve, whose sweeps are not public."""
-    sweeps = read_dma(PUBLISHED / "freq_user_raw.csv")
-    table = read_shifts(PUBLISHED / "freq_user_master__shift_factors.csv")
+    sweeps = read_dma(DMA / "freq_user_raw.csv")
+    table = read_shifts(DMA / "freq_user_master__shift_factors.csv")
     ours = shift_factors(sweeps, reference_temperature=268.15)
     # no step between neighbours agrees within a tenth of a decade
     assert np.min(np.abs(np.diff(ours.log10_shift) - np.diff(table.log10_shift))) > 0.1
@@ -286,17 +279,16 @@ def test_the_published_shift_factors_do_not_belong_to_the_published_sweeps():
     assert scatter(table) > 0.03
 
 
-@published
 def test_the_published_loss_moduli_do_not_follow_from_their_storage():
     # what is measured, so that nobody expects one material to fit both
-    raw = read_dma(PUBLISHED / "freq_user_raw.csv")
+    raw = read_dma(DMA / "freq_user_raw.csv")
     curve = master_curve(raw, reference_temperature=298.15)
     found = consistency(curve)
     assert found.typical[0] < 0.01
     # above 55 C the sweeps obey, in the glass the loss is too high by up to 75 %
     assert set(range(14, 21)).isdisjoint(found.flagged)
     assert {5, 6, 7, 8, 9, 10} <= set(found.flagged)
-    master = master_curve(read_dma(PUBLISHED / "freq_user_master.csv"), reference_temperature=None)
+    master = master_curve(read_dma(DMA / "freq_user_master.csv"), reference_temperature=None)
     storage, loss = consistency(master).typical
     assert storage < 0.02
     assert loss > 0.3

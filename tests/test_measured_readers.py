@@ -1,13 +1,13 @@
 """Readers of laboratory files: formats, units, words, and what is refused."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 import lab_files
+from reference_data import DMA
 from viscotack.lab import (
     FORMATS,
     FrequencySweeps,
@@ -22,11 +22,6 @@ from viscotack.lab import (
 from viscotack.lab.grouping import grouped
 from viscotack.lab.lab_file import LARGEST
 from viscotack.lab.quantities import kelvin, radians_per_second, recognise, scale
-
-PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/dma_published"
-published = pytest.mark.skipif(
-    not PUBLISHED.exists(), reason="the published measurements are not beside this checkout"
-)
 
 
 @pytest.fixture
@@ -120,11 +115,10 @@ def test_an_unknown_format_is_refused(file):
 # ---- real files --------------------------------------------------------------------------------
 
 
-@published
 def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
     pytest.importorskip("xlrd")
-    text = read_dma(PUBLISHED / "freq_user_raw.csv")
-    book = read_dma(PUBLISHED / "freq_Eplexor_raw.xls")
+    text = read_dma(DMA / "freq_user_raw.csv")
+    book = read_dma(DMA / "freq_Eplexor_raw.xls")
     assert (text.source.format, book.source.format) == ("pyvisco", "eplexor")
     assert len(text) == len(book) == 210
     assert text.kind == book.kind == "E"
@@ -138,17 +132,16 @@ def test_the_published_sweeps_are_the_same_as_text_and_as_workbook():
     assert_allclose(text.angular_frequency[0], 0.2 * np.pi, rtol=1e-12)
 
 
-@published
 def test_the_published_master_curves_are_read():
-    master = read_dma(PUBLISHED / "freq_user_master.csv")
+    master = read_dma(DMA / "freq_user_master.csv")
     assert len(master) == 206
     assert master.ids == (0,)
     assert np.all(np.isnan(master.temperature))
-    relaxation = read_relaxation(PUBLISHED / "time_user_master.csv")
+    relaxation = read_relaxation(DMA / "time_user_master.csv")
     assert len(relaxation) == 481
     assert relaxation.kind == "E"
     assert relaxation.modulus[0] == pytest.approx(1714.266e6, rel=1e-12)
-    shifts = read_shifts(PUBLISHED / "freq_user_master__shift_factors.csv")
+    shifts = read_shifts(DMA / "freq_user_master__shift_factors.csv")
     assert len(shifts) == 21
     assert shifts.temperature[0] == pytest.approx(223.15, rel=1e-12)
     assert shifts.log10_shift[[0, 6, -1]].tolist() == [12.75, 0.0, -11.7]

@@ -1,12 +1,12 @@
 """The learned answer: inside its bounds, one with its curve, and as good as its file says."""
 
 import itertools
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
+from reference_data import DETACHMENTS
 from viscotack import solve
 from viscotack.campaign.columns import KINDS
 from viscotack.result import trajectory
@@ -244,10 +244,7 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
 def test_the_published_rows_are_told():
     from viscotack.surrogate.table import read_detachments
 
-    file = Path(__file__).parents[2] / "shared" / "data" / "sphere_bem_published" / "rows.csv"
-    if not file.exists():
-        pytest.skip("the published rows are in ../shared, which is not here")
-    rows = read_detachments(file)
+    rows = read_detachments(DETACHMENTS)
     groups = np.column_stack([getattr(rows, name) for name in INPUTS])
     inside = shipped().inside(groups).all(axis=1)
     said = shipped().evaluate(groups[inside]).pull_off_force

@@ -1,14 +1,10 @@
 """The elastic theories as a user meets them: verified values, shapes, errors."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from reference_data import reference
 from viscotack.theory import bradley, dmt, hertz, jkr, maugis
-
-REFERENCE = Path(__file__).resolve().parents[1].parent / "shared/theory/reference.json"
 
 CASE = dict(radius=1e-3, contact_modulus=1.3e6, work_of_adhesion=0.05)
 R, E, W = CASE.values()
@@ -18,17 +14,6 @@ LENGTH_26, HEIGHT_26 = (R**2 * W / E) ** (1 / 3), (W**2 * R / E**2) ** (1 / 3)
 LOAD, WORK = np.pi * R * W, 1.5 * np.pi * R * W * HEIGHT
 # the units of Maugis, K = 4 E* / 3
 BAR, HEIGHT_BAR = 0.75 ** (1 / 3) * LENGTH, 0.75 ** (2 / 3) * HEIGHT
-
-
-def reference(*equations):
-    if not REFERENCE.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
-    rows = json.loads(REFERENCE.read_text())["values"]
-    return [
-        pytest.param(row, id=f"{row['equation']}-{row['id']}")
-        for row in rows
-        if row["equation"] in equations
-    ]
 
 
 def strength_of(lam):

@@ -1,28 +1,13 @@
 """Rates, bounds and empirical laws: verified values, row by row."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
+from reference_data import reference
 from viscotack.theory import bounds, empirical, lennard_jones, persson_brener, rate
-
-REFERENCE = Path(__file__).resolve().parents[1].parent / "shared/theory/reference.json"
 
 # scales in which those of Eq. 4.16 are 1: pi w = E* = R = 1
 UNIT = dict(radius=1.0, contact_modulus=1.0, work_of_adhesion=1 / np.pi)
-
-
-def reference(*equations):
-    if not REFERENCE.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
-    rows = json.loads(REFERENCE.read_text())["values"]
-    return [
-        pytest.param(row, id=f"{row['equation']}-{row['id']}")
-        for row in rows
-        if row["equation"] in equations
-    ]
 
 
 @pytest.mark.parametrize("row", reference("43", "4/(3k)"))

@@ -1,8 +1,6 @@
 """The verification ladder of the materials: identities, limits, orders, peers."""
 
-import json
 from dataclasses import replace
-from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -11,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from reference_data import VALUES
 from viscotack.materials import (
     Elastic,
     Modes,
@@ -65,11 +64,7 @@ every_solid = pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 
 
 def reference(equation):
-    path = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
-    if not path.exists():
-        pytest.skip("the table of verified values is not beside this checkout")
-    values = json.loads(path.read_text())["values"]
-    found = [v for v in values if v["equation"] == equation]
+    found = [v for v in VALUES if v["equation"] == equation]
     assert found, equation
     return found
 

@@ -1,8 +1,5 @@
 """The ladder of the flat punch on a viscoelastic layer: rate, size, motion, design."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
+from reference_data import reference
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory import (
     greenwood,
@@ -24,8 +22,6 @@ from viscotack.theory import (
 )
 from viscotack.theory.punch.punch import Bonded, Frictionless
 from viscotack.traction import LennardJones
-
-REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 
 MODULI = dict(rubbery_modulus=1e6, glassy_modulus=2e7, poisson_ratio=0.5)
 SLS = StandardSolid(**MODULI, tau0=1e-2)
@@ -45,19 +41,6 @@ PAD = dict(INTERFACE, half_width=5e-3, material=SLS, theory=greenwood, base=FREE
 def slope(x, y):
     """The exponent with which y follows x, on the last two levels."""
     return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
-
-
-def reference(*equations):
-    if not REFERENCE.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
-    rows = json.loads(REFERENCE.read_text())["values"]
-    found = [
-        pytest.param(row, id=f"{row['equation']}-{row['id']}")
-        for row in rows
-        if row["equation"] in equations
-    ]
-    assert found
-    return found
 
 
 # Amplification, limited by size ---------------------------------------------------------------

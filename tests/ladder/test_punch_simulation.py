@@ -1,14 +1,13 @@
 """The simulated punch on a layer on the ladder: identities, limits, orders, twin and theory."""
 
 import dataclasses
-import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
+from reference_data import VALUES
 from viscotack.bem import Settings, solve
 from viscotack.bem.layer import layer_influence
 from viscotack.bem.plain_punch import plain_solve, triangle_matrix
@@ -30,7 +29,6 @@ from viscotack.result.observables import (
 from viscotack.theory import punch, punch_crossover, punch_curve
 from viscotack.traction import LennardJones
 
-REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)
@@ -263,10 +261,7 @@ def test_triangles_of_the_plain_twin_are_the_hats_of_the_fast_solver(thickness, 
 
 
 def test_triangles_of_the_plain_twin_are_the_reference_ones():
-    if not REFERENCE.exists():
-        pytest.skip(f"reference values are not beside this checkout: {REFERENCE}")
-    entries = json.loads(REFERENCE.read_text())["values"]
-    entries = [e for e in entries if e["equation"].startswith("3.19") and "M" in e["inputs"]]
+    entries = [e for e in VALUES if e["equation"].startswith("3.19") and "M" in e["inputs"]]
     assert len(entries) > 5
     for entry in entries:
         given = entry["inputs"]

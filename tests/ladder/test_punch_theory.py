@@ -1,18 +1,14 @@
 """The ladder of the flat punch on an elastic layer: identities, limits with exponents, units."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.special import jv
 
+from reference_data import reference
 from viscotack.theory import greenwood, punch, punch_crossover
 from viscotack.theory.punch.punch import Bonded, Frictionless
-
-REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 
 # A 2 mm pad of soft rubber, strong enough for b0 << b1.
 LAYER = dict(contact_modulus=1.3e6, work_of_adhesion=0.08)
@@ -30,19 +26,6 @@ def without_energy(case):
 def slope(x, y):
     """The exponent with which y follows x, on the last two levels."""
     return np.diff(np.log(np.abs(y)))[-1] / np.diff(np.log(x))[-1]
-
-
-def reference(*equations):
-    if not REFERENCE.exists():
-        return [pytest.param(None, marks=pytest.mark.skip(reason="no table of verified values"))]
-    rows = json.loads(REFERENCE.read_text())["values"]
-    found = [
-        pytest.param(row, id=f"{row['equation']}-{row['id']}")
-        for row in rows
-        if row["equation"] in equations
-    ]
-    assert found
-    return found
 
 
 # Closed forms ---------------------------------------------------------------------------------
