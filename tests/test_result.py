@@ -7,8 +7,8 @@ import pytest
 
 from synthetic import GROUPS, SI, jkr_crack_speed, jkr_detachment, jkr_result
 from viscotack import __version__
-from viscotack import result as module
 from viscotack.result import Event, Outcome, columns, load, receding_speed, save, write_csv
+from viscotack.result import result as module
 
 
 def full(**changes):
