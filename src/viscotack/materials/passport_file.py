@@ -6,7 +6,6 @@ reading refuses a file in which they no longer do.
 """
 
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.files.toml import read_toml
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
@@ -45,10 +45,7 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
         retardation form is not that of its material.
     """
     path = Path(path)
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not a TOML file: {error}") from None
+    tables = read_toml(path)
     if "passport" not in tables:
         raise ValueError(
             f"{path} is no material passport: it has no line 'passport = {VERSION}'; "

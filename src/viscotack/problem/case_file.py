@@ -3,14 +3,14 @@
 docs/input.md describes both formats. Every error names the file, the table and the key.
 """
 
-import csv
 import difflib
 import os
-import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from viscotack.files.text import read_rows
+from viscotack.files.toml import read_toml
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
 from viscotack.materials.passport_file import read_passport
@@ -84,10 +84,7 @@ def read_case(path: str | os.PathLike[str]) -> Problem | PunchProblem | ProfileP
         is impossible; with file, table and key.
     """
     path = Path(path)
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not a TOML file: {error}") from None
+    tables = read_toml(path)
     indenter = "punch" if tables.keys() & {"punch", "layer"} else "sphere"
     indenter = "profile" if "profile" in tables else indenter
     _refuse_unknown(f"{path}", tables, _TABLES[indenter], "table")
@@ -146,13 +143,7 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         If the header or a row is not as described; with the line.
     """
     path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
-    rows = list(csv.reader(x for _, x in numbered))
-    header = [x.strip() for x in rows[0]] if rows else []
+    header, rows = read_rows(path)
     if (
         len(header) != 2
         or header[0] != "modulus_ratio"
@@ -169,7 +160,7 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         except ValueError as error:
             raise ValueError(f"{path}, the name of the second column: {error}") from None
     branches = []
-    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+    for line, row in rows:
         try:
             if len(row) != 2:
                 raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")

@@ -1,0 +1,9 @@
+"""Wrong input, told apart from defects of the package."""
+
+
+class InputError(ValueError):
+    """Bad input, said so that whoever gave it can mend it: what was wrong, given, and to be done.
+
+    Whatever else escapes from the package, other than an error of the operating system or of a
+    missing library, is a defect of it.
+    """
