@@ -20,9 +20,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from viscotack.files.whole import write_whole
+
 from .. import __version__
 from .case import CaseSettings
-from .parts import Parts, arrow, write_table, write_whole
+from .parts import Parts, arrow, write_table
 from .plan import Case, Plan, restored_kind
 
 _FORMAT, _FORMAT_VERSION = "viscotack campaign", 1

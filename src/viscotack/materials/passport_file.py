@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.files.toml import read_toml
+from viscotack.files.whole import Target, write_whole
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
@@ -28,9 +29,9 @@ _TABLES = (
 )  # fmt: skip
 
 
-def write_passport(passport: Passport, path: str | os.PathLike[str]) -> None:
+def write_passport(passport: Passport, path: Target) -> None:
     """Write a passport to a TOML file; :func:`read_passport` gives back an equal one."""
-    Path(path).write_text(passport_text(passport), encoding="utf-8")
+    write_whole(path, passport_text(passport).encode())
 
 
 def read_passport(path: str | os.PathLike[str]) -> Passport:

@@ -1,13 +1,12 @@
 """The commands: reads flags and files, runs the simulation, writes words, tables and pictures.
 
-Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong, 3 a defect
-of viscotack.
+Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong or a file
+could not be written, 3 a defect of viscotack.
 With --json exactly one object goes to standard output, everything else to standard error.
 """
 
 import dis
 import json
-import os
 import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping
@@ -31,6 +30,7 @@ from viscotack.result.observables import summary
 from viscotack.result.outputs import kind_of
 
 from .flags import problem_from_flags
+from .writing import Writing, check_files
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -79,7 +79,8 @@ PlotWhat = Annotated[
     ),
 ]
 CsvFile = Annotated[
-    Path | None, Option("--csv", metavar="FILE", help="Write the curve as a table.")
+    Path | None,
+    Option("--csv", metavar="FILE", help="Write the curve as a table; - is standard output."),
 ]
 SaveFile = Annotated[
     Path | None,
@@ -278,6 +279,7 @@ def simulate_sphere(
         lambda: stated_problem(case, flags, problem_from_flags, Problem),
         accuracy=accuracy,
         until=until,
+        case=case,
         files=(plot_file, csv_file, save_file),
         plot_kind=plot_kind,
         as_json=as_json,
@@ -306,6 +308,7 @@ def simulate_profile(
         lambda: stated_problem(case, {}, problem_from_flags, ProfileProblem),
         accuracy=accuracy,
         until=until,
+        case=case,
         files=(plot_file, csv_file, save_file),
         plot_kind=plot_kind,
         as_json=as_json,
@@ -333,14 +336,19 @@ def carry_out(
     *,
     accuracy: float,
     until: Until,
+    case: Path | None,
     files: tuple[Path | None, Path | None, Path | None],
     plot_kind: PlotKind,
     as_json: bool,
 ) -> None:
-    """Simulate a problem and report; the files are for picture, table and result."""
+    """Simulate a problem and report; the files are for picture, table and result.
+
+    `case` is the file that states the problem, if one does: it is never written.
+    """
     plot_file, csv_file, save_file = files
     with wrong_input():
-        check_files(*files)
+        named = {"--plot": plot_file, "--csv": csv_file, "--save": save_file}
+        check_files(named, as_json=as_json, reads=(case,))
         problem = state()
         from viscotack.bem import solve
 
@@ -348,10 +356,9 @@ def carry_out(
             result = solve(
                 problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
             )
-    if save_file is not None:
-        save(result, save_file)
-        typer.echo(f"saved {save_file}", err=True)
-    _report(result, as_json, plot_file, plot_kind, csv_file)
+    write = Writing()
+    write("saved", save_file, lambda file: save(result, file))
+    _report(result, write, as_json, plot_file, plot_kind, csv_file)
     if result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
 
@@ -369,37 +376,28 @@ def show(
     Prints its summary; writes its curve as a table or draws it if wanted.
     """
     with wrong_input():
-        check_files(plot_file, csv_file)
+        check_files({"--plot": plot_file, "--csv": csv_file}, as_json=as_json, reads=(file,))
         if file.is_dir():
             raise ValueError(f"{file} is a folder; give the name of a file")
         result = load(file)
-    _report(result, as_json, plot_file, plot_kind, csv_file)
-
-
-def check_files(plot_file: Path | None, *files: Path | None) -> None:
-    """Refuse output files that cannot be written before the work is done, not after it."""
-    if plot_file is not None:
-        plot.check_format(plot_file)
-    for file in (plot_file, *files):
-        if file is not None and not file.parent.is_dir():
-            raise ValueError(f"cannot write {file}: there is no folder {file.parent}")
-        if file is not None and file.is_dir():
-            raise ValueError(f"cannot write {file}: it is a folder; give the name of a file")
-        if file is not None and not os.access(file.parent, os.W_OK):
-            raise ValueError(f"cannot write {file}: the folder {file.parent} is write-protected")
+    _report(result, Writing(), as_json, plot_file, plot_kind, csv_file)
 
 
 def _report(
-    result: Result, as_json: bool, plot_file: Path | None, kind: PlotKind, csv_file: Path | None
+    result: Result,
+    write: Writing,
+    as_json: bool,
+    plot_file: Path | None,
+    kind: PlotKind,
+    csv_file: Path | None,
 ) -> None:
-    if csv_file is not None:
-        write_csv(result, csv_file)
-        typer.echo(f"wrote {csv_file}", err=True)
-    if plot_file is not None:
-        plot.save_figure(_DRAW[kind](result), plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
+    write("wrote", csv_file, lambda file: write_csv(result, file))
+    write.picture(plot_file, lambda: _DRAW[kind](result))
     answer = summary(result)
-    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer))
+    write.answer(
+        json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer)
+    )
+    write.end()
 
 
 def _words(result: Result, answer: dict[str, Any]) -> str:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 from typer import Option
 
 from viscotack.geometry import Base, Bonded, Frictionless
@@ -49,7 +48,6 @@ from .commands import (
     SaveFile,
     Until,
     carry_out,
-    check_files,
     flag,
     simulate,
     stated_problem,
@@ -57,6 +55,7 @@ from .commands import (
 )
 from .flags import material_from_flags, one_of, require
 from .theory import theory
+from .writing import Writing, check_files
 
 _STARTS = {"preload": AtDepth, "preload-force": AtForce, "apart": Apart}
 # Of a regime map: thicknesses and speeds, and how thin and thick it gets beside b0 and a.
@@ -166,6 +165,7 @@ def simulate_punch(
         lambda: stated_problem(case, flags, punch_from_flags, PunchProblem),
         accuracy=accuracy,
         until=until,
+        case=case,
         files=(plot_file, csv_file, save_file),
         plot_kind=plot_kind,
         as_json=as_json,
@@ -288,21 +288,25 @@ def theory_punch(
     }
     asked = {"thickness": thickness, "stress": stress, "speed": speed}
     with wrong_input():
-        check_files(plot_file)
+        check_files({"--plot": plot_file}, reads=(case,))
         pad, wanted = _stated_pad(case, flags, asked)
         pad["theory"] = _LAWS[law]
         answer = _boundaries(pad) | _asked(pad, wanted)
         found = _map(pad) if with_map or plot_file is not None else None
-    if plot_file is not None and found is not None:
-        plot.save_figure(plot.draw_regimes(found), plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
+    write = Writing()
+    if found is not None:
+        write.picture(plot_file, lambda: plot.draw_regimes(found))
     if as_json:
         rows = {} if not with_map or found is None else {"map": _rows(found)}
-        typer.echo(json.dumps(answer | rows, indent=2, allow_nan=False))
-        return
-    for name, value in answer.items():
-        words = "none" if value is None else value if isinstance(value, str) else f"{value:.5g}"
-        typer.echo(f"  {name:<36}{words:>12}")
+        write.answer(json.dumps(answer | rows, indent=2, allow_nan=False))
+    else:
+        write.answer("\n".join(_line(name, value) for name, value in answer.items()))
+    write.end()
+
+
+def _line(name: str, value: Any) -> str:
+    words = "none" if value is None else value if isinstance(value, str) else f"{value:.5g}"
+    return f"  {name:<36}{words:>12}"
 
 
 def _stated_pad(
