@@ -1,8 +1,9 @@
-"""Bad input, told apart from defects."""
+"""Wrong input, told apart from defects of the package."""
 
 
 class InputError(ValueError):
-    """What was given cannot be: the words say what was wrong, what was given and what to do.
+    """Bad input, said so that whoever gave it can mend it: what was wrong, given, and to be done.
 
-    Everything else that escapes is a defect of viscotack.
+    Whatever else escapes from the package, other than an error of the operating system or of a
+    missing library, is a defect of it.
     """

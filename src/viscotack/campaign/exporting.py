@@ -9,18 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from .parts import arrow, write_table, write_whole
+from viscotack.files.whole import Target, write_whole
+
+from .parts import arrow, write_table
 
 
-def export(table: Any, path: str | os.PathLike[str], *, trajectories: bool = True) -> None:
+def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
     """Write a table of a store to a file, whole or not at all.
 
     Parameters
     ----------
     table : pyarrow.Table
         `Store.results` or `Store.failures`.
-    path : path
-        Its ending chooses the format: ``.csv``, ``.parquet`` or ``.mat``.
+    path : path or binary file
+        Its ending chooses the format: ``.csv``, ``.parquet`` or ``.mat``; an open file gets CSV.
     trajectories : bool
         Whether columns of lists are written as well; in CSV each place of a list is a column,
         ``trajectory_force_01`` and so on, in MATLAB a list is a row of a matrix.
@@ -30,8 +32,8 @@ def export(table: Any, path: str | os.PathLike[str], *, trajectories: bool = Tru
     ValueError
         If the ending is another, or the table is empty.
     """
-    path = Path(path)
-    if path.suffix not in _WRITERS:
+    suffix = Path(path).suffix if isinstance(path, str | os.PathLike) else ".csv"
+    if suffix not in _WRITERS:
         raise ValueError(f"{path}: the ending must be one of {', '.join(_WRITERS)}")
     if not table.num_rows:
         raise ValueError(f"there is nothing to write to {path}: the table has no rows")
@@ -39,10 +41,10 @@ def export(table: Any, path: str | os.PathLike[str], *, trajectories: bool = Tru
     if not trajectories:
         kept = [f.name for f in table.schema if not types.is_list(f.type)]
         table = table.select(kept)
-    _WRITERS[path.suffix](table, path)
+    _WRITERS[suffix](table, path)
 
 
-def _write_csv(table: Any, path: Path) -> None:
+def _write_csv(table: Any, path: Target) -> None:
     columns: dict[str, list[Any]] = {}
     for name in table.column_names:
         values = table.column(name).to_pylist()
@@ -61,7 +63,7 @@ def _write_csv(table: Any, path: Path) -> None:
     write_whole(path, text.getvalue().encode())
 
 
-def _write_mat(table: Any, path: Path) -> None:
+def _write_mat(table: Any, path: Target) -> None:
     from scipy.io import savemat
 
     columns = {name.replace(".", "_"): _array(table.column(name)) for name in table.column_names}
@@ -82,7 +84,7 @@ def _array(column: Any) -> Any:
     return np.array([np.nan if v is None else v for v in values], dtype=float)
 
 
-_WRITERS: dict[str, Callable[[Any, Path], None]] = {
+_WRITERS: dict[str, Callable[[Any, Target], None]] = {
     ".csv": _write_csv,
     ".parquet": write_table,
     ".mat": _write_mat,

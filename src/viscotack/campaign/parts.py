@@ -6,12 +6,11 @@ span lies within that of another was merged already and is ignored: at any insta
 says the same.
 """
 
-import errno
-import os
-import secrets
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+from viscotack.files.whole import Target, write_whole
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
@@ -134,40 +133,12 @@ class Parts:
         write_table(table, self.folder / _name((first, last)))
 
 
-def write_table(table: Any, path: Path) -> None:
+def write_table(table: Any, path: Target) -> None:
     """Write a table to a Parquet file, whole or not at all, and durably."""
     pa = arrow()
     sink = pa.BufferOutputStream()
     pa.parquet.write_table(table, sink, compression="zstd")
     write_whole(path, sink.getvalue())
-
-
-def write_whole(path: Path, content: Any) -> None:
-    """Write bytes to a file, whole or not at all; on return they are on the disk.
-
-    Raises
-    ------
-    OSError
-        If they could not be written; a full disk is named, and the file is as before.
-    """
-    draft = path.with_name(f"{path.name}.{secrets.token_hex(4)}.draft")
-    try:
-        with open(draft, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(draft, path)
-        _sync(path.parent)
-    except OSError as error:
-        if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
-            raise OSError(
-                error.errno,
-                f"no space left for {path} ({os.strerror(error.errno)}); what was stored before is "
-                "safe: make room and run again",
-            ) from None
-        raise
-    finally:
-        draft.unlink(missing_ok=True)
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:
@@ -193,14 +164,3 @@ def _type(pa: Any, values: Iterable[Any]) -> Any:
 
 def _name(span: tuple[int, int]) -> str:
     return f"{span[0]:06d}-{span[1]:06d}.parquet"
-
-
-def _sync(folder: Path) -> None:
-    """Make the names in a directory durable; where the system cannot, it need not."""
-    if not hasattr(os, "O_DIRECTORY"):
-        return
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -1,14 +1,16 @@
 """A plan: which cases to run and how, from a TOML file or a bare CSV file."""
 
 import csv
+import io
 import json
 import os
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from viscotack.files.text import read_text
+from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
@@ -92,8 +94,9 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     """
     path = Path(path)
     changed = {name: value for name, value in changed.items() if value is not None}
+    source = read_text(path)
     if path.suffix == ".csv":
-        rows = read_rows(path)
+        rows = _numbers(path, source)
         names = set(rows[0][1])
         try:
             kind = KINDS[kind_of_columns(names)]
@@ -103,10 +106,7 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         blocks: list[tuple[str, Any]] = [("list", rows)]
         base = None
     else:
-        try:
-            tables = tomllib.loads(path.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise ValueError(f"{path} is not a TOML file: {error}") from None
+        tables = parse_toml(source, path)
         unknown = tables.keys() - set(_KEYS)
         if unknown:
             raise ValueError(
@@ -130,7 +130,7 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         base=base,
         rejected=rejected,
         repeated=repeated,
-        source=path.read_text(encoding="utf-8"),
+        source=source,
         suffix=".csv" if path.suffix == ".csv" else ".toml",
     )
 
@@ -149,13 +149,13 @@ def restored_kind(
 
 def read_words(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the names in the first row of a CSV file, and the other rows with their lines."""
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            reader = csv.reader(file)
-            names = [name.strip() for name in next(reader, [])]
-            rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
+    return _words(path, read_text(path))
+
+
+def _words(path: Path, text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    reader = csv.reader(io.StringIO(text, newline=""))
+    names = [name.strip() for name in next(reader, [])]
+    rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
     if not rows or len(set(names)) != len(names):
         raise ValueError(
             f"{path}: needs a first row of different column names and a case a row below it"
@@ -168,7 +168,11 @@ def read_words(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
 
 def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
     """Return the rows of a CSV file of numbers, each with its line; a first row names columns."""
-    names, rows = read_words(path)
+    return _numbers(path, read_text(path))
+
+
+def _numbers(path: Path, text: str) -> list[tuple[int, dict[str, float]]]:
+    names, rows = _words(path, text)
     found = []
     for line, row in rows:
         try:

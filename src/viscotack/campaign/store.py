@@ -21,10 +21,11 @@ from pathlib import Path
 from typing import Any
 
 from viscotack import __version__
+from viscotack.files.whole import write_whole
 from viscotack.problem.older import upgraded
 
 from .case import CaseSettings
-from .parts import Parts, arrow, write_table, write_whole
+from .parts import Parts, arrow, write_table
 from .plan import Case, Plan, restored_kind
 
 _FORMAT, _FORMAT_VERSION = "viscotack campaign", 1

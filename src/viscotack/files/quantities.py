@@ -1,11 +1,12 @@
 """Tables of quantities in CSV files, each with its unit at the end of the column's name."""
 
-import csv
 import os
 from collections.abc import Mapping
 from pathlib import Path
 
 from viscotack.units import finite, parse
+
+from .text import read_rows
 
 
 def read_quantities(
@@ -35,16 +36,10 @@ def read_quantities(
         or has something that is not a number; with the line.
     """
     path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
-    rows = list(csv.reader(text for _, text in numbered))
-    header = [name.strip() for name in rows[0]] if rows else []
+    header, rows = read_rows(path)
     places = {name: _place(path, header, name, unit) for name, unit in units.items()}
     columns: dict[str, list[float]] = {name: [] for name in units}
-    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+    for line, row in rows:
         try:
             if len(row) != len(header):
                 raise ValueError(f"{len(row)} entries, and the header has {len(header)}")
@@ -53,7 +48,7 @@ def read_quantities(
                 columns[name].append(parse(f"{value!r} {given}", units[name]))
         except ValueError as error:
             raise ValueError(f"{path}, line {line}: {error}") from None
-    if len(rows) < 2:
+    if not rows:
         raise ValueError(f"{path}: there are no rows below the header")
     return {name: tuple(values) for name, values in columns.items()}
 

@@ -6,7 +6,6 @@ reading refuses a file in which they no longer do.
 """
 
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
@@ -14,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.files.toml import read_toml
+from viscotack.files.whole import Target, write_whole
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
@@ -28,9 +29,9 @@ _TABLES = (
 )  # fmt: skip
 
 
-def write_passport(passport: Passport, path: str | os.PathLike[str]) -> None:
+def write_passport(passport: Passport, path: Target) -> None:
     """Write a passport to a TOML file; :func:`read_passport` gives back an equal one."""
-    Path(path).write_text(passport_text(passport), encoding="utf-8")
+    write_whole(path, passport_text(passport).encode())
 
 
 def read_passport(path: str | os.PathLike[str]) -> Passport:
@@ -45,10 +46,7 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
         retardation form is not that of its material.
     """
     path = Path(path)
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not a TOML file: {error}") from None
+    tables = read_toml(path)
     if "passport" not in tables:
         raise ValueError(
             f"{path} is no material passport: it has no line 'passport = {VERSION}'; "

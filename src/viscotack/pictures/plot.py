@@ -4,6 +4,7 @@ Each function returns a matplotlib ``Figure`` that belongs to nobody else: no wi
 no global state is left behind. :func:`save_figure` writes it in the package's style.
 """
 
+import io
 import os
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import Unit
 from viscotack.result import Result
 from viscotack.result.observables import pull_off
@@ -181,9 +183,12 @@ def draw_regimes(found: RegimeMap) -> "Figure":
 
 
 def save_figure(figure: "Figure", path: str | os.PathLike[str]) -> None:
-    """Write a figure to a file; the ending (.png, .pdf, .svg) says in which format."""
+    """Write a figure to a file, whole or not at all; the ending (.png, .pdf, .svg) says how."""
+    check_format(path)
+    content = io.BytesIO()
     with _style():
-        figure.savefig(path)
+        figure.savefig(content, format=Path(path).suffix.lstrip(".").lower())
+    write_whole(path, content.getvalue())
 
 
 def check_format(path: str | os.PathLike[str]) -> None:

@@ -4,11 +4,11 @@ docs/input.md describes the format; which keys a table has is read from the card
 """
 
 import os
-import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
 from viscotack.materials import Material, Prony
 from viscotack.materials.passport_file import read_passport
@@ -45,10 +45,7 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
         is impossible; with file, table and key.
     """
     path, nouns = Path(path), known(also)
-    try:
-        tables = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not a TOML file: {error}") from None
+    tables = read_toml(path)
     shape = _shape_table(path, tables, nouns)
     plain = nouns.shapes[shape].symmetry == "plane"
     names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))

@@ -1,9 +1,9 @@
 """A Prony series in a CSV file."""
 
-import csv
 import os
 from pathlib import Path
 
+from viscotack.files.text import read_rows
 from viscotack.units import parse, positive
 
 
@@ -32,13 +32,7 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         If the header or a row is not as described; with the line.
     """
     path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
-    rows = list(csv.reader(x for _, x in numbered))
-    header = [x.strip() for x in rows[0]] if rows else []
+    header, rows = read_rows(path)
     if (
         len(header) != 2
         or header[0] != "modulus_ratio"
@@ -55,7 +49,7 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         except ValueError as error:
             raise ValueError(f"{path}, the name of the second column: {error}") from None
     branches = []
-    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+    for line, row in rows:
         try:
             if len(row) != 2:
                 raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")

@@ -13,22 +13,21 @@ separation.
 """
 
 import csv
+import io
 import json
 import os
-import secrets
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from functools import cached_property
-from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
 from viscotack.problem.record import from_dict, to_dict
 from viscotack.units import finite
@@ -245,16 +244,19 @@ def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
     }
 
 
-def write_csv(result: Result, path: str | os.PathLike[str]) -> None:
-    """Write the series as a comma-separated table with a row of column names; see `columns`."""
-    table = columns(result)
-    with _replacing(path, "w") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(table)
-        rows.writerows(zip(*(v.tolist() for v in table.values()), strict=True))
+def write_csv(result: Result, path: Target) -> None:
+    """Write the series as a comma-separated table with a row of column names; see `columns`.
+
+    To a file, whole or not at all, or to an open binary file such as ``sys.stdout.buffer``.
+    """
+    table, text = columns(result), io.StringIO()
+    rows = csv.writer(text, lineterminator="\n")
+    rows.writerow(table)
+    rows.writerows(zip(*(v.tolist() for v in table.values()), strict=True))
+    write_whole(path, text.getvalue().encode())
 
 
-def save(result: Result, path: str | os.PathLike[str]) -> None:
+def save(result: Result, path: Target) -> None:
     """Write a result to a file, whole or not at all; :func:`load` reads it.
 
     The file is NumPy's .npz of plain arrays with a header in JSON; nothing in it is executed on
@@ -277,8 +279,9 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
     for group in ("energy", "fields"):
         arrays |= {f"{group}/{k}": v for k, v in (getattr(result, group) or {}).items()}
     text = np.array(json.dumps(header))
-    with _replacing(path, "wb") as file:
-        np.savez_compressed(file, allow_pickle=False, header=text, **arrays)
+    content = io.BytesIO()
+    np.savez_compressed(content, allow_pickle=False, header=text, **arrays)
+    write_whole(path, content.getvalue())
 
 
 def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
@@ -343,19 +346,3 @@ def _from_parts(
         fields=group("fields"),
         versions=header["versions"],
     )
-
-
-@contextmanager
-def _replacing(path: str | os.PathLike[str], mode: str) -> Iterator[IO[Any]]:
-    """Open a file beside the wanted one and put it in place only when all of it is written."""
-    target = Path(path)
-    draft = target.with_name(f".{target.name}.{secrets.token_hex(4)}.part")
-    try:
-        with open(draft, mode, newline="" if mode == "w" else None) as file:
-            yield file
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(draft, target)
-    except BaseException:
-        draft.unlink(missing_ok=True)
-        raise

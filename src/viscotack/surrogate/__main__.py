@@ -19,6 +19,8 @@ import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
+from viscotack.files.whole import write_whole
+
 from .. import __version__, datasets
 from . import rows, scores, store
 from .calibration import covers, judged, kept_cells, trusted
@@ -75,7 +77,7 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
             found["bands kept apart"].append(scores.score_band(one, limits))
             _say(began, json.dumps(found["bands kept apart"][-1]))
     store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
-    (folder / "scores.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    write_whole(folder / "scores.json", (json.dumps(found, indent=1) + "\n").encode())
     return found
 
 

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
 
@@ -97,7 +98,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     )
     helper.set_model_props(model, _facts(surrogate))
     onnx.checker.check_model(model, full_check=True)
-    Path(path).write_bytes(model.SerializeToString())
+    write_whole(path, model.SerializeToString())
 
 
 def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ from types import TracebackType
 from typing import Any
 
 import numpy as np
+
+from viscotack.files.whole import write_whole
 
 from . import physics
 from .fitting import Fit, Task, fit
@@ -61,10 +64,10 @@ def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:
         with np.load(path, allow_pickle=False) as file:
             return from_arrays(file)
     found = fit(task, how, seed=seed)
-    whole = path.with_suffix(".part.npz")
+    content = io.BytesIO()
     arrays: dict[str, Any] = {**found.arrays()}
-    np.savez(whole, **arrays)
-    whole.rename(path)
+    np.savez(content, **arrays)
+    write_whole(path, content.getvalue())
     return found
 
 

@@ -12,6 +12,8 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from viscotack.files.whole import write_whole
+
 from .model import Scaled, Surrogate
 from .network import from_arrays
 from .trust import Trust
@@ -47,7 +49,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
     buffer = io.BytesIO()
     arrays[_WORDS] = text
     np.savez_compressed(buffer, **arrays)
-    Path(path).write_bytes(buffer.getvalue())
+    write_whole(path, buffer.getvalue())
 
 
 def load(path: str | os.PathLike[str]) -> Surrogate:

@@ -3,12 +3,14 @@
 import base64
 import csv
 import html
+import io
 import json
 import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from viscotack.files.whole import write_whole
 from viscotack.pictures import plot
 
 from .study import Study
@@ -52,20 +54,21 @@ def write_study(study: Study, folder: str | os.PathLike[str], *, source: str) ->
         (folder / room).mkdir(parents=True, exist_ok=True)
     written = [folder / "numbers.json", folder / "times.json"]
     for path, content in zip(written, (study.numbers, study.times), strict=True):
-        path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        write_whole(path, (json.dumps(content, indent=1, allow_nan=False) + "\n").encode())
     read = sheets(study)
     for sheet in read:
         written.append(folder / "tables" / f"{sheet.name}.csv")
-        with open(written[-1], "w", newline="", encoding="utf-8") as file:
-            lines = csv.writer(file, lineterminator="\n")
-            lines.writerow(sheet.columns)
-            lines.writerows(sheet.rows)
+        table = io.StringIO()
+        lines = csv.writer(table, lineterminator="\n")
+        lines.writerow(sheet.columns)
+        lines.writerows(sheet.rows)
+        write_whole(written[-1], table.getvalue().encode())
     pictures = {}
     for name, figure in figures(study.numbers).items():
         pictures[name] = folder / "figures" / f"{name}.png"
         plot.save_figure(figure, pictures[name])
     written += [*pictures.values(), folder / "report.html"]
-    written[-1].write_text(_page(study, read, pictures, source), encoding="utf-8")
+    write_whole(written[-1], _page(study, read, pictures, source).encode())
     return written
 
 

@@ -12,7 +12,11 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
-from .commands import AsJson, With, application, check_files, wrong_input
+from viscotack.errors import InputError
+from viscotack.files.whole import is_standard_output
+
+from .commands import AsJson, With, application, wrong_input
+from .writing import Writing, check_files
 
 campaign = typer.Typer(
     help="Run many problems: a plan, a folder that survives every stop, a table.",
@@ -41,7 +45,8 @@ _LINES = 10.0
 def plan_command(
     plan_file: PlanFile,
     csv_file: Annotated[
-        Path | None, Option("--csv", metavar="FILE", help="Write the cases as a table.")
+        Path | None,
+        Option("--csv", metavar="FILE", help="Write the cases as a table; - is standard output."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -53,11 +58,12 @@ def plan_command(
         from viscotack.campaign import export, read_plan
         from viscotack.campaign.parts import table_of
 
-        check_files(None, csv_file)
+        check_files({"--csv": csv_file}, as_json=as_json, reads=(plan_file,))
         plan = read_plan(plan_file)
+        write = Writing()
         if csv_file is not None:
-            export(table_of([case.inputs for case in plan.cases]), csv_file)
-            typer.echo(f"wrote {csv_file}", err=True)
+            table = table_of([case.inputs for case in plan.cases])
+            write("wrote", csv_file, lambda file: export(table, file))
     ranges = {
         name: [min(values), max(values)]
         for name in plan.cases[0].inputs
@@ -74,19 +80,20 @@ def plan_command(
         "memory_limit_bytes": plan.settings.memory_limit,
         "ranges": ranges,
     }
-    if as_json:
-        typer.echo(json.dumps(answer, indent=2))
-        return
-    typer.echo(
-        f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points are no contacts "
-        f"and are left out, {plan.repeated} are stated more than once and run once"
-    )
-    for name, (low, high) in ranges.items():
-        typer.echo(f"  {name:<24}{low:>12.5g} to {high:.5g}")
+    write.answer(json.dumps(answer, indent=2) if as_json else _plan_words(plan, ranges))
+    write.end()
+
+
+def _plan_words(plan: Any, ranges: dict[str, list[float]]) -> str:
     limits = plan.settings
-    typer.echo(
-        f"  to {limits.until}, accuracy {limits.accuracy:g}; at most {limits.time_limit:g} s and "
-        f"{limits.memory_limit / 1e6:g} MB a case"
+    return "\n".join(
+        [
+            f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points are no "
+            f"contacts and are left out, {plan.repeated} are stated more than once and run once",
+            *(f"  {name:<24}{low:>12.5g} to {high:.5g}" for name, (low, high) in ranges.items()),
+            f"  to {limits.until}, accuracy {limits.accuracy:g}; at most {limits.time_limit:g} s "
+            f"and {limits.memory_limit / 1e6:g} MB a case",
+        ]
     )
 
 
@@ -209,7 +216,10 @@ def status_command(folder: Folder, as_json: AsJson = False) -> None:
 @campaign.command("export")
 def export_command(
     folder: Folder,
-    csv_file: Annotated[Path | None, Option("--csv", metavar="FILE", help="Write a table.")] = None,
+    csv_file: Annotated[
+        Path | None,
+        Option("--csv", metavar="FILE", help="Write a table; - is standard output."),
+    ] = None,
     parquet_file: Annotated[
         Path | None, Option("--parquet", metavar="FILE", help="Write a Parquet file.")
     ] = None,
@@ -234,24 +244,32 @@ def export_command(
 
     Example: viscotack campaign export study --csv study.csv
     """
-    wanted = [csv_file, parquet_file, mat_file, failures_file]
+    wanted = {
+        "--csv": csv_file,
+        "--parquet": parquet_file,
+        "--mat": mat_file,
+        "--failures": failures_file,
+    }
     with _words_for_what_is_missing():
         from viscotack.campaign import Store, export
 
-        if not any(wanted):
+        if not any(wanted.values()):
             raise ValueError("say what to write: --csv, --parquet, --mat or --failures FILE")
-        check_files(None, *wanted)
-        for file, ending in ((csv_file, ".csv"), (parquet_file, ".parquet"), (mat_file, ".mat")):
-            if file is not None and file.suffix != ending:
-                raise ValueError(f"{file}: the ending must be {ending}")
+        check_files(wanted)
+        for flag, ending in (("--csv", ".csv"), ("--parquet", ".parquet"), ("--mat", ".mat")):
+            file = wanted[flag]
+            if file is not None and file.suffix != ending and not is_standard_output(file):
+                raise InputError(f"{file}: the ending must be {ending}")
         store = Store(folder)
-        table = store.results()
-        for file in filter(None, wanted[:3]):
-            export(table, file, trajectories=trajectories or file.suffix != ".csv")
-            typer.echo(f"wrote {table.num_rows} cases to {file}", err=True)
+        table, write = store.results(), Writing()
+        done = f"wrote {table.num_rows} cases to"
+        write(done, csv_file, lambda file: export(table, file, trajectories=trajectories))
+        for file in (parquet_file, mat_file):
+            write(done, file, lambda file: export(table, file))
         if failures_file is not None:
-            export(store.failures(), failures_file)
-            typer.echo(f"wrote {failures_file}", err=True)
+            failures = store.failures()
+            write("wrote", failures_file, lambda file: export(failures, file))
+    write.end()
 
 
 def _tell(

@@ -1,13 +1,11 @@
 """The commands: reads flags and files, runs the simulation, writes words, tables and pictures.
 
-Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong, 3 a defect
-of viscotack.
+Exit status: 0 done, 1 the simulation failed (its status says why), 2 the input is wrong or a file
+could not be written, 3 a defect of viscotack.
 With --json exactly one object goes to standard output, everything else to standard error.
 """
 
-import dis
 import json
-import os
 import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
@@ -30,6 +28,8 @@ from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
 from viscotack.result.observables import Observable, summary
+
+from .writing import Writing, check_files
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
@@ -78,7 +78,8 @@ PlotWhat = Annotated[
     ),
 ]
 CsvFile = Annotated[
-    Path | None, Option("--csv", metavar="FILE", help="Write the curve as a table.")
+    Path | None,
+    Option("--csv", metavar="FILE", help="Write the curve as a table; - is standard output."),
 ]
 SaveFile = Annotated[
     Path | None,
@@ -142,6 +143,7 @@ def _simulate(
     carry_out(
         lambda: stated_problem(case, context, door, own),
         own=own,
+        case=case,
         accuracy=accuracy,
         until=until,
         files=(plot_file, csv_file, save_file),
@@ -226,14 +228,19 @@ def carry_out(
     own: Iterable[Path] | None,
     accuracy: float,
     until: Until,
+    case: Path | None,
     files: tuple[Path | None, Path | None, Path | None],
     plot_kind: PlotKind,
     as_json: bool,
 ) -> None:
-    """Simulate a problem and report; the files are for picture, table and result."""
+    """Simulate a problem and report; the files are for picture, table and result.
+
+    `case` is the file that states the problem, if one does: it is never written.
+    """
     plot_file, csv_file, save_file = files
     with wrong_input():
-        check_files(*files)
+        named = {"--plot": plot_file, "--csv": csv_file, "--save": save_file}
+        check_files(named, as_json=as_json, reads=(case,))
         problem = state()
         from viscotack.bem import solve
 
@@ -241,10 +248,9 @@ def carry_out(
             result = solve(
                 problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
             )
-    if save_file is not None:
-        save(result, save_file)
-        typer.echo(f"saved {save_file}", err=True)
-    _report(result, as_json, plot_file, plot_kind, csv_file, own)
+    write = Writing()
+    write("saved", save_file, lambda file: save(result, file))
+    _report(result, write, as_json, plot_file, plot_kind, csv_file, own)
     if result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
 
@@ -263,44 +269,31 @@ def show(
     Prints its summary; writes its curve as a table or draws it if wanted.
     """
     with wrong_input():
-        check_files(plot_file, csv_file)
+        check_files({"--plot": plot_file, "--csv": csv_file}, as_json=as_json, reads=(file,))
         if file.is_dir():
             raise ValueError(f"{file} is a folder; give the name of a file")
         result = load(file, also=own_nouns(own or ()))
-    _report(result, as_json, plot_file, plot_kind, csv_file, own)
-
-
-def check_files(plot_file: Path | None, *files: Path | None) -> None:
-    """Refuse output files that cannot be written before the work is done, not after it."""
-    if plot_file is not None:
-        plot.check_format(plot_file)
-    for file in (plot_file, *files):
-        if file is not None and not file.parent.is_dir():
-            raise ValueError(f"cannot write {file}: there is no folder {file.parent}")
-        if file is not None and file.is_dir():
-            raise ValueError(f"cannot write {file}: it is a folder; give the name of a file")
-        if file is not None and not os.access(file.parent, os.W_OK):
-            raise ValueError(f"cannot write {file}: the folder {file.parent} is write-protected")
+    _report(result, Writing(), as_json, plot_file, plot_kind, csv_file, own)
 
 
 def _report(
     result: Result,
+    write: Writing,
     as_json: bool,
     plot_file: Path | None,
     kind: PlotKind,
     csv_file: Path | None,
     own: Iterable[Path] | None,
 ) -> None:
-    if csv_file is not None:
-        write_csv(result, csv_file)
-        typer.echo(f"wrote {csv_file}", err=True)
-    if plot_file is not None:
-        plot.save_figure(_DRAW[kind](result), plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
     also = known(own_nouns(own or ())).observables
+    with wrong_input():
+        write("wrote", csv_file, lambda file: write_csv(result, file))
+        write.picture(plot_file, lambda: _DRAW[kind](result))
     answer = summary(result, also)
-    words = "" if as_json else _words(result, answer, also)
-    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else words)
+    write.answer(
+        json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer, also)
+    )
+    write.end()
 
 
 def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -> str:
@@ -348,38 +341,29 @@ def _progress() -> Iterator[Callable[[float], None] | None]:
 def wrong_input() -> Iterator[None]:
     """Turn an error about the input into a paragraph on standard error and exit status 2.
 
-    An error that something inside raised unasked is a defect: its traceback, and exit status 3.
+    An error that nobody in here raised on purpose is a defect: its traceback, and exit status 3.
     """
     try:
         yield
+    except InputError as error:
+        _stop(str(error))
     except FileNotFoundError as error:
         _stop(f"there is no file {error.filename}")
     except IsADirectoryError as error:
         _stop(f"{error.filename} is a folder; give the name of a file")
+    except BrokenPipeError:
+        raise
     except OSError as error:
         _stop(str(error))
     except OverflowError:
         _stop("a number of the input is too large or too small to compute with; check its unit")
-    except Exception as error:
-        if isinstance(error, ValueError) and _raised_here(error):
-            _stop(str(error))
+    except typer.Exit:
+        raise
+    except Exception:
         traceback.print_exc()
         _stop(
             "this is a defect of viscotack and not of the input; please report the lines above", 3
         )
-
-
-def _raised_here(error: BaseException) -> bool:
-    """Return whether a `raise` in the package made the error, and not something it called."""
-    place = error.__traceback__
-    while place is not None and place.tb_next is not None:
-        place = place.tb_next
-    if place is None:
-        return False
-    # int(nan) and the like have no frame of their own: only the instruction tells
-    asked = place.tb_frame.f_code.co_code[place.tb_lasti] == dis.opmap["RAISE_VARARGS"]
-    module = place.tb_frame.f_globals.get("__name__", "")
-    return asked and module.partition(".")[0] == __name__.partition(".")[0]
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:

@@ -11,19 +11,19 @@ import typer
 from typer import Argument, Option
 
 from viscotack import __version__
+from viscotack.files.whole import write_whole
 from viscotack.materials.conversion import PronyForm, prony_form
 from viscotack.materials.exchange import Units, exported, imported
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Origin, Passport
 from viscotack.materials.passport_file import read_passport, write_passport
-from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.passport_words import in_words
 from viscotack.materials.shift import WLF
 from viscotack.materials.words import word_of
-from viscotack.pictures import plot
 from viscotack.units import parse
 
-from .commands import AsJson, PlotFile, application, check_files, wrong_input
+from .commands import AsJson, PlotFile, application, wrong_input
+from .writing import Writing, check_files
 
 material = typer.Typer(
     help="From a laboratory's file to a material, and on to other programs.",
@@ -66,7 +66,8 @@ _HELP_PASSPORT = (
 )
 Known = Annotated[str, Argument(metavar="PASSPORT", help=_HELP_PASSPORT, show_default=False)]
 Output = Annotated[
-    Path | None, Option("-o", "--output", metavar="FILE", help="Write to this file.")
+    Path | None,
+    Option("-o", "--output", metavar="FILE", help="Write to this file; - is standard output."),
 ]
 Temperature = Annotated[
     str | None,
@@ -168,7 +169,8 @@ def fit_command(
     --glass-transition "-115 degC" -o pdms.toml --plot fit.png
     """
     with wrong_input():
-        check_files(plot_file, output)
+        files = {"--plot": plot_file, "--output": output}
+        check_files(files, as_json=as_json, reads=(file, shift_file))
         from viscotack.lab import fit
         from viscotack.lab.fit_passport import issued
         from viscotack.pictures.lab import draw_fit
@@ -202,17 +204,16 @@ def fit_command(
             made_by=f"viscotack {__version__}",
         )
         passport = _by_file_name(passport, file)
-        if output is not None:
-            write_passport(passport, output)
-            typer.echo(f"wrote {output}", err=True)
-        if plot_file is not None:
-            plot.save_figure(draw_fit(report), plot_file)
-            typer.echo(f"drew {plot_file}", err=True)
+    write = Writing()
+    write("wrote", output, lambda target: write_passport(passport, target))
+    write.picture(plot_file, lambda: draw_fit(report))
     if as_json:
-        _print_json(passport, criterion=dict(report.compared), median_error=report.median_error)
-        return
-    typer.echo("\n".join(f"  Read: {note}" for note in passport.origin.notes), err=True)
-    typer.echo(report.words())
+        more = {"criterion": dict(report.compared), "median_error": report.median_error}
+        write.answer(_json(passport, **more))
+    else:
+        typer.echo("\n".join(f"  Read: {note}" for note in passport.origin.notes), err=True)
+        write.answer(report.words())
+    write.end()
 
 
 @material.command("show")
@@ -224,7 +225,7 @@ def show_command(passport_file: Known, as_json: AsJson = False) -> None:
     with wrong_input():
         passport = _passport(passport_file)
     if as_json:
-        _print_json(passport)
+        typer.echo(_json(passport))
     else:
         typer.echo(in_words(passport))
 
@@ -277,7 +278,7 @@ def convert_command(
     viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s -o pad.toml
     """
     with wrong_input():
-        check_files(None, output)
+        check_files({"--output": output}, reads=() if code is None else (Path(source),))
         also = {"rubbery-modulus": rubbery_modulus, "poisson-ratio": poisson_ratio}
         if code is None:
             _refuse(
@@ -297,11 +298,9 @@ def convert_command(
             )
         elif frequencies is not None:
             raise ValueError("--frequencies go with --prony")
-        if output is not None:
-            write_passport(passport, output)
-            typer.echo(f"wrote {output}", err=True)
-        else:
-            typer.echo(passport_text(passport), nl=False)
+    write = Writing()
+    write("wrote", output or Path("-"), lambda target: write_passport(passport, target))
+    write.end()
 
 
 @material.command("export")
@@ -332,7 +331,7 @@ def export_command(
     --frequencies "1 mHz,1 GHz" -o pdms.inp
     """
     with wrong_input():
-        check_files(None, output)
+        check_files({"--output": output}, reads=(Path(passport_file),))
         passport = _passport(passport_file)
         if temperature is not None:
             passport = passport.moved_to(parse(temperature, "K"))
@@ -343,11 +342,9 @@ def export_command(
             units=Units(pressure_unit or "Pa", time_unit or "s"),
             notes=_notes(passport, form),
         )
-        if output is not None:
-            output.write_text(text, encoding="utf-8")
-            typer.echo(f"wrote {output}", err=True)
-        else:
-            typer.echo(text, nl=False)
+    write = Writing()
+    write("wrote", output or Path("-"), lambda target: write_whole(target, text.encode()))
+    write.end()
 
 
 def _passport(name: str) -> Passport:
@@ -489,11 +486,11 @@ def _refuse(why: str, flags: dict[str, Any]) -> None:
         raise ValueError(f"{' and '.join(given)} cannot be used {why}; leave it out")
 
 
-def _print_json(passport: Passport, **more: Any) -> None:
+def _json(passport: Passport, **more: Any) -> str:
     solid = passport.material
     answer = asdict(passport) | {"material": {"model": word_of(solid)} | asdict(solid)}
     answer["modulus_ratio"] = solid.modulus_ratio
-    typer.echo(json.dumps(_finite(answer | more), indent=2, allow_nan=False))
+    return json.dumps(_finite(answer | more), indent=2, allow_nan=False)
 
 
 def _finite(value: Any) -> Any:

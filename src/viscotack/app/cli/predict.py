@@ -9,9 +9,9 @@ import typer
 from typer import Argument, Option
 
 from viscotack.app.questions import SPHERE, given_of
+from viscotack.errors import InputError
 from viscotack.forecast import predict
 from viscotack.forecast.prediction import Prediction, prediction_summary
-from viscotack.pictures import plot
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Outcome, Result
@@ -23,10 +23,10 @@ from .commands import (
     CaseFile,
     With,
     application,
-    check_files,
     stated_problem,
     wrong_input,
 )
+from .writing import Writing, check_files
 
 # What a simulation would only repeat.
 _SAID_ONCE = ("problem", "run_id", "tabor", "modulus_ratio", "rate")
@@ -61,7 +61,11 @@ def _predict(
     ] = False,
     curve_file: Annotated[
         Path | None,
-        Option("--curve", metavar="FILE", help="Write the predicted unloading curve as a table."),
+        Option(
+            "--curve",
+            metavar="FILE",
+            help="Write the predicted unloading curve as a table; - is standard output.",
+        ),
     ] = None,
     plot_file: Annotated[
         Path | None,
@@ -69,7 +73,11 @@ def _predict(
     ] = None,
     csv_file: Annotated[
         Path | None,
-        Option("--csv", metavar="FILE", help="Where the rows of CASES.csv go, with their answers."),
+        Option(
+            "--csv",
+            metavar="FILE",
+            help="Where the rows of CASES.csv go, with their answers; - is standard output.",
+        ),
     ] = None,
     case: CaseFile = None,
     own: With = None,
@@ -88,9 +96,12 @@ def _predict(
 
     Thousands: viscotack predict cases.csv --csv answers.csv
     """
+    is_table, write = Path(what).suffix.lower() == ".csv", Writing()
+    files = {"--plot": plot_file, "--curve": curve_file, "--csv": csv_file}
+    result = None
     with wrong_input():
-        check_files(plot_file, curve_file, csv_file)
-        if Path(what).suffix.lower() == ".csv":
+        check_files(files, as_json=as_json, reads=() if is_table else (Path(what), case))
+        if is_table:
             others = {
                 "--compare": compare,
                 "--curve": curve_file,
@@ -101,22 +112,20 @@ def _predict(
             _refuse(others, f"{what} is a table of cases")
             from .predict_table import predict_file
 
-            answer = predict_file(Path(what), csv_file, confidence)
-            typer.echo(json.dumps(answer, indent=2) if as_json else _counts(answer))
-            return
-        _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
-        problem = _problem(what, case, context, own)
-        found = predict(problem, confidence=confidence)
-        if found.curve is None and (curve_file or plot_file):
-            raise ValueError(
-                f"{found.why}. A theory gives no curve; leave out --curve and --plot, or simulate"
-            )
-        result = _simulated(problem) if compare else None
-    _write(found, result, curve_file, plot_file)
-    answer = prediction_summary(found)
-    if result is not None:
-        answer |= _comparison(found, result)
-    typer.echo(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(found, answer))
+            answer = predict_file(Path(what), csv_file, confidence, write)
+            words = _counts(answer)
+        else:
+            _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
+            problem = _problem(what, case, context, own)
+            found = _predicted(problem, confidence, curve_file or plot_file)
+            result = _simulated(problem) if compare else None
+            answer = prediction_summary(found)
+            if result is not None:
+                answer |= _comparison(found, result)
+            words = _words(found, answer)
+            _write(found, result, curve_file, plot_file, write)
+    write.answer(json.dumps(answer, indent=2, allow_nan=False) if as_json else words)
+    write.end()
     if result is not None and result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
 
@@ -141,6 +150,17 @@ def _problem(
     problem = stated_problem(case, context, SPHERE if case is None else None, own)
     assert isinstance(problem, Problem | Groups)
     return problem
+
+
+def _predicted(
+    problem: Problem | Groups, confidence: float, curve_wanted: Path | None
+) -> Prediction:
+    found = predict(problem, confidence=confidence)
+    if found.curve is None and curve_wanted:
+        raise InputError(
+            f"{found.why}. A theory gives no curve; leave out --curve and --plot, or simulate"
+        )
+    return found
 
 
 def _simulated(problem: Problem | Groups) -> Result:
@@ -171,18 +191,21 @@ def _comparison(found: Prediction, result: Result) -> dict[str, Any]:
 
 
 def _write(
-    found: Prediction, result: Result | None, curve_file: Path | None, plot_file: Path | None
+    found: Prediction,
+    result: Result | None,
+    curve_file: Path | None,
+    plot_file: Path | None,
+    write: Writing,
 ) -> None:
     if curve_file is not None:
         from .predict_table import write_table
 
-        write_table(_curve(found), curve_file)
-        typer.echo(f"wrote {curve_file}", err=True)
+        table = _curve(found)
+        write("wrote", curve_file, lambda file: write_table(table, file))
     if plot_file is not None:
         from viscotack.pictures.forecast import draw_prediction
 
-        plot.save_figure(draw_prediction(found, result), plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
+        write.picture(plot_file, lambda: draw_prediction(found, result))
 
 
 def _curve(found: Prediction) -> dict[str, Any]:

@@ -12,15 +12,17 @@ import numpy.typing as npt
 import typer
 
 from viscotack.campaign.columns import KINDS
-from viscotack.campaign.parts import write_whole
 from viscotack.campaign.plan import read_words
+from viscotack.files.whole import Target, is_standard_output, write_whole
 from viscotack.forecast.table import ANSWERS, predict_table
+
+from .writing import Writing
 
 # Seconds between two lines of progress, while theories answer.
 _LINES = 10.0
 
 
-def predict_file(path: Path, out: Path | None, confidence: float) -> dict[str, Any]:
+def predict_file(path: Path, out: Path | None, confidence: float, write: Writing) -> dict[str, Any]:
     """Predict the cases of a CSV file, write them with their answers, return what there was.
 
     Raises
@@ -34,7 +36,7 @@ def predict_file(path: Path, out: Path | None, confidence: float) -> dict[str, A
     if out is None:
         raise ValueError(f"say where the answers to {path} are to go: --csv answers.csv")
     given = read_table(path)
-    if out.exists() and out.samefile(path):
+    if not is_standard_output(out) and out.exists() and out.samefile(path):
         raise ValueError(f"--csv {out} is the table of cases itself; give it another name")
     if there := [name for name in ANSWERS if name in given]:
         raise ValueError(
@@ -53,8 +55,7 @@ def predict_file(path: Path, out: Path | None, confidence: float) -> dict[str, A
         wrong = [n for n in names if not _is_number(given[n][i])]
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
-    write_table({**given, **found}, out)
-    typer.echo(f"wrote {out}", err=True)
+    write("wrote", out, lambda file: write_table({**given, **found}, file))
     methods, counts = np.unique(
         found["method"][found["method"] != ""].astype(str), return_counts=True
     )
@@ -87,7 +88,7 @@ def read_table(path: Path) -> dict[str, list[str]]:
     return {name: [row[i].strip() for _, row in rows] for i, name in enumerate(names)}
 
 
-def write_table(table: Mapping[str, Any], path: Path) -> None:
+def write_table(table: Mapping[str, Any], path: Target) -> None:
     """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")

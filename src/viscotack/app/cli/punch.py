@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import typer
 from typer import Option
 
 from viscotack.app.questions import PUNCH, material_from, require
@@ -32,11 +31,11 @@ from viscotack.units import parse
 from .commands import (
     AsJson,
     CaseFile,
-    check_files,
     wrong_input,
 )
 from .options import Exponent, Ratio, flag
 from .theory import theory
+from .writing import Writing, check_files
 
 # Of a regime map: thicknesses and speeds, and how thin and thick it gets beside b0 and a.
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
@@ -144,21 +143,25 @@ def theory_punch(
     }
     asked = {"thickness": thickness, "stress": stress, "speed": speed}
     with wrong_input():
-        check_files(plot_file)
+        check_files({"--plot": plot_file}, reads=(case,))
         pad, wanted = _stated_pad(case, flags, asked)
         pad["theory"] = _LAWS[law]
         answer = _boundaries(pad) | _asked(pad, wanted)
         found = _map(pad) if with_map or plot_file is not None else None
-    if plot_file is not None and found is not None:
-        plot.save_figure(plot.draw_regimes(found), plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
+    write = Writing()
+    if found is not None:
+        write.picture(plot_file, lambda: plot.draw_regimes(found))
     if as_json:
         rows = {} if not with_map or found is None else {"map": _rows(found)}
-        typer.echo(json.dumps(answer | rows, indent=2, allow_nan=False))
-        return
-    for name, value in answer.items():
-        words = "none" if value is None else value if isinstance(value, str) else f"{value:.5g}"
-        typer.echo(f"  {name:<36}{words:>12}")
+        write.answer(json.dumps(answer | rows, indent=2, allow_nan=False))
+    else:
+        write.answer("\n".join(_line(name, value) for name, value in answer.items()))
+    write.end()
+
+
+def _line(name: str, value: Any) -> str:
+    words = "none" if value is None else value if isinstance(value, str) else f"{value:.5g}"
+    return f"  {name:<36}{words:>12}"
 
 
 def _stated_pad(

@@ -3,14 +3,13 @@
 import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
 from typer import Option
 
 from viscotack.app.questions import SPHERE, material_from
-from viscotack.pictures import plot
 from viscotack.problem import Groups, Problem
 from viscotack.theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
 from viscotack.theory.crack.modulus_file import read_modulus
@@ -23,11 +22,14 @@ from .commands import (
     PlotFile,
     With,
     application,
-    check_files,
     stated_problem,
     wrong_input,
 )
 from .options import Exponent, Ratio
+from .writing import Writing, check_files
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # Of a table over the range that matters.
 _ROWS = 41
@@ -93,7 +95,7 @@ def theory_jkr(
     "50 mJ/m^2"
     """
     with wrong_input():
-        check_files(plot_file)
+        check_files({"--plot": plot_file})
         case = _sphere(radius, contact_modulus, work_of_adhesion)
         end, fold = jkr.pull_off(**case), jkr.instability(**case)
         free = jkr.contact_radius_at_force(0.0, **case)
@@ -142,7 +144,7 @@ def theory_maugis(
         "--strength": strength,
     }
     with wrong_input():
-        check_files(plot_file)
+        check_files({"--plot": plot_file})
         _check_maugis(quantities, tabor)
         if tabor is None:
             case = _sphere(str(radius), str(contact_modulus), str(work_of_adhesion))
@@ -275,7 +277,7 @@ def _crack(
 ) -> None:
     """Answer for a material stated by flags, or for a table of a modulus and its plateau."""
     with wrong_input():
-        check_files(plot_file)
+        check_files({"--plot": plot_file}, reads=(measured[0],))
         given = {flag: value for flag, value in flags.items() if value is not None}
         if measured == (None, None):
             v, found = _of_material(_LAWS[name], given, speed)
@@ -342,26 +344,29 @@ def _answer(
     logarithmic: bool = False,
 ) -> None:
     """Print numbers as JSON or as lines, and draw the curve if wanted: a theory is a line."""
-    if plot_file is not None:
-        from matplotlib.figure import Figure
+    write = Writing()
+    write.picture(plot_file, lambda: _drawn(curve, labels, logarithmic))
+    write.answer(json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(answer))
+    write.end()
 
-        figure = Figure(layout="constrained")
-        axes = figure.subplots()
-        axes.plot(*curve)
-        axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1])
-        if logarithmic:
-            axes.set_xscale("log")
-            axes.set_yscale("log")
-        plot.save_figure(figure, plot_file)
-        typer.echo(f"drew {plot_file}", err=True)
-    if as_json:
-        typer.echo(json.dumps(answer, indent=2, allow_nan=False))
-        return
-    if isinstance(next(iter(answer.values())), list):
-        typer.echo("  ".join(f"{name:>18}" for name in answer))
-        for row in zip(*answer.values(), strict=True):
-            typer.echo("  ".join(f"{value:18.6g}" for value in row))
-        return
-    for name, value in answer.items():
-        typer.echo(f"  {name:<32}{value:>12.5g}")
+
+def _drawn(curve: tuple[Any, Any], labels: tuple[str, str], logarithmic: bool) -> "Figure":
+    from matplotlib.figure import Figure
+
+    figure = Figure(layout="constrained")
+    axes = figure.subplots()
+    axes.plot(*curve)
+    axes.set_xlabel(labels[0])
+    axes.set_ylabel(labels[1])
+    if logarithmic:
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+    return figure
+
+
+def _words(answer: dict[str, Any]) -> str:
+    if not isinstance(next(iter(answer.values())), list):
+        return "\n".join(f"  {name:<32}{value:>12.5g}" for name, value in answer.items())
+    rows = zip(*answer.values(), strict=True)
+    lines = ["  ".join(f"{value:18.6g}" for value in row) for row in rows]
+    return "\n".join(["  ".join(f"{name:>18}" for name in answer), *lines])

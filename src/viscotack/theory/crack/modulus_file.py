@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from pathlib import Path
 
 import numpy as np
 
+from viscotack.files.text import read_rows
 from viscotack.units import parse
 
 from .tabulated import WIDEST_GAP
@@ -54,15 +54,10 @@ def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> Tab
     '1.357 to 1.374'
     """
     path = Path(path)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise ValueError(f"{path} is not a text file") from None
-    numbered = [(i, x) for i, x in enumerate(lines, 1) if x.strip() and not x.startswith("#")]
-    rows = list(csv.reader(x for _, x in numbered))
-    factors, order = _columns(path, [x.strip() for x in rows[0]] if rows else [])
+    header, rows = read_rows(path)
+    factors, order = _columns(path, header)
     table = []
-    for (line, _), row in zip(numbered[1:], rows[1:], strict=True):
+    for line, row in rows:
         try:
             values = [float(x) for x in row]
         except ValueError:

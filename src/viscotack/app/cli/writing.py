@@ -1,0 +1,120 @@
+"""The files that a command writes: refused before the work, told of when they fail after it."""
+
+from collections.abc import Callable, Iterable, Mapping
+from itertools import combinations
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from viscotack.errors import InputError
+from viscotack.files.whole import (
+    NotWritten,
+    Target,
+    check_target,
+    is_standard_output,
+    same_file,
+)
+from viscotack.pictures import plot
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# What is no text: not for standard output, where the answer in words goes.
+_BINARY = {
+    "--plot": "a picture",
+    "--save": "a result",
+    "--parquet": "a Parquet file",
+    "--mat": "a MATLAB file",
+}
+
+
+def check_files(
+    files: Mapping[str, Path | None], *, as_json: bool = False, reads: Iterable[Path | None] = ()
+) -> None:
+    """Refuse files that cannot be written before the work is done, not after it.
+
+    Parameters
+    ----------
+    files : mapping
+        Flag -> file; None where not given.
+    as_json : bool
+        Whether the answer is one JSON object on standard output.
+    reads : iterable of path or None
+        Files that the command reads, and so must not write.
+
+    Raises
+    ------
+    InputError
+        If a file is wanted twice, or cannot be where or what it is to be.
+    """
+    given = {flag: file for flag, file in files.items() if file is not None}
+    for flag, file in given.items():
+        if is_standard_output(file):
+            if flag in _BINARY:
+                raise InputError(
+                    f"{flag} {file}: {_BINARY[flag]} is not text and does not go to standard "
+                    "output; give the name of a file"
+                )
+            if as_json:
+                raise InputError(
+                    f"--json and {flag} {file} both go to standard output; leave out one, or give "
+                    f"{flag} the name of a file"
+                )
+        else:
+            if flag == "--plot":
+                plot.check_format(file)
+            check_target(file)
+        for other in reads:
+            if other is not None and same_file(other, file):
+                raise InputError(f"{flag} {file} is the file that is read; give it another name")
+    for (one, first), (other, second) in combinations(given.items(), 2):
+        if same_file(first, second):
+            raise InputError(
+                f"{one} {first} and {other} {second} are the same file; give each one of its own"
+            )
+
+
+class Writing:
+    """What a command writes beside its answer: where one file fails, the rest is not lost."""
+
+    def __init__(self) -> None:
+        self._failed = False
+        self._reader_left: BrokenPipeError | None = None
+        self._taken = False
+
+    def __call__(self, done: str, file: Path | None, writer: Callable[[Target], None]) -> None:
+        """Write a file if it is wanted, and tell on standard error that it is done, or why not."""
+        if file is None:
+            return
+        goes_on = is_standard_output(file)
+        self._taken |= goes_on
+        try:
+            writer(typer.get_binary_stream("stdout") if goes_on else file)
+        except BrokenPipeError as error:
+            self._reader_left = error
+        except OSError as error:
+            known = isinstance(error, NotWritten)
+            words = error if known else f"cannot write to standard output: {error.strerror}"
+            typer.echo(f"viscotack: {words}", err=True)
+            self._failed = True
+        else:
+            if not goes_on:
+                typer.echo(f"{done} {file}", err=True)
+
+    def picture(self, file: Path | None, draw: Callable[[], "Figure"]) -> None:
+        """Draw a figure and write it in the same way."""
+        if file is not None:
+            self("drew", file, lambda _: plot.save_figure(draw(), file))
+
+    def answer(self, text: str) -> None:
+        """Print the answer of the command; on standard error where a table has the other one."""
+        typer.echo(text, err=self._taken)
+
+    def end(self) -> None:
+        """End the command with exit status 2 if a file could not be written."""
+        if self._failed:
+            raise typer.Exit(2)
+        if self._reader_left is not None:
+            # the library of the command line ends it in silence, as it does for any other text
+            raise self._reader_left

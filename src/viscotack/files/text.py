@@ -1,0 +1,64 @@
+"""Text files, as editors and spreadsheets of every make write them."""
+
+import codecs
+import csv
+import os
+from pathlib import Path
+
+from viscotack.errors import InputError
+
+# What a file may begin with -> how it is then read.
+_MARKS = {
+    codecs.BOM_UTF8: "utf-8-sig",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    r"""Return the text of a file in UTF-8, or in UTF-16 with its mark; every line ends in ``\n``.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    InputError
+        If it is in another encoding, or no text; with the line.
+    """
+    content = Path(path).read_bytes()
+    encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
+    try:
+        text = content.decode(encoding)
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            f"{os.fspath(path)} is not a text file in UTF-8 (line {line}); save it as UTF-8 in its "
+            "editor, or convert it: iconv -f WINDOWS-1252 -t UTF-8"
+        ) from None
+    if "\0" in text:
+        raise InputError(
+            f"{os.fspath(path)} is not a text file in UTF-8: it has zero bytes; if it is UTF-16, "
+            "save it as UTF-8 in its editor, or convert it: iconv -f UTF-16 -t UTF-8"
+        )
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
+    """Return the names in the first row of a CSV file, and the rows below with their lines.
+
+    A row is a line. Empty lines and those that begin with ``#`` are skipped.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    InputError
+        If it is not a text file.
+    """
+    rows = [
+        (line, next(csv.reader([text])))
+        for line, text in enumerate(read_text(path).splitlines(), 1)
+        if text.strip() and not text.startswith("#")
+    ]
+    header = [name.strip() for name in rows[0][1]] if rows else []
+    return header, rows[1:]
