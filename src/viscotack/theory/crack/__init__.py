@@ -1,10 +1,21 @@
 """The crack that runs through a viscoelastic solid."""
 
-from . import crack_regimes, greenwood, modulus_file, persson_brener, tabulated, tabulated_modulus
+from . import (
+    crack_regimes,
+    greenwood,
+    law,
+    modulus_file,
+    persson_brener,
+    tabulated,
+    tabulated_modulus,
+)
+from .law import CrackLaw
 
 __all__ = [
+    "CrackLaw",
     "crack_regimes",
     "greenwood",
+    "law",
     "modulus_file",
     "persson_brener",
     "tabulated",
