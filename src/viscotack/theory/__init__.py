@@ -16,14 +16,25 @@ from . import crack, elastic, punch, sphere
 from .crack import (
     CrackLaw,
     crack_regimes,
+    empirical,
     greenwood,
     modulus_file,
     persson_brener,
     tabulated,
     tabulated_modulus,
 )
-from .elastic import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles
-from .sphere import bounds, detachment, empirical, rate, transition, unloading
+from .elastic import (
+    adhesion_map,
+    bradley,
+    dmt,
+    hertz,
+    jkr,
+    lennard_jones,
+    maugis,
+    profiles,
+    transition,
+)
+from .sphere import bounds, detachment, rate, unloading
 
 __all__ = [
     "CrackLaw",

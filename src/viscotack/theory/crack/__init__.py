@@ -2,6 +2,7 @@
 
 from . import (
     crack_regimes,
+    empirical,
     greenwood,
     law,
     modulus_file,
@@ -14,6 +15,7 @@ from .law import CrackLaw
 __all__ = [
     "CrackLaw",
     "crack_regimes",
+    "empirical",
     "greenwood",
     "law",
     "modulus_file",

@@ -1,5 +1,15 @@
 """Contacts of elastic solids."""
 
-from . import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles
+from . import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles, transition
 
-__all__ = ["adhesion_map", "bradley", "dmt", "hertz", "jkr", "lennard_jones", "maugis", "profiles"]
+__all__ = [
+    "adhesion_map",
+    "bradley",
+    "dmt",
+    "hertz",
+    "jkr",
+    "lennard_jones",
+    "maugis",
+    "profiles",
+    "transition",
+]
