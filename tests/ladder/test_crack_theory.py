@@ -258,6 +258,8 @@ def test_a_law_of_no_theory_or_of_no_length_is_refused():
         replace(law, theory="griffith")
     with pytest.raises(ValueError, match="tip_length must be positive and finite, got 0.0 m"):
         replace(law, tip_length=0)
+    with pytest.raises(ValueError, match=r"in \(0, 1\], got 2.0"):
+        law.limited(modulus_ratio=2)
 
 
 POWER = st.floats(-9, 9)

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.materials import Modes
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, plain, positive, ratio
 
 from . import greenwood, persson_brener
 from ._crack import Material
@@ -33,10 +33,10 @@ class CrackLaw:
     material : viscoelastic material of :mod:`viscotack.materials`
         For its creep in proportion; its rubbery modulus is not used.
     tip_length : float
-        Length l of the tip of the slow crack [m]:
+        Length l of the tip of the slow crack [m], as the theory has it:
         :func:`viscotack.theory.crack.greenwood.cohesive_zone_length` or
-        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`; for the edges of a pad
-        :meth:`viscotack.theory.punch.pad.Pad.crack_law` has it.
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`, which differ. For the edges
+        of a pad :meth:`viscotack.theory.punch.pad.Pad.crack_law` knows it.
 
     Examples
     --------
@@ -93,9 +93,10 @@ class CrackLaw:
         at the same passage of the tip: the delayed part of the creep is smaller in proportion. The
         law itself where the solid ends below, :math:`k_b \le k`.
         """
-        if modulus_ratio <= self.material.modulus_ratio:
+        k = float(ratio(modulus_ratio))
+        if k <= self.material.modulus_ratio:
             return self
-        return replace(self, material=_Limited(self.material, modulus_ratio))
+        return replace(self, material=_Limited(self.material, k))
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,8 @@ strength :math:`\sigma_0` to the half-plane; these functions turn that round. Wh
 off, over thickness and speed, is :mod:`viscotack.theory.punch.map`.
 
 The pad and the law of its edges are those of :mod:`viscotack.theory.punch.unloading`, whose range
-and errors hold here:
-the stress comes out up to 19 % high, and so does the thickness, by up to twice as much on thin
-layers.
+and errors hold here: the stress comes out up to 19 % high, and so does the thickness, by up to
+twice as much on thin layers.
 """
 
 from __future__ import annotations
