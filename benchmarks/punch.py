@@ -39,7 +39,8 @@ from viscotack import (
     work_of_separation,
 )
 from viscotack.bem.plain_punch import plain_solve
-from viscotack.theory import greenwood, punch_crossover, punch_map
+from viscotack.theory.punch import Pad, regime_map
+from viscotack.theory.punch import crossover as exact_curve
 
 STYLE = Path(viscotack.__file__).parent / "pictures/viscotack.mplstyle"
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -229,7 +230,7 @@ def bell() -> None:
     speeds = found[:, 2].reshape(len(FOUR), -1)
     print(f"work of separation [dg0]: 88 runs to separation, residual {found[:, 5].max():.1e}")
     for b, row, speed in zip(FOUR, works, speeds, strict=True):
-        elastic = punch_crossover.work_of_separation(
+        elastic = exact_curve.work_of_separation(
             b, half_width=SIZE, work_of_adhesion=1.0, base=Frictionless()
         )
         top = int(np.argmax(row))
@@ -251,7 +252,7 @@ def crossover() -> None:
     found = table(works)
     stress = found[:, 0].reshape(len(ratios), -1) * np.sqrt(sizes)
     limits = np.polynomial.polynomial.polyfit(1 / np.sqrt(sizes), stress.T, 2)[0]
-    exact = punch_crossover.pull_off_stress(
+    exact = exact_curve.pull_off_stress(
         ratios, half_width=1.0, contact_modulus=1.0, work_of_adhesion=2 / np.pi, base=Frictionless()
     )
     print("elastic pull-off stress over that of a thin layer or a half-plane, the larger one;")
@@ -276,7 +277,7 @@ def bonded() -> None:
             1 / np.sqrt(sizes), found[:, 0] * np.sqrt(sizes), 2
         )[0]
         law = np.sqrt(4 / (np.pi * B * base.foundation))
-        exact = punch_crossover.pull_off_stress(
+        exact = exact_curve.pull_off_stress(
             B, half_width=1.0, contact_modulus=1.0, work_of_adhesion=2 / np.pi, base=base
         )
         print(
@@ -330,11 +331,15 @@ def draw() -> None:
     solid = StandardSolid(
         rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     )
-    found = punch_map.regime_map(
-        np.geomspace(1e-5, 5e-3, 121), np.geomspace(1e-6, 1.0, 121), half_width=1e-3,
-        contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4, material=solid,
-        theory=greenwood, base=Frictionless(),
-    )  # fmt: skip
+    pad = Pad(
+        half_width=1e-3,
+        contact_modulus=1e6,
+        work_of_adhesion=0.05,
+        strength=5e4,
+        base=Frictionless(),
+    )
+    law = pad.crack_law("greenwood", material=solid)
+    found = regime_map(np.geomspace(1e-5, 5e-3, 121), np.geomspace(1e-6, 1.0, 121), pad, law)
     save_figure(draw_regimes(found), DOCS / "punch_map.png")
 
 

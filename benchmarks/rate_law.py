@@ -18,7 +18,15 @@ from scipy.stats import qmc
 
 from viscotack import AtRadius, Groups, advise, solve
 from viscotack.result.observables import pull_off
-from viscotack.theory import detachment, jkr, lennard_jones, persson_brener, rate, unloading
+from viscotack.theory import (
+    CrackLaw,
+    detachment,
+    jkr,
+    lennard_jones,
+    persson_brener,
+    rate,
+    unloading,
+)
 
 # Ranges of Tabor number, modulus ratio, exponent, rate, and start over the full glassy contact.
 SETS = {
@@ -64,13 +72,12 @@ def measure(groups: Groups) -> dict[str, Any]:
         )
     )
     depth = float(jkr.depth(groups.start.contact_radius * np.pi ** (1 / 3), **_UNIT))
-    options = dict(speed=groups.rate / mu, material=solid, tip_length=tip)
-    curve = unloading.retraction(depth, **options, **_UNIT)
+    speed = groups.rate / mu
+    law = CrackLaw(theory="persson-brener", material=solid, tip_length=tip)
+    curve = unloading.retraction(depth, law, speed=speed, **_UNIT)
     predicted = {
         "Eq. 4.24 as published": rate.rate_as_published(groups.rate),
-        "Eq. 4.24, own mu": rate.rate_in_contact_heights(
-            groups.rate / mu, time_unit=solid.time_unit, **_UNIT
-        ),
+        "Eq. 4.24, own mu": rate.rate_in_contact_heights(speed, time_unit=solid.time_unit, **_UNIT),
     }
     speeds = {
         name: rate.COEFFICIENT * float(np.asarray(r)) ** rate.EXPONENT * tip
@@ -81,7 +88,7 @@ def measure(groups: Groups) -> dict[str, Any]:
     forces = {"equation of motion": slow * curve.pull_off_force / (1.5 * np.pi)}
     margin = 0.0
     try:
-        state = detachment.at_pull_off(depth=depth, **options, **_UNIT)
+        state = detachment.at_pull_off(speed, law, depth=depth, **_UNIT)
     except ValueError:
         pass  # too light a preload for this rate
     else:

@@ -32,6 +32,8 @@ ROOMS = (
     "app",
     "__main__",
 )
+# The same inside the theories: what all of them share, then the wings.
+WINGS = ("_checks", "_scales", "elastic", "crack", "sphere", "punch")
 
 
 def modules(package):
@@ -75,13 +77,13 @@ def graph(package):
     return {name: imports(name, path, known) for name, path in known.items()}
 
 
-def upward(links):
+def upward(links, rooms=ROOMS):
     """Return the imports that lead to a later room."""
 
     def floor(name):
         # a room without a place has a test of its own
         room = name.split(".")[0]
-        return ROOMS.index(room) if room in ROOMS else -1
+        return rooms.index(room) if room in rooms else -1
 
     return [
         f"{name} imports {target}, a later room"
@@ -89,6 +91,16 @@ def upward(links):
         for target in sorted(targets)
         if floor(target) > floor(name)
     ]
+
+
+def within(links, room):
+    """Return the links between the modules of a room, with the names they have there."""
+    inside = f"{room}."
+    return {
+        name.removeprefix(inside): {x.removeprefix(inside) for x in targets if x != room}
+        for name, targets in links.items()
+        if name.startswith(inside)
+    }
 
 
 def cycles(links):
@@ -141,6 +153,18 @@ def test_no_module_imports_from_a_later_room():
     assert upward(graph(PACKAGE)) == LEAVING
 
 
+def test_every_theory_has_a_wing():
+    theories = within(graph(PACKAGE), "theory")
+    assert {name.split(".")[0] for name in theories} == set(WINGS)
+
+
+def test_no_theory_imports_from_a_later_wing_or_from_the_door_of_them_all():
+    links = graph(PACKAGE)
+    assert upward(within(links, "theory"), WINGS) == []
+    behind = [name for name, targets in links.items() if "theory" in targets]
+    assert [name for name in behind if name.startswith("theory.")] == []
+
+
 def test_no_public_name_of_a_room_hides_a_module_of_it():
     # `import viscotack.bem.solve as s` once gave a function
     for path in PACKAGE.rglob("__init__.py"):
@@ -170,3 +194,18 @@ def test_the_check_itself_sees_an_upward_import_and_a_circle(tmp_path):
     assert upward(links) == ["theory.jkr imports bem, a later room"]
     assert "theory.maugis" in cycles(links)
     assert "units" not in cycles(links)
+
+
+def test_the_check_itself_sees_an_import_from_a_later_wing(tmp_path):
+    for wing in ("elastic", "punch"):
+        (tmp_path / "theory" / wing).mkdir(parents=True)
+        (tmp_path / "theory" / wing / "__init__.py").write_text("")
+    (tmp_path / "theory/__init__.py").write_text("from . import elastic, punch\n")
+    (tmp_path / "theory/elastic/jkr.py").write_text("from viscotack.theory.punch import rate\n")
+    (tmp_path / "theory/punch/rate.py").write_text(
+        "from ..elastic import jkr\nimport viscotack.units\n"
+    )
+    (tmp_path / "units.py").write_text("")
+    links = within(graph(tmp_path), "theory")
+    assert links["punch.rate"] == {"elastic.jkr", "units"}
+    assert upward(links, WINGS) == ["elastic.jkr imports punch.rate, a later room"]

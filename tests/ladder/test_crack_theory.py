@@ -1,5 +1,7 @@
 """The ladder of the viscoelastic crack: identities, limits with their exponents, units."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -14,7 +16,8 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
-from viscotack.theory import greenwood, persson_brener
+from viscotack.theory import CrackLaw, greenwood, persson_brener
+from viscotack.theory.crack.law import THEORIES
 
 MODULI = dict(rubbery_modulus=1.2e6, glassy_modulus=3e7, poisson_ratio=0.5)
 SOLIDS = [
@@ -211,6 +214,52 @@ def test_lengths_of_the_two_theories_differ_by_the_ratio_of_their_conventions():
     assert K / np.sqrt(2 * np.pi * tip) == pytest.approx(np.pi / 9 * 5e6, rel=1e-14, abs=0)
     # a Dugdale zone cancels K = sqrt(8/pi) sigma_0 sqrt(l)
     assert np.sqrt(8 / np.pi * zone) * 5e6 == pytest.approx(K, rel=1e-14, abs=0)
+
+
+laws = pytest.mark.parametrize("name", THEORIES)
+
+
+@laws
+@solids
+def test_a_law_of_a_crack_is_its_theory_with_a_length_and_the_time_of_the_solid(name, material):
+    law = CrackLaw(theory=name, material=material, tip_length=3e-7)
+    assert law.speed_unit == pytest.approx(3e-7 / material.time_unit, rel=1e-15, abs=0)
+    v = np.array([0.0, *SPEEDS])
+    gamma = THEORIES[name].amplification(v, material=material)
+    np.testing.assert_allclose(law.amplification(v * law.speed_unit), gamma, rtol=1e-13)
+    np.testing.assert_array_equal(law.reduced().amplification(v), gamma)
+    assert np.all(gamma < law.largest)
+    gamma = 1 + (law.largest - 1) * np.array([0.0, 0.1, 0.9])
+    speed = law.speed(gamma)
+    np.testing.assert_allclose(law.amplification(speed), gamma, rtol=1e-11)
+    np.testing.assert_allclose(law.reduced().speed(gamma) * law.speed_unit, speed, rtol=1e-14)
+
+
+@laws
+@solids
+def test_a_limited_crack_is_slowed_in_proportion_at_the_same_passage(name, material):
+    law = CrackLaw(theory=name, material=material, tip_length=3e-7)
+    k, end = material.modulus_ratio, 4 * material.modulus_ratio
+    limited = law.limited(modulus_ratio=end)
+    assert limited.largest == pytest.approx(law.largest / 4, rel=1e-15, abs=0)
+    whole = 1 + (law.largest - 1) * np.array([0.01, 0.3, 0.9])
+    gamma = 1 / (end + (1 - end) * (1 / whole - k) / (1 - k))
+    # the same l Gamma/(v tau) feels the same part of the creep
+    np.testing.assert_allclose(
+        limited.amplification(law.speed(whole) * gamma / whole), gamma, rtol=1e-11
+    )
+    # and a limit beyond the glassy end is none
+    assert law.limited(modulus_ratio=k / 2) == law
+
+
+def test_a_law_of_no_theory_or_of_no_length_is_refused():
+    law = CrackLaw(theory="greenwood", material=SOLIDS[0], tip_length=3e-7)
+    with pytest.raises(ValueError, match="greenwood or persson-brener, got 'griffith'"):
+        replace(law, theory="griffith")
+    with pytest.raises(ValueError, match="tip_length must be positive and finite, got 0.0 m"):
+        replace(law, tip_length=0)
+    with pytest.raises(ValueError, match=r"in \(0, 1\], got 2.0"):
+        law.limited(modulus_ratio=2)
 
 
 POWER = st.floats(-9, 9)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import viscotack as vt
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
-from viscotack.theory import detachment, jkr, lennard_jones, persson_brener
+from viscotack.theory import CrackLaw, detachment, jkr, lennard_jones, persson_brener
 
 LENS = dict(radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15)
 MODULI = dict(rubbery_modulus=1.5e6, poisson_ratio=0.5)
@@ -22,7 +22,8 @@ DEPTH, TIP = 3e-3, 1e-6
 
 
 def at(speed, material=SOLID, depth=DEPTH):
-    return detachment.at_pull_off(speed, depth=depth, material=material, tip_length=TIP, **LENS)
+    law = CrackLaw(theory="persson-brener", material=material, tip_length=TIP)
+    return detachment.at_pull_off(speed, law, depth=depth, **LENS)
 
 
 @pytest.mark.parametrize("material", SOLIDS, ids=["standard", "broad", "weak", "prony"])
@@ -108,12 +109,11 @@ def test_the_state_does_not_depend_on_the_units(length, load, time):
     )
     scaled = detachment.at_pull_off(
         1e-3 * L / T,
+        CrackLaw(theory="persson-brener", material=material, tip_length=TIP * L),
         depth=DEPTH * L,
-        material=material,
         radius=5e-3 * L,
         contact_modulus=2e6 * M / L**2,
         work_of_adhesion=0.15 * M / L,
-        tip_length=TIP * L,
     )
     units = (M, L, L / T, 1, T, 1)
     expected = [x * unit for x, unit in zip(at(1e-3), units, strict=True)]
@@ -153,9 +153,8 @@ def test_simulations_are_met_at_every_rate(rate, tabor, modulus_ratio, exponent)
     )
     state = detachment.at_pull_off(
         rate / tabor,
+        CrackLaw(theory="persson-brener", material=material, tip_length=tip),
         depth=jkr.depth(start * np.pi ** (1 / 3), **unit),
-        material=material,
-        tip_length=tip,
         **unit,
     )
     speed, force = vt.crack_speed_at_pull_off(result), vt.pull_off_force(result)

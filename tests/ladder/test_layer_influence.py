@@ -9,7 +9,7 @@ from scipy.special import sici, xlogy
 from reference_data import VALUES
 from viscotack.bem.layer import layer_influence, nodal_lengths
 from viscotack.geometry import Bonded, Frictionless
-from viscotack.theory import punch_crossover
+from viscotack.theory.punch import crossover
 
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
 SQUEEZED = Bonded(poisson_ratio=0.5)
@@ -186,7 +186,7 @@ def test_the_symmetric_compliance_is_positive_definite(base):
 @pytest.mark.parametrize("base", BASES[:4], ids=repr)
 @pytest.mark.parametrize("thickness", [0.2, 1.0, 20.0])
 def test_the_stiffness_of_a_punch_is_first_order_in_the_nodes_distance(thickness, base):
-    exact = punch_crossover.stiffness(thickness, half_width=1.0, contact_modulus=1.0, base=base)
+    exact = crossover.stiffness(thickness, half_width=1.0, contact_modulus=1.0, base=base)
     found = np.array([punch_stiffness(np.linspace(0, 1, n), thickness, base) for n in LEVELS])
     error = found / exact - 1
     slope = np.polyfit(np.log(LEVELS - 1), np.log(np.abs(error)), 1)[0]

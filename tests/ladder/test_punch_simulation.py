@@ -26,7 +26,8 @@ from viscotack.result.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.theory import punch, punch_crossover, punch_curve
+from viscotack.theory import punch
+from viscotack.theory.punch import crossover, curve
 from viscotack.traction import LennardJones
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
@@ -69,7 +70,7 @@ def test_energy_audit_of_a_punch_closes_with_every_term_at_work():
 def test_work_of_a_punch_is_its_curve_in_units_of_the_work_of_adhesion():
     # w = (sigma_0 h_0/dg0) x integral of the mean tension over the depth, as the theory has it
     result = run(until="detached", rate=10.0)
-    of_curve = punch_curve.work_of_separation(result.depth, -result.force) * LAW.strength
+    of_curve = curve.work_of_separation(result.depth, -result.force) * LAW.strength
     # the far tail is added: the energy of the interface at a gap of 10 h0, 4/3/100
     left = 4 / 3 / 10**2
     assert work_of_separation(result) == pytest.approx(of_curve + left, rel=3e-3, abs=0)
@@ -200,7 +201,7 @@ def test_elastic_punch_tends_to_the_exact_crossover_for_a_short_range():
     ]
     limit = np.polynomial.polynomial.polyfit(sizes**-0.5, found, 2)[0]
     unit = dict(contact_modulus=1.0, work_of_adhesion=2 / np.pi)
-    exact = punch_crossover.pull_off_stress(4 / np.pi, half_width=1.0, **unit, base=Frictionless())
+    exact = crossover.pull_off_stress(4 / np.pi, half_width=1.0, **unit, base=Frictionless())
     assert exact / punch.half_plane_pull_off_stress(1.0, **unit) == pytest.approx(1.235, abs=1e-4)
     assert limit == pytest.approx(exact, rel=5e-3, abs=0)
 

@@ -1,5 +1,7 @@
 """The ladder of the flat punch on an elastic layer: identities, limits with exponents, units."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,14 +9,14 @@ from hypothesis import strategies as st
 from scipy.special import jv
 
 from reference_data import reference
-from viscotack.theory import greenwood, punch, punch_crossover
-from viscotack.theory.punch.punch import Bonded, Frictionless
+from viscotack.theory import greenwood, punch
+from viscotack.theory.punch import Bonded, Frictionless, Pad, crossover
 
 # A 2 mm pad of soft rubber, strong enough for b0 << b1.
 LAYER = dict(contact_modulus=1.3e6, work_of_adhesion=0.08)
 PAD = dict(LAYER, half_width=1e-3)
-STRONG = dict(PAD, strength=9e4)
 FREE = Frictionless()
+STRONG = Pad(**PAD, strength=9e4, base=FREE)
 BASES = [FREE, Bonded(poisson_ratio=0.0), Bonded(poisson_ratio=0.3), Bonded(poisson_ratio=0.45)]
 bases = pytest.mark.parametrize("base", BASES, ids=["free", "nu=0", "nu=0.3", "nu=0.45"])
 
@@ -68,13 +70,14 @@ def test_fracture_length_is_twice_the_cohesive_zone():
     zone = greenwood.cohesive_zone_length(**case)
     assert punch.fracture_length(**case) == pytest.approx(2 * zone, rel=1e-15, abs=0)
     # where a punch on a half-plane reaches its strength
-    a0 = punch.fracture_length(**case)
+    a0 = STRONG.fracture_length
+    assert a0 == punch.fracture_length(**case)
     assert punch.half_plane_pull_off_stress(a0, **LAYER) == pytest.approx(9e4, rel=1e-15, abs=0)
 
 
 @bases
 def test_regimes_join_where_their_formulas_are_equal(base):
-    b0, fast, b1 = punch.regime_thicknesses(**STRONG, modulus_ratio=0.02, base=base)
+    b0, fast, b1 = punch.regime_thicknesses(replace(STRONG, base=base), modulus_ratio=0.02)
     thin = punch.thin_layer_pull_off_stress([b0, fast, b1], **LAYER, base=base)
     assert thin[0] == pytest.approx(9e4, rel=1e-14, abs=0)
     # the glassy layer at b0 fast
@@ -82,37 +85,37 @@ def test_regimes_join_where_their_formulas_are_equal(base):
     assert thin[2] == pytest.approx(
         punch.half_plane_pull_off_stress(PAD["half_width"], **LAYER), rel=1e-14, abs=0
     )
-    a0 = punch.fracture_length(**LAYER, strength=9e4)
-    assert (fast > b1) == (PAD["half_width"] < a0 / 0.02)
+    assert (fast > b1) == (STRONG.half_width < STRONG.fracture_length / 0.02)
 
 
 @bases
 def test_envelope_follows_the_regime_it_names(base):
-    b0, _, b1 = punch.regime_thicknesses(**STRONG, modulus_ratio=1.0, base=base)
+    pad = replace(STRONG, base=base)
+    b0, _, b1 = punch.regime_thicknesses(pad, modulus_ratio=1.0)
     b = np.array([b0 / 3, b0 * 1.5, b1 / 1.5, b1 * 3])
-    words = punch.regime(b, **STRONG, base=base)
+    words = punch.regime(b, pad)
     assert words.tolist() == ["cohesive", "thin layer", "thin layer", "half-plane"]
     expected = [
         9e4,
         *punch.thin_layer_pull_off_stress(b[1:3], **LAYER, base=base),
         punch.half_plane_pull_off_stress(PAD["half_width"], **LAYER),
     ]
-    found = punch.pull_off_stress(b, **STRONG, base=base)
+    found = punch.pull_off_stress(b, pad)
     np.testing.assert_allclose(found, expected, rtol=1e-14)
 
 
 def test_a_punch_narrower_than_the_fracture_length_is_cohesive_on_every_layer():
-    narrow = dict(LAYER, strength=9e4, half_width=5e-6)
-    assert set(punch.regime([1e-7, 1e-5, 1e-2], **narrow, base=FREE)) == {"cohesive"}
-    np.testing.assert_array_equal(punch.pull_off_stress([1e-7, 1e-2], **narrow, base=FREE), 9e4)
+    narrow = replace(STRONG, half_width=5e-6)
+    assert set(punch.regime([1e-7, 1e-5, 1e-2], narrow)) == {"cohesive"}
+    np.testing.assert_array_equal(punch.pull_off_stress([1e-7, 1e-2], narrow), 9e4)
 
 
 def test_limits_are_the_envelopes_of_the_two_moduli():
     b = np.geomspace(1e-6, 1e-1, 30)
-    slow, fast = punch.limits(b, **STRONG, modulus_ratio=0.1, base=FREE)
-    np.testing.assert_array_equal(slow, punch.pull_off_stress(b, **STRONG, base=FREE))
-    glassy = STRONG | dict(contact_modulus=1.3e7)
-    np.testing.assert_allclose(fast, punch.pull_off_stress(b, **glassy, base=FREE), rtol=1e-14)
+    slow, fast = punch.limits(b, STRONG, modulus_ratio=0.1)
+    np.testing.assert_array_equal(slow, punch.pull_off_stress(b, STRONG))
+    glassy = replace(STRONG, contact_modulus=1.3e7)
+    np.testing.assert_allclose(fast, punch.pull_off_stress(b, glassy), rtol=1e-14)
     assert np.all(slow <= fast) and np.all(fast <= 9e4)
 
 
@@ -122,21 +125,38 @@ def test_thin_layer_law_warns_of_a_layer_near_incompressible_and_refuses_one():
     with pytest.raises(ValueError, match="without flowing"):
         punch.thin_layer_pull_off_stress(1e-5, **LAYER, base=Bonded(poisson_ratio=0.5))
     with pytest.raises(ValueError, match="at most 0.49"):
-        punch_crossover.pull_off_stress(1e-5, **PAD, base=Bonded(poisson_ratio=0.5))
+        crossover.pull_off_stress(1e-5, **PAD, base=Bonded(poisson_ratio=0.5))
     with pytest.raises(ValueError, match="between 0 and 0.5"):
         Bonded(poisson_ratio=0.6)
 
 
 def test_words_outside_their_range_are_refused():
     with pytest.raises(ValueError, match="modulus_ratio"):
-        punch.limits(1e-5, **STRONG, modulus_ratio=2.0, base=FREE)
+        punch.limits(1e-5, STRONG, modulus_ratio=2.0)
     with pytest.raises(ValueError, match="thickness must be positive"):
-        punch.pull_off_stress(0.0, **STRONG, base=FREE)
+        punch.pull_off_stress(0.0, STRONG)
     with pytest.raises(ValueError, match="above that of a half-plane"):
-        punch_crossover.thickness(1e3, **PAD, base=FREE)
+        crossover.thickness(1e3, **PAD, base=FREE)
+    with pytest.raises(ValueError, match="strength must be positive and finite, got -1.0 Pa"):
+        replace(STRONG, strength=-1)
+    with pytest.raises(ValueError, match="base must be Frictionless"):
+        replace(STRONG, base="glued")
 
 
 # The exact curve ------------------------------------------------------------------------------
+
+
+@bases
+def test_a_pad_answers_with_the_exact_curve(base):
+    pad, b = replace(STRONG, base=base), np.geomspace(1e-6, 1e-2, 7)
+    stress = pad.elastic_stress(b)
+    np.testing.assert_array_equal(stress, crossover.pull_off_stress(b, **PAD, base=base))
+    np.testing.assert_array_equal(
+        pad.elastic_depth(b), crossover.pull_off_depth(b, **PAD, base=base)
+    )
+    np.testing.assert_array_equal(
+        pad.elastic_thickness(stress), crossover.thickness(stress, **PAD, base=base)
+    )
 
 
 @bases
@@ -147,9 +167,9 @@ def test_energy_released_is_the_slope_of_the_stiffness(base):
     depth, step = -2e-6, 1e-3
     for b in PAD["half_width"] * np.array([0.05, 0.11, 0.4, 1.0, 4 / np.pi, 3.0, 20.0]):
         a = PAD["half_width"] * np.exp(step * np.array([-2.0, -1, 1, 2]))
-        S = punch_crossover.stiffness(b, **case | dict(half_width=a), base=base)
+        S = crossover.stiffness(b, **case | dict(half_width=a), base=base)
         change = S @ np.array([1.0, -8, 8, -1]) / (12 * step) / PAD["half_width"]
-        found = punch_crossover.energy_release_rate(depth, thickness=b, **case, base=base)
+        found = crossover.energy_release_rate(depth, thickness=b, **case, base=base)
         # difference quotient of fourth order, beside round-off over the step
         assert found == pytest.approx(depth**2 * change / 4, rel=2e-9, abs=0)
 
@@ -157,15 +177,15 @@ def test_energy_released_is_the_slope_of_the_stiffness(base):
 @bases
 def test_pull_off_is_where_the_energy_released_pays_for_the_interface(base):
     b = np.geomspace(1e-6, 1.0, 25)
-    depth = punch_crossover.pull_off_depth(b, **PAD, base=base)
-    stress = punch_crossover.pull_off_stress(b, **PAD, base=base)
+    depth = crossover.pull_off_depth(b, **PAD, base=base)
+    stress = crossover.pull_off_stress(b, **PAD, base=base)
     case = without_energy(PAD)
-    G = punch_crossover.energy_release_rate(depth, thickness=b, **case, base=base)
+    G = crossover.energy_release_rate(depth, thickness=b, **case, base=base)
     np.testing.assert_allclose(G, 0.08, rtol=1e-12)
-    S = punch_crossover.stiffness(b, **case, base=base)
+    S = crossover.stiffness(b, **case, base=base)
     np.testing.assert_allclose(2e-3 * stress, -S * depth, rtol=1e-12)
     # half force times depth, over the area
-    work = punch_crossover.work_of_separation(b, half_width=1e-3, work_of_adhesion=0.08, base=base)
+    work = crossover.work_of_separation(b, half_width=1e-3, work_of_adhesion=0.08, base=base)
     np.testing.assert_allclose(work, -stress * depth / 2, rtol=1e-12)
     assert np.all(np.diff(stress) < 0)
 
@@ -184,17 +204,17 @@ def test_stiffness_equals_the_plain_twin(base, ratio):
     system = 2 * np.pi * ((J * (weight * base.transfer(u / ratio) / u)) @ J.T + 1 / (np.pi * last))
     S = np.pi * np.linalg.solve(system, np.pi * (orders == 0))[0]
     case = dict(half_width=ratio * 1e-3, contact_modulus=1.0)
-    found = punch_crossover.stiffness(1e-3, **case, base=base)
+    found = crossover.stiffness(1e-3, **case, base=base)
     assert found == pytest.approx(S, rel=3e-5, abs=0)
 
 
 def test_thin_layer_tends_to_its_closed_form_in_proportion_to_its_thickness():
     b = 1e-3 * np.array([0.1, 1e-2, 1e-3])
-    exact = punch_crossover.pull_off_stress(b, **PAD, base=FREE)
+    exact = crossover.pull_off_stress(b, **PAD, base=FREE)
     excess = exact / punch.thin_layer_pull_off_stress(b, **LAYER, base=FREE) - 1
     assert slope(b, excess) == pytest.approx(1, abs=1e-3)
     np.testing.assert_allclose(excess / (b / 1e-3), 0.177131575829, rtol=1e-8)
-    depth = punch_crossover.pull_off_depth(b, **PAD, base=FREE)
+    depth = crossover.pull_off_depth(b, **PAD, base=FREE)
     np.testing.assert_allclose(
         depth, punch.thin_layer_pull_off_depth(b, **LAYER, base=FREE), rtol=1e-12
     )
@@ -203,7 +223,7 @@ def test_thin_layer_tends_to_its_closed_form_in_proportion_to_its_thickness():
 @bases
 def test_thin_layers_of_all_bases_obey_the_thin_law(base):
     b = 1e-3 * np.array([1e-3, 1e-4, 1e-5])
-    exact = punch_crossover.pull_off_stress(b, **PAD, base=base)
+    exact = crossover.pull_off_stress(b, **PAD, base=base)
     miss = exact / punch.thin_layer_pull_off_stress(b, **LAYER, base=base) - 1
     assert slope(b, miss) == pytest.approx(1, abs=1e-3)
 
@@ -211,25 +231,25 @@ def test_thin_layers_of_all_bases_obey_the_thin_law(base):
 @bases
 def test_thick_layer_tends_to_the_half_plane_with_the_square_of_its_thickness(base):
     b = 1e-3 * np.array([1e2, 1e3, 1e4])
-    exact = punch_crossover.pull_off_stress(b, **PAD, base=base)
+    exact = crossover.pull_off_stress(b, **PAD, base=base)
     excess = exact / punch.half_plane_pull_off_stress(1e-3, **LAYER) - 1
     assert slope(b, excess) == pytest.approx(-2, abs=2e-3)
     # 1/S grows with (2/pi) ln(b/a)
     case = without_energy(PAD) | dict(contact_modulus=1.0)
-    compliance = 1 / punch_crossover.stiffness(b, **case, base=base)
+    compliance = 1 / crossover.stiffness(b, **case, base=base)
     np.testing.assert_allclose(np.diff(compliance), 2 / np.pi * np.log(10), rtol=1e-4)
 
 
 def test_crossover_is_a_quarter_above_both_envelopes_where_they_meet():
-    b1 = punch.regime_thicknesses(**STRONG, modulus_ratio=1.0, base=FREE).half_plane
-    exact = punch_crossover.pull_off_stress(b1, **PAD, base=FREE)
-    assert exact / punch.pull_off_stress(b1, **STRONG, base=FREE) == pytest.approx(1.2350, abs=5e-5)
+    b1 = punch.regime_thicknesses(STRONG, modulus_ratio=1.0).half_plane
+    exact = crossover.pull_off_stress(b1, **PAD, base=FREE)
+    assert exact / punch.pull_off_stress(b1, STRONG) == pytest.approx(1.2350, abs=5e-5)
 
 
 @pytest.mark.parametrize("base", [*BASES, Bonded(poisson_ratio=0.49)])
 def test_nothing_jumps_where_the_table_ends(base):
     b = 1e-3 / np.linspace(1, 80, 4001)
-    stress = punch_crossover.pull_off_stress(b, **PAD, base=base)
+    stress = crossover.pull_off_stress(b, **PAD, base=base)
     bend = np.diff(np.log(stress), 2)
     # second differences of a smooth curve hardly change from point to point
     assert np.max(np.abs(np.diff(bend[50:]))) < 2e-6
@@ -238,8 +258,8 @@ def test_nothing_jumps_where_the_table_ends(base):
 @bases
 def test_thickness_is_the_inverse_of_the_stress(base):
     b = np.geomspace(1e-6, 3e-2, 23)
-    stress = punch_crossover.pull_off_stress(b, **PAD, base=base)
-    found = punch_crossover.thickness(stress, **PAD, base=base)
+    stress = crossover.pull_off_stress(b, **PAD, base=base)
+    found = crossover.thickness(stress, **PAD, base=base)
     # a thick layer hardly matters
     excess = stress / punch.half_plane_pull_off_stress(1e-3, **LAYER) - 1
     assert np.all(np.abs(found / b - 1) * np.minimum(excess, 1) < 1e-11)
@@ -257,18 +277,21 @@ def test_the_punch_does_not_depend_on_the_units(length, load, ratio):
     new = dict(half_width=2.0 * L, contact_modulus=3.0 * F / L**2, work_of_adhesion=5.0 * F / L)
     b = 2.0 * 10**ratio
     for function, unit in [
-        (punch_crossover.pull_off_stress, F / L**2),
-        (punch_crossover.pull_off_depth, L),
+        (crossover.pull_off_stress, F / L**2),
+        (crossover.pull_off_depth, L),
     ]:
         assert function(b * L, **new, base=base) == pytest.approx(
             unit * function(b, **old, base=base), rel=1e-12, abs=0
         )
-    old, new = old | dict(strength=7.0), new | dict(strength=7.0 * F / L**2)
-    found = punch.limits(b * L, **new, modulus_ratio=0.1, base=base)
-    expected = punch.limits(b, **old, modulus_ratio=0.1, base=base)
+    old, new = (
+        Pad(**case, strength=strength, base=base)
+        for case, strength in ((old, 7.0), (new, 7.0 * F / L**2))
+    )
+    found = punch.limits(b * L, new, modulus_ratio=0.1)
+    expected = punch.limits(b, old, modulus_ratio=0.1)
     np.testing.assert_allclose(found, F / L**2 * np.array(expected), rtol=1e-12)
-    found = punch.regime_thicknesses(**new, modulus_ratio=0.1, base=base)
-    expected = punch.regime_thicknesses(**old, modulus_ratio=0.1, base=base)
+    found = punch.regime_thicknesses(new, modulus_ratio=0.1)
+    expected = punch.regime_thicknesses(old, modulus_ratio=0.1)
     np.testing.assert_allclose(found, L * np.array(expected), rtol=1e-12)
 
 
@@ -279,9 +302,9 @@ def test_the_punch_does_not_depend_on_the_units(length, load, ratio):
 def test_the_exact_curve_gives_the_verified_value(row):
     b, unit = row["inputs"]["b/a"], dict(half_width=1.0, contact_modulus=1.0, base=FREE)
     if row["note"].startswith("S="):
-        found = punch_crossover.stiffness(b, **unit)
+        found = crossover.stiffness(b, **unit)
     else:
-        found = punch_crossover.pull_off_stress(b, **unit, work_of_adhesion=1.0)
+        found = crossover.pull_off_stress(b, **unit, work_of_adhesion=1.0)
     # the verified solution is good to 1e-11
     assert found == pytest.approx(row["value"], rel=2e-11, abs=0)
 
@@ -298,15 +321,13 @@ def test_the_closed_forms_give_the_verified_value(row):
             energy = 9 * np.sqrt(3) / 16 * S
             found = punch.fracture_length(contact_modulus=1.0, work_of_adhesion=energy, strength=S)
         case "3.10" | "3.16":
-            b0, fast, _ = punch.regime_thicknesses(
-                **unit, half_width=1.0, modulus_ratio=k, base=FREE
-            )
+            pad = Pad(**unit, half_width=1.0, base=FREE)
+            b0, fast, _ = punch.regime_thicknesses(pad, modulus_ratio=k)
             found = b0 if row["equation"] == "3.10" else fast
         case "App I":
             found = punch.stiffening(Bonded(poisson_ratio=inputs["nu"]))
         case _:
-            slow, fast = punch.limits(
-                inputs["b/a0"], half_width=inputs["a/a0"], **unit, modulus_ratio=k, base=FREE
-            )
+            pad = Pad(**unit, half_width=inputs["a/a0"], base=FREE)
+            slow, fast = punch.limits(inputs["b/a0"], pad, modulus_ratio=k)
             found = slow if row["equation"] == "3.13" else fast
     assert found == pytest.approx(value, rel=1e-13, abs=0)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.theory import (
+    CrackLaw,
     bounds,
     crack_regimes,
     dmt,
@@ -198,7 +199,8 @@ def test_the_rate_does_not_depend_on_the_units(length, load, time):
 
 
 def pulled(speed, material=SOLID, depth=5e-5):
-    return unloading.retraction(depth, speed=speed, material=material, tip_length=1e-6, **LENS)
+    law = CrackLaw(theory="persson-brener", material=material, tip_length=1e-6)
+    return unloading.retraction(depth, law, speed=speed, **LENS)
 
 
 @pytest.mark.parametrize("material", [SOLID, rubber(0.22, 1e-3), rubber(1.0, 0.9)])
@@ -263,12 +265,11 @@ def test_unloading_does_not_depend_on_the_units(length, load, time):
     )
     found = unloading.retraction(
         5e-5 * L,
+        CrackLaw(theory="persson-brener", material=material, tip_length=1e-6 * L),
         speed=1e-6 * L / T,
-        material=material,
         radius=5e-3 * L,
         contact_modulus=2e6 * M / L**2,
         work_of_adhesion=0.15 * M / L,
-        tip_length=1e-6 * L,
     )
     # steps are chosen by tolerance, so that round-off may move one
     assert found.pull_off_force == pytest.approx(M * pulled(1e-6).pull_off_force, rel=1e-4, abs=0)
@@ -303,12 +304,11 @@ def test_unloading_agrees_with_the_simulation_where_the_bulk_is_relaxed():
         )
         curve = unloading.retraction(
             73 * h0,
+            CrackLaw(theory="persson-brener", material=material, tip_length=l0),
             speed=speed * h0,
-            material=material,
             radius=1.0,
             contact_modulus=1.0,
             work_of_adhesion=1.0,
-            tip_length=l0,
         )
         assert curve.pull_off_force / (1.5 * np.pi) == pytest.approx(simulated, rel=margin, abs=0)
 

@@ -16,7 +16,16 @@ from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import LARGEST_CONTACT
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
-from viscotack.theory import bounds, detachment, jkr, lennard_jones, persson_brener, rate, unloading
+from viscotack.theory import (
+    CrackLaw,
+    bounds,
+    detachment,
+    jkr,
+    lennard_jones,
+    persson_brener,
+    rate,
+    unloading,
+)
 from viscotack.traction import LennardJones
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
@@ -327,25 +336,28 @@ def _start_depth(groups: Groups) -> float | None:
     return depth if depth > float(np.asarray(jkr.instability(**_UNIT).depth)) else None
 
 
-def _crack(groups: Groups) -> dict[str, Any]:
-    """Return speed, material and tip length as the theories of retraction take them."""
+def _crack(groups: Groups) -> CrackLaw:
+    """Return the law of the edge, R = E0* = dg0 = 1."""
     length = persson_brener.crack_tip_length(
         contact_modulus=1.0,
         work_of_adhesion=1.0,
         strength=groups.traction.strength * groups.tabor,
         strength_ratio=STRENGTH_RATIO,
     )
-    return {
-        "speed": _rate(groups) / groups.tabor,
-        "material": groups.material,
-        "tip_length": float(np.asarray(length)),
-    }
+    return CrackLaw(
+        theory="persson-brener", material=groups.material, tip_length=float(np.asarray(length))
+    )
+
+
+def _speed(groups: Groups) -> float:
+    """Return the speed of retraction in the same units."""
+    return _rate(groups) / groups.tabor
 
 
 def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
     if groups.modulus_ratio >= 1:
         return None
-    return unloading.retraction(depth, **_crack(groups), **_UNIT)
+    return unloading.retraction(depth, _crack(groups), speed=_speed(groups), **_UNIT)
 
 
 def _at_pull_off(groups: Groups, depth: float) -> detachment.State | None:
@@ -353,7 +365,7 @@ def _at_pull_off(groups: Groups, depth: float) -> detachment.State | None:
     if groups.modulus_ratio >= 1:
         return None
     try:
-        return detachment.at_pull_off(depth=depth, **_crack(groups), **_UNIT)
+        return detachment.at_pull_off(_speed(groups), _crack(groups), depth=depth, **_UNIT)
     except ValueError:
         # the problem itself is possible: what is refused is the start
         return None

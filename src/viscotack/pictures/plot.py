@@ -17,8 +17,7 @@ from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import Unit
 from viscotack.result import Result
 from viscotack.result.observables import pull_off
-from viscotack.theory.punch.punch import REGIMES
-from viscotack.theory.punch.punch_map import RegimeMap
+from viscotack.theory.punch import REGIMES, RegimeMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -156,7 +155,7 @@ def draw_regimes(found: RegimeMap) -> "Figure":
     Parameters
     ----------
     found : RegimeMap
-        As :func:`viscotack.theory.punch.punch_map.regime_map` returns it.
+        As :func:`viscotack.theory.punch.map.regime_map` returns it.
     """
     from matplotlib.patches import Patch
 

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from viscotack.problem import PunchGroups
 from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
-from viscotack.theory.punch.punch_curve import thin_layer_surface_energy
+from viscotack.theory.punch.curve import thin_layer_surface_energy
 
 from . import Outcome, Result
 
@@ -187,7 +187,7 @@ def effective_surface_energy(result: Result) -> float:
 
     Eq. 3.30 of Maghami, PhD thesis (2025). For layers thinner than :math:`b_1 = 4 \zeta a/\pi`;
     with a thicker one it gives a ``UserWarning``, and
-    :func:`viscotack.theory.punch.punch_curve.surface_energy` has what holds there.
+    :func:`viscotack.theory.punch.curve.surface_energy` has what holds there.
     """
     groups = _punch(result)
     if groups.base.foundation == 0:

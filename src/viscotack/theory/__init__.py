@@ -2,40 +2,50 @@
 
 Everywhere below: SI units; force positive in compression, depth positive into the solid,
 pressure positive in compression; the sphere is rigid, of radius R, and the half-space has the
-contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` and its companions sits on a
-layer, in plane strain, and counts stress positive in tension. The varying quantity comes first
-and may be an array; the parameters are keywords, and arrays of them broadcast. A scalar gives a
-float. A value outside the domain of a formula, in any element, raises ``ValueError``.
+contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` sits on a layer, in plane strain,
+and counts stress positive in tension. The varying quantity comes first and may be an array, then
+what a formula is about, if that has an object (``CrackLaw``, ``punch.Pad``); the parameters are
+keywords, and arrays of them broadcast. A scalar gives a float. A value outside the domain of a
+formula, in any element, raises ``ValueError``.
+
+Four wings, each of which knows itself and those before it: ``elastic``, ``crack``, ``sphere``,
+``punch``. The modules of the first three are here by their own names as well: ``theory.jkr``.
 """
 
+from . import crack, elastic, punch, sphere
 from .crack import (
+    CrackLaw,
     crack_regimes,
+    empirical,
     greenwood,
     modulus_file,
     persson_brener,
     tabulated,
     tabulated_modulus,
 )
-from .elastic import adhesion_map, bradley, dmt, hertz, jkr, lennard_jones, maugis, profiles
-from .punch import (
-    punch,
-    punch_crossover,
-    punch_curve,
-    punch_design,
-    punch_laws,
-    punch_map,
-    punch_rate,
-    punch_unloading,
+from .elastic import (
+    adhesion_map,
+    bradley,
+    dmt,
+    hertz,
+    jkr,
+    lennard_jones,
+    maugis,
+    profiles,
+    transition,
 )
-from .sphere import bounds, detachment, empirical, rate, transition, unloading
+from .sphere import bounds, detachment, rate, unloading
 
 __all__ = [
+    "CrackLaw",
     "adhesion_map",
     "bounds",
     "bradley",
+    "crack",
     "crack_regimes",
     "detachment",
     "dmt",
+    "elastic",
     "empirical",
     "greenwood",
     "hertz",
@@ -46,14 +56,8 @@ __all__ = [
     "persson_brener",
     "profiles",
     "punch",
-    "punch_crossover",
-    "punch_curve",
-    "punch_design",
-    "punch_laws",
-    "punch_map",
-    "punch_rate",
-    "punch_unloading",
     "rate",
+    "sphere",
     "tabulated",
     "tabulated_modulus",
     "transition",

@@ -22,6 +22,7 @@ UNITS = {
     "force": " N",
     "half_width": " m",
     "thickness": " m",
+    "tip_length": " m",
     "ligament": " m",
     "stress": " Pa",
     "pull_off_stress": " Pa",

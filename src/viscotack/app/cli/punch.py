@@ -16,16 +16,8 @@ from viscotack.materials.passport_file import read_passport
 from viscotack.pictures import plot
 from viscotack.problem.case_file import read_case
 from viscotack.problem.units import material_in_si
-from viscotack.theory import (
-    greenwood,
-    persson_brener,
-    punch,
-    punch_crossover,
-    punch_design,
-    punch_map,
-    punch_rate,
-    punch_unloading,
-)
+from viscotack.theory import CrackLaw, punch
+from viscotack.theory.punch import Pad
 from viscotack.units import parse
 
 from .commands import (
@@ -60,9 +52,6 @@ class Law(StrEnum):
 
     GREENWOOD = "greenwood"
     PERSSON_BRENER = "persson-brener"
-
-
-_LAWS = {Law.GREENWOOD: greenwood, Law.PERSSON_BRENER: persson_brener}
 
 
 def _given(flags: Mapping[str, Any]) -> dict[str, Any]:
@@ -144,10 +133,10 @@ def theory_punch(
     asked = {"thickness": thickness, "stress": stress, "speed": speed}
     with wrong_input():
         check_files({"--plot": plot_file}, reads=(case,))
-        pad, wanted = _stated_pad(case, flags, asked)
-        pad["theory"] = _LAWS[law]
-        answer = _boundaries(pad) | _asked(pad, wanted)
-        found = _map(pad) if with_map or plot_file is not None else None
+        pad, solid, wanted = _stated_pad(case, flags, asked)
+        crack = pad.crack_law(law, material=solid)
+        answer = _boundaries(pad, crack) | _asked(pad, crack, wanted)
+        found = _map(pad, crack) if with_map or plot_file is not None else None
     write = Writing()
     if found is not None:
         write.picture(plot_file, lambda: plot.draw_regimes(found))
@@ -166,24 +155,24 @@ def _line(name: str, value: Any) -> str:
 
 def _stated_pad(
     case: Path | None, flags: Mapping[str, Any], asked: Mapping[str, Any]
-) -> tuple[dict[str, Any], dict[str, float]]:
-    """Return the parameters of the theories in SI, and what is asked."""
+) -> tuple[Pad, Material, dict[str, float]]:
+    """Return the pad and its solid in SI, and what is asked."""
     units = {"thickness": "m", "stress": "Pa", "speed": "m/s"}
     wanted = {name: _quantity(name, text, units[name]) for name, text in _given(asked).items()}
     if "thickness" in wanted and "stress" in wanted:
         raise ValueError("give --thickness or --stress, not both: one answers the other")
     if case is None:
-        pad = _pad_from_flags(_given(flags))
+        pad, solid = _pad_from_flags(_given(flags))
     else:
         problem = _pad_problem(case, flags)
-        pad = _pad_of(problem)
+        pad, solid = _pad_of(problem), problem.material
         stated = {"speed": problem.protocol.speed}
         if "stress" not in wanted:
             stated["thickness"] = problem.body.thickness
         wanted = _given(stated) | wanted
     if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
         raise ValueError('--speed missing, the retraction speed; for example --speed "100 um/s"')
-    return pad, wanted
+    return pad, solid, wanted
 
 
 def _pad_problem(case: Path, flags: Mapping[str, Any]) -> Any:
@@ -203,33 +192,31 @@ def _quantity(name: str, text: str, unit: str) -> float:
         raise ValueError(f"--{name}: {error}") from None
 
 
-def _pad_of(problem: Any) -> dict[str, Any]:
-    law = problem.traction
-    return {
-        "half_width": problem.geometry.half_width,
-        "contact_modulus": problem.material.contact_modulus,
-        "work_of_adhesion": law.work_of_adhesion,
-        "strength": law.strength,
-        "material": problem.material,
-        "base": problem.body.base,
-    }
+def _pad_of(problem: Any) -> Pad:
+    return Pad(
+        half_width=problem.geometry.half_width,
+        contact_modulus=problem.material.contact_modulus,
+        work_of_adhesion=problem.traction.work_of_adhesion,
+        strength=problem.traction.strength,
+        base=problem.body.base,
+    )
 
 
-def _pad_from_flags(given: dict[str, Any]) -> dict[str, Any]:
+def _pad_from_flags(given: dict[str, Any]) -> tuple[Pad, Material]:
     needed = {"half-width": "m", "work-of-adhesion": "J/m^2", "strength": "Pa"}
     passport = str(given.get("material", "")).endswith(".toml")
     if not passport:
         needed["contact-modulus"] = "Pa"
     require(given, needed)
-    pad: dict[str, Any] = {
+    stated = {
         name.replace("-", "_"): _quantity(name, given[name], unit) for name, unit in needed.items()
     }
     if passport:
-        pad["material"] = read_passport(given["material"]).material
-        pad["contact_modulus"] = pad["material"].contact_modulus
+        solid = read_passport(given["material"]).material
+        stated["contact_modulus"] = solid.contact_modulus
     else:
-        pad["material"] = _solid_in_si(given, pad["contact_modulus"])
-    return pad | {"base": _base(given)}
+        solid = _solid_in_si(given, stated["contact_modulus"])
+    return Pad(**stated, base=_base(given)), solid
 
 
 def _solid_in_si(given: Mapping[str, Any], contact_modulus: float) -> Material:
@@ -245,13 +232,9 @@ def _solid_in_si(given: Mapping[str, Any], contact_modulus: float) -> Material:
     return material_in_si(solid, contact_modulus, time, 0.0)
 
 
-def _boundaries(pad: Mapping[str, Any]) -> dict[str, Any]:
+def _boundaries(pad: Pad, law: CrackLaw) -> dict[str, Any]:
     """Return where the ways to come off meet."""
-    sizes = {
-        name: pad[name]
-        for name in ("half_width", "contact_modulus", "work_of_adhesion", "strength", "base")
-    }
-    b0, fast, b1 = punch.regime_thicknesses(**sizes, modulus_ratio=pad["material"].modulus_ratio)
+    b0, fast, b1 = punch.regime_thicknesses(pad, modulus_ratio=law.material.modulus_ratio)
     return {
         "cohesive_below_m": b0,
         "cohesive_when_fast_below_m": fast,
@@ -259,27 +242,24 @@ def _boundaries(pad: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _asked(pad: dict[str, Any], wanted: Mapping[str, float]) -> dict[str, Any]:
+def _asked(pad: Pad, law: CrackLaw, wanted: Mapping[str, float]) -> dict[str, Any]:
     """Return the thickness for a stress, or the state at pull-off of a thickness."""
     if "stress" in wanted:
-        b = punch_design.thickness_at_speed(wanted["stress"], speed=wanted["speed"], **pad)
+        b = punch.thickness_at_speed(wanted["stress"], pad, law, speed=wanted["speed"])
         return {"thickness_m": b}
     if "thickness" not in wanted:
         return {}
     b, speed = wanted["thickness"], wanted["speed"]
-    found = punch_map.regime_map([b], [speed], **pad)
-    state = punch_unloading.pull_off(speed, thickness=b, **pad)
-    elastic = {
-        name: pad[name] for name in ("half_width", "contact_modulus", "work_of_adhesion", "base")
-    }
-    slow = float(punch_crossover.pull_off_stress(b, **elastic))
-    fast = slow / pad["material"].modulus_ratio ** 0.5
+    found = punch.regime_map([b], [speed], pad, law)
+    state = punch.pull_off(speed, pad, law, thickness=b)
+    slow = float(pad.elastic_stress(b))
+    fast = slow / law.material.modulus_ratio**0.5
     running = np.isfinite(state.crack_speed)
     return {
         "regime": str(found.regime[0, 0]),
         "pull_off_stress_Pa": state.stress,
-        "slowest_pull_off_stress_Pa": min(slow, pad["strength"]),
-        "fastest_pull_off_stress_Pa": min(fast, pad["strength"]),
+        "slowest_pull_off_stress_Pa": min(slow, pad.strength),
+        "fastest_pull_off_stress_Pa": min(fast, pad.strength),
         "pull_off_depth_m": state.depth,
         "ligament_at_pull_off_m": state.ligament,
         "crack_speed_at_pull_off_m_per_s": state.crack_speed if running else None,
@@ -287,29 +267,20 @@ def _asked(pad: dict[str, Any], wanted: Mapping[str, float]) -> dict[str, Any]:
     }
 
 
-def _map(pad: dict[str, Any]) -> punch_map.RegimeMap:
+def _map(pad: Pad, law: CrackLaw) -> punch.RegimeMap:
     """Return how the pad comes off, over the thicknesses and speeds that matter to it."""
-    k, a = pad["material"].modulus_ratio, pad["half_width"]
-    if k == 1:
+    a = pad.half_width
+    if law.largest == 1:
         raise ValueError("an elastic layer comes off in the same way at every speed: no map")
-    crack = {name: pad[name] for name in ("contact_modulus", "work_of_adhesion", "strength")}
-    cracks = punch_rate.crack_speed(
-        1 + np.array([_SLOW, _FAST]) * (1 / k - 1),
-        theory=pad["theory"],
-        largest=np.inf,
-        material=pad["material"],
-        **crack,
-    )
-    layer = {name: pad[name] for name in ("half_width", "contact_modulus", "base")}
-    depth = -punch_crossover.pull_off_depth(a, work_of_adhesion=pad["work_of_adhesion"], **layer)
+    cracks = law.speed(1 + np.array([_SLOW, _FAST]) * (law.largest - 1))
     # a punch moved by the depth of its pull-off while the cracks run through it
-    slow, fast = np.asarray(cracks) * depth / a
+    slow, fast = np.asarray(cracks) * -pad.elastic_depth(a) / a
     speed = np.geomspace(slow, fast, _ROWS)
-    thinnest = min(_THIN * float(_boundaries(pad)["cohesive_below_m"]), 0.1 * a)
-    return punch_map.regime_map(np.geomspace(thinnest, _THICK * a, _ROWS), speed, **pad)
+    thinnest = min(_THIN * float(_boundaries(pad, law)["cohesive_below_m"]), 0.1 * a)
+    return punch.regime_map(np.geomspace(thinnest, _THICK * a, _ROWS), speed, pad, law)
 
 
-def _rows(found: punch_map.RegimeMap) -> dict[str, Any]:
+def _rows(found: punch.RegimeMap) -> dict[str, Any]:
     return {
         "thickness_m": found.thickness.tolist(),
         "speed_m_per_s": found.speed.tolist(),

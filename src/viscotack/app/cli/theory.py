@@ -11,7 +11,8 @@ from typer import Option
 
 from viscotack.app.questions import SPHERE, material_from
 from viscotack.problem import Groups, Problem
-from viscotack.theory import greenwood, jkr, maugis, persson_brener, tabulated_modulus
+from viscotack.theory import jkr, maugis, tabulated_modulus
+from viscotack.theory.crack.law import THEORIES
 from viscotack.theory.crack.modulus_file import read_modulus
 from viscotack.units import parse, positive
 
@@ -257,7 +258,6 @@ def _check_maugis(quantities: dict[str, str | None], tabor: float | None) -> Non
         raise ValueError(f"{' and '.join(missing)} missing; or give --tabor alone")
 
 
-_LAWS: dict[str, Any] = {"persson-brener": persson_brener, "greenwood": greenwood}
 _TABLE_LAWS = {
     "persson-brener": (tabulated_modulus.amplification, tabulated_modulus.speed_range),
     "greenwood": (
@@ -280,7 +280,7 @@ def _crack(
         check_files({"--plot": plot_file}, reads=(measured[0],))
         given = {flag: value for flag, value in flags.items() if value is not None}
         if measured == (None, None):
-            v, found = _of_material(_LAWS[name], given, speed)
+            v, found = _of_material(THEORIES[name], given, speed)
             unit = "the time of the material"
         else:
             v, found = _of_table(name, given, speed, *measured)

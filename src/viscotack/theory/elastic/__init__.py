@@ -1,6 +1,17 @@
 """Contacts of elastic solids."""
 
-from . import adhesion_map, bradley, dmt, hertz, indenter, jkr, lennard_jones, maugis, profiles
+from . import (
+    adhesion_map,
+    bradley,
+    dmt,
+    hertz,
+    indenter,
+    jkr,
+    lennard_jones,
+    maugis,
+    profiles,
+    transition,
+)
 
 __all__ = [
     "adhesion_map",
@@ -12,4 +23,5 @@ __all__ = [
     "lennard_jones",
     "maugis",
     "profiles",
+    "transition",
 ]

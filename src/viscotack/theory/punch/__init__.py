@@ -1,21 +1,58 @@
-"""A flat punch comes off a layer."""
+"""A flat punch comes off a layer: a module for each step, and the functions asked most."""
 
-from . import (
-    punch_crossover,
-    punch_curve,
-    punch_design,
-    punch_laws,
-    punch_map,
-    punch_rate,
-    punch_unloading,
+from viscotack.geometry import Bonded, Frictionless
+
+from . import crossover, curve, design, laws, map, pad, rate, regimes, unloading
+from .design import thickness_at_crack_speed, thickness_at_speed
+from .laws import (
+    fracture_length,
+    half_plane_pull_off_stress,
+    stiffening,
+    thin_layer_pull_off_depth,
+    thin_layer_pull_off_stress,
 )
+from .map import RegimeMap, regime_map
+from .pad import Pad
+from .regimes import (
+    REGIMES,
+    Limits,
+    Thicknesses,
+    limits,
+    pull_off_stress,
+    regime,
+    regime_thicknesses,
+)
+from .unloading import PullOff, pull_off
 
 __all__ = [
-    "punch_crossover",
-    "punch_curve",
-    "punch_design",
-    "punch_laws",
-    "punch_map",
-    "punch_rate",
-    "punch_unloading",
+    "REGIMES",
+    "Bonded",
+    "Frictionless",
+    "Limits",
+    "Pad",
+    "PullOff",
+    "RegimeMap",
+    "Thicknesses",
+    "crossover",
+    "curve",
+    "design",
+    "fracture_length",
+    "half_plane_pull_off_stress",
+    "laws",
+    "limits",
+    "map",
+    "pad",
+    "pull_off",
+    "pull_off_stress",
+    "rate",
+    "regime",
+    "regime_map",
+    "regime_thicknesses",
+    "regimes",
+    "stiffening",
+    "thickness_at_crack_speed",
+    "thickness_at_speed",
+    "thin_layer_pull_off_depth",
+    "thin_layer_pull_off_stress",
+    "unloading",
 ]

@@ -1,5 +1,5 @@
 """A sphere comes off a viscoelastic solid."""
 
-from . import bounds, detachment, empirical, rate, transition, unloading
+from . import bounds, detachment, rate, unloading
 
-__all__ = ["bounds", "detachment", "empirical", "rate", "transition", "unloading"]
+__all__ = ["bounds", "detachment", "rate", "unloading"]

@@ -46,7 +46,7 @@ import numpy.typing as npt
 
 from viscotack.theory._checks import Number, plain, positive
 from viscotack.theory._scales import contact_scales
-from viscotack.theory.crack import _crack, persson_brener
+from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 
 # Depth at the largest tension, -3^(1/3)/4, and da/d(depth) there, 3^(1/3)/2, of JKR.
@@ -85,13 +85,12 @@ class State(NamedTuple):
 
 def at_pull_off(
     speed: npt.ArrayLike,
+    law: CrackLaw,
     *,
     depth: float,
-    material: _crack.Material,
     radius: float,
     contact_modulus: float,
     work_of_adhesion: float,
-    tip_length: float,
 ) -> State:
     r"""Return the state at pull-off of a sphere retracted at speeds r [m/s], positive.
 
@@ -99,14 +98,14 @@ def at_pull_off(
     ----------
     speed : array_like
         Retraction speed [m/s].
+    law : CrackLaw
+        Of the edge; the bulk creeps as its material does. The scatter above is that of Persson and
+        Brener with the length of
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
     depth : float
         Depth of the relaxed start [m].
-    material : viscoelastic material of :mod:`viscotack.materials`
-        For the creep and for the law of the crack; its rubbery modulus is not used.
     radius, contact_modulus, work_of_adhesion : float
         Of the relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
-    tip_length : float
-        l0 of :func:`viscotack.theory.crack.persson_brener.crack_tip_length` [m].
 
     Raises
     ------
@@ -117,7 +116,7 @@ def at_pull_off(
     Notes
     -----
     One equation for t. As t grows, creep being concave, t/kappa grows and with it Gamma; kappa
-    grows, so v falls and Gamma_PB(v) with it: there is one root, and bisection finds it.
+    grows, so v falls and Gamma(v) of the law with it: there is one root, and bisection finds it.
 
     Examples
     --------
@@ -125,19 +124,19 @@ def at_pull_off(
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
     ... )
+    >>> law = CrackLaw(theory="persson-brener", material=solid, tip_length=1e-6)
     >>> state = at_pull_off(
-    ...     1e-4, depth=5e-4, material=solid, radius=5e-3, contact_modulus=2e6,
-    ...     work_of_adhesion=0.15, tip_length=1e-6,
+    ...     1e-4, law, depth=5e-4, radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15
     ... )
     >>> f"{state.force * 1e3:.1f} mN at {state.crack_speed * 1e3:.2f} mm/s"
     '31.3 mN at 0.97 mm/s'
     """
     r = np.asarray(positive(speed=speed))
-    l0 = float(positive(tip_length=tip_length))
     case = dict(radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
     length, height, load = (float(x) for x in contact_scales(**case))
     start = float(np.asarray(jkr.contact_radius_at_depth(depth, **case)))
-    k, unit = material.modulus_ratio, material.time_unit
+    k, unit = law.material.modulus_ratio, law.material.time_unit
+    dimensionless = law.reduced()
     least = depth + _DEPTH * height
     if not least > 0:
         raise ValueError(
@@ -146,7 +145,7 @@ def at_pull_off(
         )
     low = np.log(k * least / r)
     high = np.log((depth + _DEPTH * height * k ** (-2 / 3)) / r)
-    modes = material.retardation_modes(
+    modes = law.material.retardation_modes(
         shortest=float(np.exp(np.min(low))),
         longest=float(np.exp(np.max(high))),
         tolerance=_TOLERANCE * k,
@@ -162,7 +161,7 @@ def at_pull_off(
         return excess**1.5, v, compliance
 
     def crack(v: Any) -> Any:
-        return np.asarray(persson_brener.amplification(v * unit / l0, material=material))
+        return np.asarray(dimensionless.amplification(v * unit / law.tip_length))
 
     for _ in range(_ROUNDS):
         middle = (low + high) / 2

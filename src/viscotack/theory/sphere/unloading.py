@@ -32,7 +32,7 @@ from scipy.interpolate import CubicSpline
 
 from viscotack.theory._checks import positive
 from viscotack.theory._scales import contact_scales
-from viscotack.theory.crack import _crack, persson_brener
+from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 
 Array = npt.NDArray[np.float64]
@@ -91,13 +91,12 @@ class Unloading(NamedTuple):
 
 def retraction(
     depth: float,
+    law: CrackLaw,
     *,
     speed: float,
-    material: _crack.Material,
     radius: float,
     contact_modulus: float,
     work_of_adhesion: float,
-    tip_length: float,
 ) -> Unloading:
     """Return the curve of a sphere that is pulled off a relaxed contact at a constant speed.
 
@@ -105,14 +104,13 @@ def retraction(
     ----------
     depth : float
         Depth of the relaxed start [m], not below that of :func:`jkr.instability`.
+    law : CrackLaw
+        Of the edge. The errors above are those of Persson and Brener with the length of
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
     speed : float
         Retraction speed r [m/s], positive.
-    material : viscoelastic material of :mod:`viscotack.materials`
-        For the law of the crack; its rubbery modulus is not used.
     radius, contact_modulus, work_of_adhesion : float
         Of the relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
-    tip_length : float
-        l0 of :func:`viscotack.theory.crack.persson_brener.crack_tip_length` [m].
 
     Returns
     -------
@@ -136,23 +134,23 @@ def retraction(
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
     ... )
+    >>> law = CrackLaw(theory="persson-brener", material=solid, tip_length=1e-6)
     >>> curve = retraction(
-    ...     5e-5, speed=1e-6, material=solid, radius=5e-3, contact_modulus=2e6,
-    ...     work_of_adhesion=0.15, tip_length=1e-6,
+    ...     5e-5, law, speed=1e-6, radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15
     ... )
     >>> f"{curve.pull_off_force * 1e3:.2f} mN"
     '9.71 mN'
     """
-    if material.modulus_ratio >= 1:
+    if law.largest <= 1:
         raise ValueError("an elastic solid has no rate; its curve is that of theory.jkr")
-    r, l0 = (float(x) for x in positive(speed=speed, tip_length=tip_length))
+    r = float(positive(speed=speed))
     case = dict(radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
     length, height, load = (float(x) for x in contact_scales(**case))
     start = float(np.asarray(jkr.contact_radius_at_depth(depth, **case))) / length
     d0 = depth / height
     # edge speed in the scale of contact radius per scale of depth travelled
-    unit = l0 / material.time_unit / length * height / r
-    log_speed = _law(material)
+    unit = law.speed_unit / length * height / r
+    log_speed = _log_speed(law.reduced())
     # a slower edge is in equilibrium to within _FIRST anyhow, and would only be stiffer
     unit = min(unit, np.exp(-log_speed(np.log(_FIRST))))
 
@@ -185,7 +183,7 @@ def retraction(
         gamma, _ = amplification(solver.t, max(a, _SMALLEST))
         if solver.status == "failed":
             raise RuntimeError(f"the motion could not be integrated beyond a = {a * length:.3g} m")
-        if a <= _SMALLEST or gamma * material.modulus_ratio > _GLASSY:
+        if a <= _SMALLEST or gamma * law.material.modulus_ratio > _GLASSY:
             break
         path.append(float(solver.t))
         radii.append(a)
@@ -204,13 +202,13 @@ def retraction(
     )
 
 
-def _law(material: _crack.Material) -> Any:
+def _log_speed(law: CrackLaw) -> Any:
     """Return ln of the dimensionless speed as a function of ln(Gamma - 1), tabulated once."""
-    k = material.modulus_ratio
+    k = law.material.modulus_ratio
     ends = [1 + (1 / k - 1) * part for part in (_LOW, _HIGH)]
-    low, high = np.log([float(persson_brener.speed(end, material=material)) for end in ends])
+    low, high = np.log([float(law.speed(end)) for end in ends])
     grid = np.linspace(low, high, max(100, int(_PER_DECADE * (high - low) / np.log(10))))
-    gamma = np.asarray(persson_brener.amplification(np.exp(grid), material=material))
+    gamma = np.asarray(law.amplification(np.exp(grid)))
     odds = np.log((gamma - 1) / (1 / k - gamma))
     spline = CubicSpline(odds, grid)
     slope = float(spline(odds[0], 1))

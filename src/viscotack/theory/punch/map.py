@@ -1,21 +1,20 @@
 """Which way a flat punch comes off a viscoelastic layer: a map over thickness and speed.
 
-Parameters as in :mod:`viscotack.theory.punch.punch_unloading`, and its range.
+Pad, law of its edges and range are those of :mod:`viscotack.theory.punch.unloading`.
 """
 
 from __future__ import annotations
 
-from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.geometry import Base
 from viscotack.theory._checks import positive
-from viscotack.theory.crack import _crack
+from viscotack.theory.crack import CrackLaw
 
-from . import punch, punch_crossover, punch_rate, punch_unloading
+from . import rate, regimes, unloading
+from .pad import Pad
 
 
 class RegimeMap(NamedTuple):
@@ -28,7 +27,7 @@ class RegimeMap(NamedTuple):
     speed : ndarray, shape (M,)
         Of retraction [m/s].
     regime : ndarray of str, shape (N, M)
-        One of :data:`viscotack.theory.punch.punch.REGIMES`.
+        One of :data:`viscotack.theory.punch.regimes.REGIMES`.
     stress : ndarray, shape (N, M)
         Mean pull-off stress [Pa].
     crack_speed : ndarray, shape (N, M)
@@ -45,20 +44,11 @@ class RegimeMap(NamedTuple):
     stress: npt.NDArray[np.float64]
     crack_speed: npt.NDArray[np.float64]
     amplification: npt.NDArray[np.float64]
-    boundaries: punch.Thicknesses
+    boundaries: regimes.Thicknesses
 
 
 def regime_map(
-    thickness: npt.ArrayLike,
-    speed: npt.ArrayLike,
-    *,
-    half_width: float,
-    contact_modulus: float,
-    work_of_adhesion: float,
-    strength: float,
-    material: _crack.Material,
-    theory: ModuleType,
-    base: Base,
+    thickness: npt.ArrayLike, speed: npt.ArrayLike, pad: Pad, law: CrackLaw
 ) -> RegimeMap:
     """Return how a pad comes off, over lists of thicknesses [m] and retraction speeds [m/s].
 
@@ -69,16 +59,16 @@ def regime_map(
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.theory import greenwood
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )
-    >>> found = regime_map(
-    ...     [1e-4, 2e-3], [1e-6, 1.0], half_width=1e-3, contact_modulus=1e6,
-    ...     work_of_adhesion=0.05, strength=5e4, material=solid, theory=greenwood,
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
     ...     base=Frictionless(),
     ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> found = regime_map([1e-4, 2e-3], [1e-6, 1.0], pad, law)
     >>> found.regime.tolist()
     [['thin layer', 'cohesive'], ['half-plane', 'half-plane']]
     """
@@ -88,26 +78,19 @@ def regime_map(
             f"thickness and speed must be lists, the axes of the map, got shapes {b.shape} and "
             f"{r.shape}"
         )
-    layer: dict[str, Any] = dict(half_width=half_width, contact_modulus=contact_modulus, base=base)
-    energy: dict[str, Any] = dict(work_of_adhesion=work_of_adhesion, strength=strength)
-    law: dict[str, Any] = dict(material=material, theory=theory)
-    state = punch_unloading.pull_off(r, thickness=b[:, None], **layer, **energy, **law)
+    state = unloading.pull_off(r, pad, law, thickness=b[:, None])
     crack = np.asarray(state.crack_speed)
     running = np.isfinite(crack)
     unlimited = np.ones(crack.shape)
-    unlimited[running] = punch_rate.amplification(
-        crack[running], largest=np.inf, contact_modulus=contact_modulus, **energy, **law
-    )
-    elastic = np.asarray(
-        punch_crossover.pull_off_stress(b, **layer, work_of_adhesion=work_of_adhesion)
-    )
-    boundaries = punch.regime_thicknesses(**layer, **energy, modulus_ratio=material.modulus_ratio)
-    cohesive = np.sqrt(unlimited) * elastic[:, None] >= strength
+    unlimited[running] = rate.amplification(crack[running], law, largest=np.inf)
+    boundaries = regimes.regime_thicknesses(pad, modulus_ratio=law.material.modulus_ratio)
+    elastic = np.asarray(pad.elastic_stress(b))
+    cohesive = np.sqrt(unlimited) * elastic[:, None] >= pad.strength
     thick = np.where(b > boundaries.half_plane, 2, 1)[:, None]
     return RegimeMap(
         thickness=b,
         speed=r,
-        regime=np.array(punch.REGIMES)[np.where(cohesive, 0, thick)],
+        regime=np.array(regimes.REGIMES)[np.where(cohesive, 0, thick)],
         stress=np.asarray(state.stress),
         crack_speed=crack,
         amplification=np.asarray(state.amplification),

@@ -2,28 +2,27 @@ r"""How thick must the pad be: design answers for a flat punch on a viscoelastic
 
 The pull-off stress at a crack speed, or at a retraction speed, falls with the thickness, from the
 strength :math:`\sigma_0` to the half-plane; these functions turn that round. Which way a pad comes
-off, over thickness and speed, is :mod:`viscotack.theory.punch.punch_map`.
+off, over thickness and speed, is :mod:`viscotack.theory.punch.map`.
 
-Parameters as in :mod:`viscotack.theory.punch.punch_unloading`, whose range and errors hold here:
-the stress comes out up to 19 % high, and so does the thickness, by up to twice as much on thin
-layers.
+The pad and the law of its edges are those of :mod:`viscotack.theory.punch.unloading`, whose range
+and errors hold here: the stress comes out up to 19 % high, and so does the thickness, by up to
+twice as much on thin layers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
-from viscotack.theory.crack import _crack
+from viscotack.theory.crack import CrackLaw
 
-from . import punch_crossover, punch_rate, punch_unloading
+from . import rate, unloading
+from .pad import Pad
 
 # Thickest layer, in half widths, of an answer at a crack speed (a half-plane to 1e-4) and of one
 # at a retraction speed.
@@ -32,16 +31,7 @@ _TOLERANCE = 1e-12
 
 
 def pull_off_stress(
-    thickness: npt.ArrayLike,
-    *,
-    crack_speed: npt.ArrayLike,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
-    material: _crack.Material,
-    theory: ModuleType,
-    base: Base,
+    thickness: npt.ArrayLike, pad: Pad, law: CrackLaw, *, crack_speed: npt.ArrayLike
 ) -> Number:
     r"""Return the mean stress [Pa] at which edges move at a crack speed [m/s], contact still whole.
 
@@ -55,45 +45,26 @@ def pull_off_stress(
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.theory import greenwood
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )
-    >>> pad = dict(
+    >>> pad = Pad(
     ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
-    ...     material=solid, theory=greenwood, base=Frictionless(),
+    ...     base=Frictionless(),
     ... )
-    >>> stress = pull_off_stress(3e-4, crack_speed=[0, 1e-2, 1], **pad)
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> stress = pull_off_stress(3e-4, pad, law, crack_speed=[0, 1e-2, 1])
     >>> [f"{s / 1e3:.1f} kPa" for s in stress]
     ['19.2 kPa', '25.3 kPa', '46.2 kPa']
     """
-    case: dict[str, Any] = dict(contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
-    elastic = np.asarray(
-        punch_crossover.pull_off_stress(thickness, half_width=half_width, **case, base=base)
-    )
-    gamma = punch_rate.amplification(
-        crack_speed,
-        theory=theory,
-        largest=(positive(strength=strength) / elastic) ** 2,
-        **case,
-        strength=strength,
-        material=material,
-    )
+    elastic = np.asarray(pad.elastic_stress(thickness))
+    gamma = rate.amplification(crack_speed, law, largest=(pad.strength / elastic) ** 2)
     return plain(elastic * np.sqrt(gamma))
 
 
 def thickness_at_crack_speed(
-    stress: npt.ArrayLike,
-    *,
-    crack_speed: float,
-    half_width: float,
-    contact_modulus: float,
-    work_of_adhesion: float,
-    strength: float,
-    material: _crack.Material,
-    theory: ModuleType,
-    base: Base,
+    stress: npt.ArrayLike, pad: Pad, law: CrackLaw, *, crack_speed: float
 ) -> Number:
     """Return the thickness [m] with a wanted pull-off stress [Pa] at a crack speed [m/s].
 
@@ -103,92 +74,54 @@ def thickness_at_crack_speed(
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.theory import greenwood
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )
-    >>> pad = dict(
+    >>> pad = Pad(
     ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
-    ...     material=solid, theory=greenwood, base=Frictionless(),
+    ...     base=Frictionless(),
     ... )
-    >>> f"{thickness_at_crack_speed(3e4, crack_speed=0.01, **pad) * 1e6:.0f} um"
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> f"{thickness_at_crack_speed(3e4, pad, law, crack_speed=0.01) * 1e6:.0f} um"
     '198 um'
     """
-    layer: dict[str, Any] = dict(
-        half_width=half_width,
-        contact_modulus=contact_modulus,
-        work_of_adhesion=work_of_adhesion,
-        base=base,
-    )
-    law: dict[str, Any] = dict(strength=strength, material=material, theory=theory)
     return _thickness(
-        stress,
-        lambda b: pull_off_stress(b, crack_speed=crack_speed, **layer, **law),
-        strength,
-        layer,
-        _HALF_PLANE,
+        stress, pad, lambda b: pull_off_stress(b, pad, law, crack_speed=crack_speed), _HALF_PLANE
     )
 
 
-def thickness_at_speed(
-    stress: npt.ArrayLike,
-    *,
-    speed: float,
-    half_width: float,
-    contact_modulus: float,
-    work_of_adhesion: float,
-    strength: float,
-    material: _crack.Material,
-    theory: ModuleType,
-    base: Base,
-) -> Number:
+def thickness_at_speed(stress: npt.ArrayLike, pad: Pad, law: CrackLaw, *, speed: float) -> Number:
     """Return the thickness [m] with a wanted pull-off stress [Pa] at a retraction speed [m/s].
 
-    The inverse of :func:`viscotack.theory.punch.punch_unloading.pull_off`, for a wanted stress
+    The inverse of :func:`viscotack.theory.punch.unloading.pull_off`, for a wanted stress
     below the strength and above that of a layer of 5 a. Some 50 ms each.
 
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.theory import greenwood
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )
-    >>> pad = dict(
+    >>> pad = Pad(
     ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
-    ...     material=solid, theory=greenwood, base=Frictionless(),
+    ...     base=Frictionless(),
     ... )
-    >>> f"{thickness_at_speed(3e4, speed=1e-4, **pad) * 1e6:.0f} um"
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> f"{thickness_at_speed(3e4, pad, law, speed=1e-4) * 1e6:.0f} um"
     '183 um'
     """
-    layer: dict[str, Any] = dict(
-        half_width=half_width,
-        contact_modulus=contact_modulus,
-        work_of_adhesion=work_of_adhesion,
-        base=base,
-    )
-    law: dict[str, Any] = dict(strength=strength, material=material, theory=theory)
     return _thickness(
-        stress,
-        lambda b: punch_unloading.pull_off(speed, thickness=b, **layer, **law).stress,
-        strength,
-        layer,
-        _THICKEST,
+        stress, pad, lambda b: unloading.pull_off(speed, pad, law, thickness=b).stress, _THICKEST
     )
 
 
 def _thickness(
-    wanted: npt.ArrayLike,
-    stress: Callable[[float], Any],
-    strength: float,
-    layer: dict[str, Any],
-    thickest: float,
+    wanted: npt.ArrayLike, pad: Pad, stress: Callable[[float], Any], thickest: float
 ) -> Number:
     """Return where a stress that falls with the thickness takes the wanted values."""
-    sigma, s0 = positive(stress=wanted, strength=strength)
-    a = layer["half_width"]
+    sigma, s0, a = positive(stress=wanted), pad.strength, pad.half_width
     if np.any(sigma >= s0):
         raise ValueError(
             f"stress must be below the strength of the interface, {s0:.6g} Pa, got "
@@ -201,7 +134,7 @@ def _thickness(
             f"{lowest:.6g} Pa, got {np.min(sigma):.6g} Pa"
         )
     # up to here the elastic layer comes off at the strength
-    thin = np.log(punch_crossover.thickness(s0, **layer)) - 1e-6
+    thin = np.log(pad.elastic_thickness(s0)) - 1e-6
     thick = np.log(thickest * a)
 
     def solved(value: float) -> float:

@@ -8,13 +8,13 @@ all at once, when the energy that its edges release pays for the interface:
 
 S depends on a/b and on how the layer rests on its base. For a thin layer it is
 :math:`2 \zeta a/b + c` but for exponentially small terms, so that the pull-off stress is that of
-:func:`viscotack.theory.punch.punch.thin_layer_pull_off_stress` times :math:`1 + (c/2\zeta) \, b/a`,
+:func:`viscotack.theory.punch.laws.thin_layer_pull_off_stress` times :math:`1 + (c/2\zeta) \, b/a`,
 with c/2 = 0.177131575829 on a frictionless base; for a thick one
 :math:`1/S \to (2/\pi) \ln(b/a)` and a constant. In between it is computed, to 1e-11 on a
 frictionless base and 1e-9 on a bonded one: once for each base, in a tenth of a second to two
 seconds, then from Chebyshev polynomials in ln(1 + a/b).
 
-Parameters as in :mod:`viscotack.theory.punch.punch`. Range: forces of short range (a cohesive zone
+Parameters as in :mod:`viscotack.theory.punch.laws`. Range: forces of short range (a cohesive zone
 small beside a and b: no cap by the strength), linear elastic layer, a punch without friction.
 
 Source: this package; the transfer function of the layer is that of Maghami, PhD thesis (2025),
@@ -31,7 +31,7 @@ import numpy.typing as npt
 from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
 
-from ._punch_kernel import curve
+from ._kernel import curve
 
 _HALVINGS = 64
 
@@ -47,7 +47,7 @@ def stiffness(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(half_width=1e-3, contact_modulus=1e6, base=Frictionless())
     >>> f"{stiffness(1e-4, **pad) / 1e6:.4f} MPa"
     '20.3543 MPa'
@@ -71,7 +71,7 @@ def energy_release_rate(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(thickness=1e-4, half_width=1e-3, contact_modulus=1e6, base=Frictionless())
     >>> f"{energy_release_rate(-3e-6, **pad):.4f} J/m^2"
     '0.0450 J/m^2'
@@ -99,7 +99,7 @@ def pull_off_stress(
     --------
     Where the thin-layer and the half-plane formula meet, 23.5 % above both:
 
-    >>> from viscotack.theory.punch.punch import Frictionless, half_plane_pull_off_stress
+    >>> from viscotack.theory.punch import Frictionless, half_plane_pull_off_stress
     >>> pad = dict(contact_modulus=1e6, work_of_adhesion=0.05)
     >>> exact = pull_off_stress(4e-3 / np.pi, half_width=1e-3, **pad, base=Frictionless())
     >>> f"{exact / half_plane_pull_off_stress(1e-3, **pad):.4f}"
@@ -127,7 +127,7 @@ def pull_off_depth(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
     >>> f"{pull_off_depth(1e-4, **pad, base=Frictionless()) * 1e6:.2f} um"
     '-3.16 um'
@@ -159,7 +159,7 @@ def work_of_separation(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(half_width=1e-3, work_of_adhesion=0.05, base=Frictionless())
     >>> [f"{work_of_separation(b, **pad) * 1e3:.1f} mJ/m^2" for b in (1e-5, 1e-3, 1e-1)]
     ['50.1 mJ/m^2', '59.1 mJ/m^2', '247.4 mJ/m^2']
@@ -183,7 +183,7 @@ def thickness(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
     >>> f"{thickness(2e4, **pad, base=Frictionless()) * 1e6:.0f} um"
     '275 um'

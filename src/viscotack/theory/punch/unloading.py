@@ -14,11 +14,10 @@ stress by less than 1 % up to b = 5a and a Poisson ratio of 0.45, the whole moti
 
 and pull-off the point of largest stress. The amplification is limited by
 :math:`(\sigma_0/\bar\sigma_{el})^2`, with the exact elastic pull-off stress of
-:mod:`viscotack.theory.punch.punch_crossover`, so that the stress stays below the strength.
+:mod:`viscotack.theory.punch.crossover`, so that the stress stays below the strength.
 
-Parameters as in :mod:`viscotack.theory.punch.punch_rate`; ``speed`` r [m/s], retraction, positive;
-``theory`` the module :mod:`viscotack.theory.crack.greenwood` or
-:mod:`viscotack.theory.crack.persson_brener`.
+The crack is that of the edges of the pad, :meth:`viscotack.theory.punch.pad.Pad.crack_law`;
+``speed`` r [m/s] that of retraction, positive.
 
 Range: b < 5a, a relaxed start, a cohesive zone small beside a and b. The bulk is taken as relaxed;
 that it is not, in fast retraction, hardly moves the stress, but makes pull-off come at a much
@@ -32,17 +31,16 @@ Source: this package, after the thin layer of Maghami, PhD thesis (2025), chapte
 
 from __future__ import annotations
 
-from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
-from viscotack.theory.crack import _crack
+from viscotack.theory.crack import CrackLaw
 
-from . import punch_crossover, punch_rate
+from . import crossover, rate
+from .pad import Pad
 
 # Crack speeds that are followed, in r a/v0: slower ones take no part of the ligament, and pull-off
 # is at one of (a_c/a)(v0/v)/(d ln S/d ln a_c), which is below 2 up to b = 5a.
@@ -77,18 +75,7 @@ class PullOff(NamedTuple):
     amplification: Number
 
 
-def pull_off(
-    speed: npt.ArrayLike,
-    *,
-    thickness: npt.ArrayLike,
-    half_width: float,
-    contact_modulus: float,
-    work_of_adhesion: float,
-    strength: float,
-    material: _crack.Material,
-    theory: ModuleType,
-    base: Base,
-) -> PullOff:
+def pull_off(speed: npt.ArrayLike, pad: Pad, law: CrackLaw, *, thickness: npt.ArrayLike) -> PullOff:
     """Return the state at pull-off from retraction speeds [m/s] and thicknesses [m], broadcast.
 
     By trapezoids over a fine grid of crack speeds: the stress to 1e-5 or better. Every different
@@ -97,60 +84,37 @@ def pull_off(
     Examples
     --------
     >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.theory import greenwood
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless, Pad
     >>> solid = StandardSolid(
     ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
     ... )
-    >>> pad = dict(half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4)
-    >>> found = pull_off(
-    ...     [1e-6, 1e-3], thickness=3e-4, **pad,
-    ...     material=solid, theory=greenwood, base=Frictionless(),
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
     ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> found = pull_off([1e-6, 1e-3], pad, law, thickness=3e-4)
     >>> [f"{s / 1e3:.1f} kPa" for s in found.stress]
     ['19.4 kPa', '31.5 kPa']
     """
     r, b = np.broadcast_arrays(*positive(speed=speed, thickness=thickness))
-    a, E, w, s0 = (
-        float(x)
-        for x in positive(
-            half_width=half_width,
-            contact_modulus=contact_modulus,
-            work_of_adhesion=work_of_adhesion,
-            strength=strength,
-        )
-    )
-    pad = _Pad(a, E, w, s0, material, theory, base)
     found = np.empty((len(PullOff._fields), *r.shape))
     for value in np.unique(b):
         here = b == value
-        found[:, here] = _at_thickness(r[here], float(value), pad)
+        found[:, here] = _at_thickness(r[here], float(value), pad, law)
     return PullOff(*(plain(x) for x in found))
 
 
-class _Pad(NamedTuple):
-    half_width: float
-    contact_modulus: float
-    work_of_adhesion: float
-    strength: float
-    material: _crack.Material
-    theory: ModuleType
-    base: Base
-
-
-def _at_thickness(speed: Any, b: float, pad: _Pad) -> Any:
+def _at_thickness(speed: Any, b: float, pad: Pad, law: CrackLaw) -> Any:
     """Return the fields of PullOff, shape (5, speeds)."""
-    a, E, w, s0 = pad[:4]
-    case: dict[str, Any] = dict(half_width=a, contact_modulus=E, work_of_adhesion=w, base=pad.base)
-    elastic = float(punch_crossover.pull_off_stress(b, **case))
-    v0 = -float(punch_crossover.pull_off_depth(b, **case))
-    largest = (s0 / elastic) ** 2
-    if largest <= 1 or pad.material.modulus_ratio >= 1:
+    a, elastic, v0 = pad.half_width, float(pad.elastic_stress(b)), -float(pad.elastic_depth(b))
+    largest = (pad.strength / elastic) ** 2
+    if largest <= 1 or law.largest <= 1:
         # at the strength all over, or at the elastic stress, and at once: no crack in motion
-        stress = min(s0, elastic)
+        stress = min(pad.strength, elastic)
         state = stress, -v0 * stress / elastic, a, np.inf, min(1.0, largest)
         return np.repeat(np.array(state)[:, None], speed.size, axis=1)
-    crack, gamma = _law(speed * a / v0, largest, pad)
+    crack, gamma = _motion(speed * a / v0, largest, law)
     u = np.sqrt(gamma)
     steps = (crack[1:] + crack[:-1]) / 2 * np.diff(u)
     lost = np.append(0.0, np.cumsum(steps)) * v0 / a
@@ -175,11 +139,11 @@ def _at_thickness(speed: Any, b: float, pad: _Pad) -> Any:
     return found
 
 
-def _stress(left: Any, u: Any, b: float, v0: float, pad: _Pad) -> Any:
+def _stress(left: Any, u: Any, b: float, v0: float, pad: Pad) -> Any:
     """Return the mean stress over the punch, nothing without a ligament."""
     a, E = pad.half_width, pad.contact_modulus
     ligament = a * np.where(left > 0, left, 1.0)
-    stiffness = punch_crossover.stiffness(b, half_width=ligament, contact_modulus=E, base=pad.base)
+    stiffness = crossover.stiffness(b, half_width=ligament, contact_modulus=E, base=pad.base)
     return np.where(left > 0, stiffness * v0 * u / (2 * a), 0.0)
 
 
@@ -197,17 +161,8 @@ def _at(t: Any, values: Any) -> Any:
     return middle + t * (after - before) / 2 + t**2 * (before - 2 * middle + after) / 2
 
 
-def _law(drive: Any, largest: float, pad: _Pad) -> tuple[Any, Any]:
+def _motion(drive: Any, largest: float, law: CrackLaw) -> tuple[Any, Any]:
     """Return the crack speeds [m/s] that the drives r a/v0 can cause, and their amplifications."""
     low, high = np.log10([_SLOWEST * np.min(drive), _FASTEST * np.max(drive)])
     crack = np.logspace(low, high, round(_PER_DECADE * (high - low)) + 1)
-    gamma = punch_rate.amplification(
-        crack,
-        theory=pad.theory,
-        largest=largest,
-        contact_modulus=pad.contact_modulus,
-        work_of_adhesion=pad.work_of_adhesion,
-        strength=pad.strength,
-        material=pad.material,
-    )
-    return crack, np.asarray(gamma)
+    return crack, np.asarray(rate.amplification(crack, law, largest=largest))

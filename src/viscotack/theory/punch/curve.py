@@ -1,6 +1,6 @@
 r"""What the retraction curve of a flat punch on a layer says: its surface energy, its work.
 
-From a simulation or a rig. Parameters as in :mod:`viscotack.theory.punch.punch`; stress is the
+From a simulation or a rig. Parameters as in :mod:`viscotack.theory.punch.laws`; stress is the
 force over the area of the punch, tension positive.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.29, 3.30 and 3.36.
@@ -17,7 +17,7 @@ import numpy.typing as npt
 from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
 
-from ._punch_kernel import curve
+from ._kernel import curve
 
 
 def surface_energy(
@@ -49,7 +49,7 @@ def surface_energy(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(thickness=5e-3, half_width=1e-3, contact_modulus=1e6, base=Frictionless())
     >>> f"{surface_energy(2e4, ligament=0.9e-3, **pad):.3f} J/m^2"
     '0.274 J/m^2'
@@ -81,7 +81,7 @@ def thin_layer_surface_energy(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(thickness=1e-4, half_width=1e-3, contact_modulus=1e6, base=Frictionless())
     >>> f"{thin_layer_surface_energy(4e4, ligament=0.9e-3, **pad):.4f} J/m^2"
     '0.0988 J/m^2'
@@ -92,7 +92,7 @@ def thin_layer_surface_energy(
     if np.any(b * base.foundation > 4 / np.pi * a):
         warnings.warn(
             "the layer is thicker than b1 = 4 zeta a/pi somewhere, where the thin-layer formula "
-            "overstates the surface energy: use theory.punch_curve.surface_energy",
+            "overstates the surface energy: use theory.punch.curve.surface_energy",
             UserWarning,
             stacklevel=2,
         )
@@ -118,7 +118,7 @@ def work_of_separation(depth: npt.ArrayLike, stress: npt.ArrayLike) -> float:
     Notes
     -----
     By trapezoids: second order in the step. For the elastic layer see
-    :func:`viscotack.theory.punch.punch_crossover.work_of_separation`.
+    :func:`viscotack.theory.punch.crossover.work_of_separation`.
 
     Examples
     --------

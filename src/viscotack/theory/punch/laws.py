@@ -1,6 +1,10 @@
 r"""The flat punch at the two ends of thickness: the half-plane and the thin layer.
 
-Parameters as in :mod:`viscotack.theory.punch.punch`, which joins them.
+Parameters: ``half_width`` a [m], ``thickness`` b [m], ``contact_modulus`` E* = E/(1 - nu^2) [Pa],
+``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` :math:`\sigma_0` [Pa], all
+positive, and ``base``, ``Frictionless()`` or ``Bonded(poisson_ratio=...)``. Stress is the mean over
+the punch, tension positive; the depth of a pulled punch is negative.
+:mod:`viscotack.theory.punch.regimes` joins the ends.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.9 and appendix I.
 """
@@ -84,7 +88,7 @@ def thin_layer_pull_off_stress(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> layer = dict(contact_modulus=1e6, work_of_adhesion=0.05)
     >>> free = thin_layer_pull_off_stress(1e-4, **layer, base=Frictionless())
     >>> glued = thin_layer_pull_off_stress(1e-4, **layer, base=Bonded(poisson_ratio=0.4))
@@ -113,7 +117,7 @@ def thin_layer_pull_off_depth(
 
     Examples
     --------
-    >>> from viscotack.theory.punch.punch import Frictionless
+    >>> from viscotack.theory.punch import Frictionless
     >>> layer = dict(contact_modulus=1e6, work_of_adhesion=0.05, base=Frictionless())
     >>> f"{thin_layer_pull_off_depth(1e-4, **layer) * 1e6:.2f} um"
     '-3.16 um'
@@ -145,7 +149,7 @@ def stiffening(base: Base) -> float:
     if isinstance(base, Bonded) and base.poisson_ratio > _THIN_POISSON:
         warnings.warn(
             f"the thin-layer law of a bonded layer asks for a Poisson ratio of {_THIN_POISSON} at "
-            f"most, got {base.poisson_ratio}: use theory.punch_crossover",
+            f"most, got {base.poisson_ratio}: use theory.punch.crossover",
             UserWarning,
             stacklevel=3,
         )

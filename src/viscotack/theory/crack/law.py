@@ -1,0 +1,124 @@
+r"""One crack in one solid: how much energy it takes at a speed, and the other way round, in SI.
+
+:mod:`viscotack.theory.crack.greenwood` and :mod:`viscotack.theory.crack.persson_brener` speak of
+dimensionless speeds, :math:`\hat v = v \tau_0/l`. A :class:`CrackLaw` joins one of them with a
+solid and a length l, so that what is pulled, a sphere or a pad, needs to know no more of its edge.
+Range and source are those of the theory it names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.materials import Modes
+from viscotack.theory._checks import Number, plain, positive, ratio
+
+from . import greenwood, persson_brener
+from ._crack import Material
+
+THEORIES = {"greenwood": greenwood, "persson-brener": persson_brener}
+
+
+@dataclass(frozen=True, kw_only=True)
+class CrackLaw:
+    """The effective surface energy of a moving crack, by a theory, of a solid, with a length.
+
+    Parameters
+    ----------
+    theory : str
+        "greenwood" or "persson-brener".
+    material : viscoelastic material of :mod:`viscotack.materials`
+        For its creep in proportion; its rubbery modulus is not used.
+    tip_length : float
+        Length l of the tip of the slow crack [m], as the theory has it:
+        :func:`viscotack.theory.crack.greenwood.cohesive_zone_length` or
+        :func:`viscotack.theory.crack.persson_brener.crack_tip_length`, which differ. For the edges
+        of a pad :meth:`viscotack.theory.punch.pad.Pad.crack_law` knows it.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> law = CrackLaw(theory="persson-brener", material=solid, tip_length=1e-6)
+    >>> f"{law.amplification(1e-3):.3f} at 1 mm/s, at most {law.largest:g}"
+    '2.543 at 1 mm/s, at most 10'
+    >>> f"{law.speed(2.0) * 1e6:.0f} um/s"
+    '512 um/s'
+    """
+
+    theory: str
+    material: Material
+    tip_length: float
+
+    def __post_init__(self) -> None:
+        if self.theory not in THEORIES:
+            raise ValueError(f"theory must be {' or '.join(THEORIES)}, got {self.theory!r}")
+        object.__setattr__(self, "tip_length", float(positive(tip_length=self.tip_length)))
+
+    @property
+    def largest(self) -> float:
+        """Return the amplification of infinite speed, glassy over rubbery modulus."""
+        return 1 / self.material.modulus_ratio
+
+    @property
+    def speed_unit(self) -> float:
+        """Return the speed [m/s] of a dimensionless speed of 1, l over the time of the solid."""
+        return self.tip_length / self.material.time_unit
+
+    def amplification(self, speed: npt.ArrayLike) -> Number:
+        """Return effective over rubbery surface energy at speeds [m/s], not negative."""
+        v = np.asarray(speed, dtype=float) / self.speed_unit
+        return THEORIES[self.theory].amplification(v, material=self.material)
+
+    def speed(self, amplification: npt.ArrayLike) -> Number:
+        """Return the speed [m/s] of an amplification, at least 1 and below ``largest``."""
+        v = THEORIES[self.theory].speed(amplification, material=self.material)
+        return plain(np.asarray(v) * self.speed_unit)
+
+    def reduced(self) -> CrackLaw:
+        """Return the same law with dimensionless speeds."""
+        return replace(self, tip_length=self.material.time_unit)
+
+    def limited(self, *, modulus_ratio: float) -> CrackLaw:
+        r"""Return the law of a crack that ends at 1/``modulus_ratio``, :math:`1/k_b`.
+
+        .. math:: \frac1\Gamma = k_b + \frac{1 - k_b}{1 - k}
+                  \left( \frac{1}{\Gamma_\infty} - k \right)
+
+        at the same passage of the tip: the delayed part of the creep is smaller in proportion. The
+        law itself where the solid ends below, :math:`k_b \le k`.
+        """
+        k = float(ratio(modulus_ratio))
+        if k <= self.material.modulus_ratio:
+            return self
+        return replace(self, material=_Limited(self.material, k))
+
+
+@dataclass(frozen=True)
+class _Limited:
+    """A solid as a crack feels it that cannot use all of its creep."""
+
+    material: Material
+    modulus_ratio: float
+
+    @property
+    def time_unit(self) -> float:
+        return self.material.time_unit
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        modes = self.material.retardation_modes(
+            shortest=shortest, longest=longest, tolerance=tolerance
+        )
+        k = self.material.modulus_ratio
+        part = (1 - self.modulus_ratio) / (1 - k)
+        return Modes(
+            instantaneous=self.modulus_ratio + part * max(modes.instantaneous - k, 0.0),
+            weights=tuple(part * w for w in modes.weights),
+            times=modes.times,
+            error=part * modes.error,
+        )

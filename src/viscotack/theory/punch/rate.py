@@ -1,0 +1,148 @@
+r"""The flat punch on a viscoelastic layer: the energy a crack takes, and how size limits it.
+
+A fast crack takes :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` times the work of adhesion,
+on a half-space up to glassy over rubbery modulus, 1/k. On a layer the mean stress cannot exceed
+the strength of the interface, so that :math:`\Gamma` stays below :math:`(\pi/4) \, b/a_0`. The
+theories of Greenwood and of Persson and Brener are corrected for it by their glassy end: the
+larger of k and the inverse of that limit, :math:`k_b`, takes the place of k, as
+:meth:`viscotack.theory.crack.law.CrackLaw.limited` has it for any spectrum; for one retardation
+time this is Eq. 3.35 and, for Persson and Brener, Eq. 4 of appendix II. Below the thickness b0 the
+limit is under 1 and holds at every speed.
+
+Speeds are those of the crack [m/s], opening. The crack is that of the edges of a
+:class:`viscotack.theory.punch.pad.Pad`, by its method ``crack_law``.
+
+Source: Maghami, PhD thesis (2025), Eq. 3.31 to 3.35 and appendix II.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory.crack import CrackLaw
+
+from .pad import Pad
+from .regimes import regime_thicknesses
+
+
+def largest_amplification(thickness: npt.ArrayLike, pad: Pad) -> Number:
+    r"""Return the effective over the rubbery surface energy that the size of the pad allows.
+
+    .. math:: \Gamma_{max} = \frac{\min(b, b_1)}{b_0}
+              = \frac\pi4 \frac{b}{\zeta a_0} \;(b < b_1), \quad \frac{a}{a_0} \;(b > b_1)
+
+    where the mean stress is the strength (Eq. 3.31, which is for b < b1). The material sets
+    another limit, 1/k. Below 1 the pad comes off at its strength at any speed.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> f"{largest_amplification(1e-4, pad):.2f}"
+    '2.50'
+    """
+    b = positive(thickness=thickness)
+    b0, _, b1 = regime_thicknesses(pad, modulus_ratio=1.0)
+    return plain(np.minimum(b, b1) / b0)
+
+
+def amplification(crack_speed: npt.ArrayLike, law: CrackLaw, *, largest: npt.ArrayLike) -> Number:
+    r"""Return effective over rubbery surface energy at a crack speed, corrected for finite size.
+
+    Parameters
+    ----------
+    crack_speed : array_like
+        Speed [m/s] at which each edge recedes, not negative.
+    law : CrackLaw
+        Of the edges, on a half-space.
+    largest : array_like
+        What the size allows: :func:`largest_amplification`, or infinity for a half-space.
+
+    Notes
+    -----
+    1e5 speeds take 0.1 s; every different ``largest`` below 1/k costs 1 to 5 ms.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> found = amplification(0.1, law, largest=[0.5, 2.5, np.inf])
+    >>> [f"{x:.3f}" for x in found]
+    ['0.500', '2.163', '3.891']
+    """
+    v, limit = np.broadcast_arrays(
+        at_least(0, "a crack that closes is another problem", crack_speed=crack_speed),
+        _positive_limit(largest),
+    )
+    # below b0 the strength decides at every speed
+    found = np.array(np.minimum(limit, 1.0))
+    for limited, here in _limited(law, limit):
+        found[here] = limited.amplification(v[here])
+    return plain(found)
+
+
+def crack_speed(amplification: npt.ArrayLike, law: CrackLaw, *, largest: npt.ArrayLike) -> Number:
+    """Return the crack speed [m/s] at which an amplification is reached.
+
+    Parameters as :func:`amplification`, which must be at least 1 and below both ``largest`` and
+    glassy over rubbery modulus.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.theory.punch import Frictionless, Pad
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=0.75e6, glassy_modulus=7.5e6, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> law = pad.crack_law("greenwood", material=solid)
+    >>> f"{crack_speed(2.0, law, largest=2.5) * 1e3:.1f} mm/s"
+    '54.2 mm/s'
+    """
+    gamma, limit = np.broadcast_arrays(
+        at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification),
+        _positive_limit(largest),
+    )
+    most = np.minimum(limit, law.largest)
+    if np.any((gamma >= most) & (gamma > 1)):
+        raise ValueError(
+            "amplification must stay below what size and material allow, reached at infinite "
+            f"speed: got {np.max(gamma):.6g} of at most {np.min(most):.6g}"
+        )
+    found = np.zeros(gamma.shape)
+    for limited, here in _limited(law, limit):
+        found[here] = limited.speed(gamma[here])
+    return plain(found)
+
+
+def _positive_limit(largest: npt.ArrayLike) -> Any:
+    limit = np.asarray(largest, dtype=float)
+    if not np.all(limit > 0):
+        raise ValueError(f"largest must be a positive amplification, got {np.min(limit)}")
+    return limit
+
+
+def _limited(law: CrackLaw, limit: Any) -> Iterator[tuple[CrackLaw, Any]]:
+    """Yield each law that a crack obeys, and where; none where the limit is 1 or below."""
+    ratios = np.maximum(1 / limit, law.material.modulus_ratio)
+    for ratio in np.unique(ratios[ratios < 1]):
+        yield law.limited(modulus_ratio=float(ratio)), ratios == ratio

@@ -1,0 +1,147 @@
+r"""The flat punch on an elastic layer, plane strain: closed forms of the three regimes.
+
+A rigid punch of the half width a sits on a layer of the thickness b, itself on a rigid base, and
+is pulled off. A very thin layer comes off all at once at the strength of the interface
+(cohesive), a thin one when the energy stored over its thickness pays for the interface, a thick
+one as a half-plane, by a crack from the edges:
+
+.. math:: \bar\sigma_{po} = \sigma_0 \;(b < b_0), \quad
+          \sqrt{\frac{2 \zeta E^* \Delta\gamma_0}{b}} \;(b_0 \le b \le b_1), \quad
+          \sqrt{\frac{\pi E^* \Delta\gamma_0}{2 a}} \;(b > b_1).
+
+A :class:`viscotack.theory.punch.pad.Pad` has the half width a, the contact modulus E*, the work of
+adhesion :math:`\Delta\gamma_0`, the strength :math:`\sigma_0` and the base: ``Frictionless()``,
+with zeta = 1, or ``Bonded(poisson_ratio=...)``, with :math:`\zeta = (1 - \nu)^2/(1 - 2\nu)`. Stress
+is the mean over the punch, tension positive. Of a viscoelastic layer the rubbery modulus decides in
+the slowest retraction and the glassy one in the fastest (:func:`limits`).
+
+Range: the formulas are the branches of a smooth curve. Where they meet, at b1, the exact stress is
+23.5 % higher (frictionless); :mod:`viscotack.theory.punch.crossover` has it for every b/a.
+The thin-layer law of a bonded layer holds for nu up to 0.45 (appendix I), and there only for very
+thin ones: it is too high by 0.55 b/a of itself at 0.45, by 2.7 b/a at 0.49. Above 0.45 it warns.
+
+Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.16 and appendix I; Maghami, Tricarico, Ciavarella &
+Papangelo (2024), Engineering Fracture Mechanics 298, 109898.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory._checks import Number, plain, positive, ratio
+
+from .laws import half_plane_pull_off_stress, stiffening, thin_layer_pull_off_stress
+from .pad import Pad
+
+REGIMES = ("cohesive", "thin layer", "half-plane")
+
+
+class Thicknesses(NamedTuple):
+    """Where the regimes meet: b0 slow, b0 fast and b1, each a thickness [m]."""
+
+    cohesive: Number
+    cohesive_fast: Number
+    half_plane: Number
+
+
+class Limits(NamedTuple):
+    """The mean pull-off stress [Pa] of the slowest and of the fastest retraction."""
+
+    slow: Number
+    fast: Number
+
+
+def regime_thicknesses(pad: Pad, *, modulus_ratio: npt.ArrayLike) -> Thicknesses:
+    r"""Return the thicknesses [m] at which the regimes meet.
+
+    .. math:: b_0 = \frac{2 \zeta E_0^* \Delta\gamma_0}{\sigma_0^2} = \frac4\pi \zeta a_0, \quad
+              b_{0\infty} = \frac{b_0}{k}, \quad b_1 = \frac4\pi \zeta a
+
+    (Eq. 3.10, 3.16, 3.11, appendix I), with the rubbery contact modulus and k = ``modulus_ratio``
+    in (0, 1]. Where b0 exceeds b1, that is for a < a0 (b0 fast: for a < a0/k), the punch comes off
+    at its strength at every thickness, and a half-plane is never seen.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> b0, fast, b1 = regime_thicknesses(pad, modulus_ratio=0.1)
+    >>> f"{b0 * 1e6:.0f} um, {fast * 1e6:.0f} um, {b1 * 1e6:.0f} um"
+    '40 um, 400 um, 1273 um'
+    """
+    a, a0, k = pad.half_width, pad.fracture_length, ratio(modulus_ratio)
+    unit = 4 / np.pi * stiffening(pad.base)
+    return Thicknesses(plain(unit * a0), plain(unit * a0 / k), plain(unit * a))
+
+
+def pull_off_stress(thickness: npt.ArrayLike, pad: Pad) -> Number:
+    """Return the mean pull-off stress [Pa] by the regime the layer is in (Eq. 3.12).
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> stress = pull_off_stress([1e-5, 1e-4, 1e-2], pad)
+    >>> [f"{s / 1e3:.1f} kPa" for s in stress]
+    ['50.0 kPa', '31.6 kPa', '8.9 kPa']
+    """
+    return _envelope(thickness, pad.contact_modulus, pad)
+
+
+def limits(thickness: npt.ArrayLike, pad: Pad, *, modulus_ratio: npt.ArrayLike) -> Limits:
+    """Return the pull-off stress [Pa] of the slowest and the fastest retraction (Eq. 3.6, 3.15).
+
+    With the rubbery contact modulus of the pad, and with that over ``modulus_ratio``. The strength
+    caps both.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> slow, fast = limits(1e-3, pad, modulus_ratio=0.1)
+    >>> f"{slow / 1e3:.1f} to {fast / 1e3:.1f} kPa"
+    '10.0 to 31.6 kPa'
+    """
+    E, k = pad.contact_modulus, ratio(modulus_ratio)
+    return Limits(_envelope(thickness, E, pad), _envelope(thickness, E / k, pad))
+
+
+def regime(thickness: npt.ArrayLike, pad: Pad) -> Any:
+    """Return which of ``REGIMES`` an elastic layer is in: a word, or an array of words.
+
+    Examples
+    --------
+    >>> from viscotack.theory.punch import Frictionless
+    >>> pad = Pad(
+    ...     half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05, strength=5e4,
+    ...     base=Frictionless(),
+    ... )
+    >>> str(regime(1e-4, pad))
+    'thin layer'
+    """
+    b = positive(thickness=thickness)
+    b0, _, b1 = regime_thicknesses(pad, modulus_ratio=1.0)
+    cohesive = (b < b0) | np.greater(b0, b1)
+    return np.array(REGIMES)[np.where(cohesive, 0, np.where(b <= b1, 1, 2))]
+
+
+def _envelope(thickness: npt.ArrayLike, contact_modulus: npt.ArrayLike, pad: Pad) -> Number:
+    """Return the pull-off stress of a pad with another contact modulus."""
+    case: dict[str, Any] = dict(
+        contact_modulus=contact_modulus, work_of_adhesion=pad.work_of_adhesion
+    )
+    thick = half_plane_pull_off_stress(pad.half_width, **case)
+    thin = thin_layer_pull_off_stress(thickness, **case, base=pad.base)
+    return plain(np.minimum(pad.strength, np.maximum(thin, thick)))
