@@ -31,6 +31,8 @@ from viscotack.punch_problem import PunchGroups, PunchProblem
 from viscotack.theory import punch, punch_crossover, punch_curve
 from viscotack.traction import LennardJones
 
+pytestmark = pytest.mark.march
+
 REFERENCE = Path(__file__).resolve().parents[2].parent / "shared/theory/reference.json"
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
