@@ -7,7 +7,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow lint types bench verification clean
+.PHONY: demo test test-slow test-processors lint types bench verification clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -23,6 +23,9 @@ test: $(VENV)/.installed
 
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 -q
+
+test-processors: $(VENV)/.installed
+	PYTHON=$(BIN)/python .ci/processors
 
 lint: $(VENV)/.installed
 	$(BIN)/ruff check .

@@ -52,6 +52,18 @@ def test_observables_of_a_jkr_retraction_converge_to_its_closed_forms(observable
     assert errors[-1] < 5e-5
 
 
+def test_round_off_does_not_choose_the_points_around_the_minimum():
+    # steps of equal length: the next but one before and after the lowest are equally far
+    x = np.linspace(-2.0, 2.0, 41)
+    force = -np.exp(-((x - 0.02) ** 2))
+    random = np.random.default_rng(1)
+    found = [
+        pull_off_force(jkr_result(steps=40, depth=1e-13 * noise - x, force=force))
+        for noise in random.uniform(-1, 1, (10, 41))
+    ]
+    assert np.ptp(found) < 1e-11
+
+
 def test_time_of_the_pull_off_is_where_the_drive_meets_its_depth():
     result = jkr_result()
     found = pull_off(result)

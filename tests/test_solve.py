@@ -65,6 +65,7 @@ def test_a_run_that_loses_energy_has_no_numbers():
         solve(case(AtDepth(5.0)), settings=careless)
 
 
+@pytest.mark.march
 def test_the_same_problem_gives_the_same_bytes():
     first, second = (solve(case(), until="pull-off") for _ in range(2))
     for name in ("time", "depth", "force", "contact_radius", "edge_speed"):
@@ -103,6 +104,7 @@ def test_progress_goes_from_zero_to_one():
     assert all(0 <= s <= 1 for s in seen)
 
 
+@pytest.mark.march
 def test_an_elastic_jump_is_found_and_booked():
     elastic = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     result = solve(case(AtDepth(-5.0), 3.24, 1.0, elastic), estimate_error=False)

@@ -24,6 +24,8 @@ from viscotack.result.observables import pull_off_force
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale
 
+pytestmark = pytest.mark.march
+
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 POWER_LAW = RetardationPowerLaw(
@@ -354,6 +356,7 @@ def wander(seeds):
     for seed in seeds:
         result = solve(random_test(seed), settings=settings, estimate_error=False, throw=False)
         assert result.energy_residual is not None and result.energy_residual < 2.5e-3
+        assert all(event.energy > 0 for event in result.events)
         if result.outcome == "stopped":
             bad.append(f"{seed}: {result.status}")
     return bad
@@ -365,5 +368,4 @@ def test_random_histories_end_well():
 
 @pytest.mark.slow
 def test_a_hundred_random_histories_end_well():
-    # a jump into contact behind a soft spring may find no balance, and says so: one of these
-    assert len(wander(range(12, 112))) <= 1
+    assert wander(range(12, 112)) == []

@@ -19,6 +19,8 @@ from viscotack.result.observables import (
 from viscotack.theory import profiles
 from viscotack.traction import LennardJones
 
+pytestmark = pytest.mark.march
+
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)

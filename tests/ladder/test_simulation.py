@@ -104,6 +104,7 @@ def test_heat_of_a_step_is_drive_work_less_stored_energy(length):
     assert memory.heat(s, e, e1, 2 * e, 2 * e1)[0] == pytest.approx(expected, rel=1e-9, abs=0)
 
 
+@pytest.mark.march
 def test_energy_audit_closes_with_every_term_at_work():
     result = solve(
         Groups(tabor=3.24, material=standard_solid(0.1), start=AtDepth(20.0), rate=30.0),
@@ -146,6 +147,7 @@ def _sphere(radius):
 # --- limits ---------------------------------------------------------------------------------
 
 
+@pytest.mark.march
 @pytest.mark.parametrize(
     ("tabor", "expected"), [(0.3, 1.2468), (1.0, 1.1137), (3.24, 1.0308)], ids=str
 )
@@ -178,6 +180,7 @@ def test_large_tabor_number_tends_to_jkr():
     assert pull_off_depth(result) == pytest.approx(depth, rel=0.05, abs=0)
 
 
+@pytest.mark.march
 def test_modulus_ratio_one_is_elastic():
     start, tabor = AtDepth(3.0), 1.0
     elastic = solve(
@@ -212,6 +215,7 @@ def test_slow_retraction_tends_to_elastic_detachment_linearly_in_the_rate():
     assert slope(rates, gains) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.march
 def test_fast_retraction_tends_to_the_glassy_contact():
     # by superposition the fast limit is an elastic contact of R/k and E0*/k: mu_inf = mu k^(1/3),
     # P/P_JKR -> f(mu_inf)/k for a large preload; at 300 h0 an independent solver found 1.0700/k
@@ -222,6 +226,7 @@ def test_fast_retraction_tends_to_the_glassy_contact():
     assert work_to_pull_off(result) == pytest.approx(28.70, rel=2e-2, abs=0)
 
 
+@pytest.mark.march
 def test_one_prony_branch_is_a_standard_solid():
     solid = standard_solid(0.1)
     prony = Prony(rubbery_modulus=1.0, branches=((9.0, solid.relaxation_time),), poisson_ratio=0.0)
@@ -238,6 +243,7 @@ def test_one_prony_branch_is_a_standard_solid():
     assert forces[0] == pytest.approx(forces[1], rel=1e-6, abs=0)
 
 
+@pytest.mark.march
 def test_three_ways_to_start_find_the_same_contact():
     base = Groups(tabor=3.24, material=standard_solid(0.1), start=AtDepth(30.0), rate=100.0)
     by_depth = solve(base, until="pull-off", estimate_error=False)
@@ -306,6 +312,7 @@ def _run(groups, settings):
     return solve(groups, settings=settings, until="pull-off", estimate_error=False)
 
 
+@pytest.mark.march
 def test_moving_the_mesh_changes_next_to_nothing():
     # k = 1e-3: errors in the memory would be magnified a thousand times
     groups = Groups(tabor=3.24, material=power_law(1e-3, 0.8), start=AtDepth(20.0), rate=1e3)
@@ -373,6 +380,7 @@ def test_fast_solver_equals_plain_solver(tabor, modulus_ratio, exponent, depth, 
     )
 
 
+@pytest.mark.march
 @pytest.mark.parametrize(
     ("rate", "force", "depth", "speed"),
     [
@@ -392,6 +400,7 @@ def test_standard_solid_pulls_off_as_in_the_published_algorithm_refined(rate, fo
     assert found.crack_speed == pytest.approx(speed, rel=2e-2, abs=0)
 
 
+@pytest.mark.march
 @pytest.mark.parametrize(
     ("tabor", "exponent", "modulus_ratio", "depth", "rate", "force"),
     [
@@ -415,6 +424,7 @@ def test_power_law_pulls_off_as_in_slow_refined_runs(
     assert 0 < result.error_estimate["force"] < DEFAULT
 
 
+@pytest.mark.march
 def test_where_the_published_algorithm_gave_up_this_one_finishes():
     groups = Groups(tabor=3.24, material=power_law(0.1, 0.2), start=AtDepth(73.0), rate=100.0)
     result = solve(groups)

@@ -58,6 +58,11 @@ class Trial:
     iterations: int
     released: bool
 
+    @property
+    def lost(self) -> bool:
+        """Whether iterations ran out, nothing else being known."""
+        return not (np.isfinite(self.error) or self.released)
+
 
 @dataclass(frozen=True, eq=False)
 class Body:

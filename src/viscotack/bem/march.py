@@ -37,12 +37,19 @@ _RISEN = 0.03
 _INSTANT = 1e-2
 # Past the pull-off, steps may be this much longer: what is left is a small part of the work.
 _LOOSER = 2.0
-# A step that needs more iterations than this is too long.
+# A step that needs more iterations than this is too long; the way down from the end of a branch may
+# take so many.
 _MOST_ITERATIONS = 25
+_PATIENCE = 500
+# No equilibrium is there when none was found in so many steps, each twice as long as the last.
+_LOOKS = 8
 # A step is at most this much longer than the last.
 _GROWTH = 1.5
 # The end of a leg has been met within this part of the step that passes it.
 _AT_END = 1e-3
+# What is lost on new nodes after a step that has lost nothing is a jump from so many times the
+# tolerated imbalance on.
+_CLEARLY = 5.0
 # After a jump the edge may be far from the fine nodes: so many meshes go after it.
 _MOST_MESHES = 200
 
@@ -145,10 +152,10 @@ class _March:
         s = step(self.body.modes, self.dt)
         instant = s.compliance < (1 + _INSTANT) * self.body.modes.instantaneous
         stiffest = instant and self.dt <= leg.least_step * (1 + 1e-9)
-        hold = self._hold(self.began, now.time - self.began.time + self.dt)
-        trial = self.body.after(self.state, s, hold, 500 if stiffest else _MOST_ITERATIONS)
+        trial = self._try(s, _PATIENCE if stiffest else _MOST_ITERATIONS)
+        if stiffest and trial.lost:
+            s, trial = self._look_again(s, trial)
         after = trial.after.seen
-        self.history.iterations += trial.iterations
         if trial.released and stiffest:
             self._release(after)
             return True
@@ -160,7 +167,7 @@ class _March:
             self.history.rejected += 1
             self.dt *= max(0.2, min(0.8 / np.sqrt(strain), 0.7))
             return False
-        if not np.isfinite(trial.error):  # however short the step, no equilibrium was found
+        if trial.lost:  # however short the step, no equilibrium was found
             self.history.outcome = "lost"
             return True
         over = -leg.missing(after.depth, after.force, after.edge)
@@ -182,6 +189,34 @@ class _March:
         else:
             self.since_lowest += 1
         return True
+
+    def _try(self, s: Step, most_iterations: int) -> Trial:
+        elapsed = self.state.seen.time - self.began.time + s.length
+        trial = self.body.after(self.state, s, self._hold(self.began, elapsed), most_iterations)
+        self.history.iterations += trial.iterations
+        return trial
+
+    def _look_again(self, s: Step, trial: Trial) -> tuple[Step, Trial]:
+        """Look for the state after a jump from a little later on.
+
+        Where a branch has only just ended, the way down begins so flat that round-off decides how
+        many iterations it takes. Later it is steep; what the solid does meanwhile is next to
+        nothing, its compliance being the instantaneous one.
+        """
+        state, known = self.state, self.known
+        self.state, self.known = self.body.at_rest(state), False
+        for _ in range(_LOOKS):
+            longer = step(self.body.modes, 2 * s.length)
+            instant = longer.compliance < (1 + _INSTANT) * self.body.modes.instantaneous
+            if not instant or longer.length > self._left():
+                break
+            s, trial = longer, self._try(longer, _PATIENCE)
+            if not trial.lost:
+                break
+        self.state = state
+        if trial.lost:
+            self.known = known
+        return s, trial
 
     def _strain(self, trial: Trial) -> float:
         """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
@@ -293,6 +328,9 @@ class _March:
 
     def _chase(self, before: Snapshot, missing: float, tolerated: float) -> None:
         """After a jump: go on at rest, with fine nodes where the edge has come to be."""
+        # A jump loses energy. Where the step itself has lost none, and only went far, what new
+        # nodes cost must not look like one.
+        least = tolerated if missing > tolerated else _CLEARLY * tolerated
         self.state, self.known = self.body.at_rest(self.state), False
         for _ in range(_MOST_MESHES):
             now = self.state.seen
@@ -304,7 +342,7 @@ class _March:
             missing += now.stored - moved.stored
             self.books = replace(self.books, jumps=self.books.jumps + now.stored - moved.stored)
         now = self.state.seen
-        if abs(missing) > tolerated or (before.edge > 0) != (now.edge > 0):
+        if missing > least or (before.edge > 0) != (now.edge > 0):
             self.history.events.append(_jump(before, now, missing))
 
     def _keep(self) -> None:

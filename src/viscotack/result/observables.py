@@ -22,6 +22,8 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 
 Array = npt.NDArray[np.float64]
+# Steps of equal length are equal but for round-off.
+_EQUAL = 1 + 1e-9
 
 
 @dataclass(frozen=True)
@@ -343,7 +345,8 @@ def _nearest(x: Array, i: int) -> slice:
     before = x[i] - x[low - 1] if low > 0 else np.inf
     after = x[high] - x[i] if high < len(x) else np.inf
     if min(before, after) < np.inf:
-        low, high = (low - 1, high) if before <= after else (low, high + 1)
+        # of two equally far the earlier, and not that which round-off makes the nearer
+        low, high = (low - 1, high) if before <= after * _EQUAL else (low, high + 1)
     return slice(low, high)
 
 

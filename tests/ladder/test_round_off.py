@@ -1,0 +1,180 @@
+"""Round-off decides nothing: a march under noise has the outcome and the events of one without."""
+
+import pytest
+from viscotack.observables import pull_off_force
+from viscotack.profile_problem import ProfileGroups
+from viscotack.punch_problem import PunchGroups
+
+from noise import noise
+from viscotack.bem import march, solve
+from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.traction import Dugdale
+
+pytestmark = pytest.mark.march
+
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def power_law(modulus_ratio, exponent=0.6):
+    return RetardationPowerLaw(
+        rubbery_modulus=1.0,
+        glassy_modulus=1 / modulus_ratio,
+        exponent=exponent,
+        tau0=1.0,
+        poisson_ratio=0.0,
+    )
+
+
+POWER_LAW = power_law(0.1)
+
+
+def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **options):
+    return Groups(tabor=tabor, material=material, start=start, rate=rate, moves=moves, **options)
+
+
+def punch(start, *moves, rate=None, thickness=3.24, material=SOLID, **options):
+    return PunchGroups(
+        size=64.85,
+        thickness=thickness,
+        cohesion=0.05,
+        material=material,
+        start=start,
+        rate=rate,
+        moves=moves,
+        **options,
+    )
+
+
+def cone(rate, material=SOLID, exponent=1.0):
+    return ProfileGroups(
+        tabor=2.0, material=material, start=AtDepth(5.0), rate=rate, profile_exponent=exponent
+    )
+
+
+def behind_spring(stiffness, make=sphere, load=1.0, rate=1.0, **options):
+    return make(AtForce(load), rate=rate / stiffness, stiffness=stiffness, **options)
+
+
+def hung(load, **options):
+    return sphere(AtForce(0.0), LoadTo(-load, 1e-3), Dwell(1e3, hold="force"), **options)
+
+
+def dugdale(material):
+    hang = (LoadTo(-0.5, 0.1), LoadTo(-6.0, 1.0), Dwell(1.0, hold="force"))
+    return sphere(AtForce(0.5), *hang, material=material, traction=Dugdale(1.0, 1.0))
+
+
+def cycles(number, **options):
+    cycle = (Approach(5.0, AtDepth(5.0)), Retract(5.0, AtDepth(-25.0)))
+    return sphere(Apart(15.0), *number * cycle, rate=1.0, tabor=3.0, **options)
+
+
+def there_and_back(**options):
+    return sphere(Apart(20.0), Approach(1.0, AtDepth(5.0)), rate=1.0, **options)
+
+
+CASES = {
+    "spring-1e-2": behind_spring(1e-2),
+    "spring-1e-3-elastic": behind_spring(1e-3, material=ELASTIC),
+    "spring-1e-5": behind_spring(1e-5),
+    "spring-1e-6-small": behind_spring(1e-6, tabor=0.5, rate=10.0),
+    "spring-1e-4-punch": behind_spring(1e-4, punch, 0.1),
+    "spring-1e-3-jump-in": sphere(
+        Apart(15.0), Approach(2e3, AtForce(1.0)), rate=1e3, tabor=1.0, stiffness=1e-3
+    ),
+    "dead-load-elastic": hung(1.3, material=ELASTIC),
+    "dead-load": hung(1.3, tabor=3.24),
+    "dead-load-borne": hung(0.9),
+    "dugdale-dead-load-elastic": dugdale(ELASTIC),
+    "dugdale-dead-load": dugdale(SOLID),
+    "jump-in-and-out": there_and_back(tabor=3.0, material=ELASTIC),
+    "cycle": cycles(1),
+    "slow": sphere(AtDepth(5.0), rate=0.1),
+    "fast": sphere(AtDepth(10.0), rate=1e4),
+    "small-k": sphere(AtDepth(10.0), rate=1e2, tabor=1.5, material=power_law(1e-3)),
+    "punch": punch(AtDepth(0.5), rate=10.0),
+    "cone": cone(5.0),
+}
+
+LONG = (
+    {
+        f"{name}-{k:g}": behind_spring(k, **options)
+        for k in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
+        for name, options in {
+            "spring": {},
+            "slow-spring": {"rate": 0.1},
+            "elastic-spring": {"material": ELASTIC},
+            "small-spring": {"tabor": 0.5, "rate": 10.0},
+            "large-spring": {"tabor": 5.0, "material": POWER_LAW},
+            "punch-spring": {"make": punch, "load": 0.1},
+        }.items()
+    }
+    | {
+        f"{name}-{title}": case
+        for title, material in {"elastic": ELASTIC, "solid": SOLID, "power-law": POWER_LAW}.items()
+        for name, case in {
+            "dugdale": dugdale(material),
+            "hung": hung(1.3, tabor=3.24, material=material),
+            "borne": hung(0.9, material=material),
+            "cycles": cycles(2, material=material),
+            "in-and-out-5": there_and_back(tabor=5.0, material=material),
+            "in-and-out-8": there_and_back(tabor=8.0, material=material),
+            "cone": cone(5.0, material),
+            "flat": cone(5.0, material, exponent=3.0),
+        }.items()
+    }
+    | {
+        f"retraction-{rate:g}-{k:g}": sphere(
+            AtDepth(10.0), rate=rate, tabor=1.5, material=power_law(k, 0.5)
+        )
+        for rate in (1e-2, 1.0, 1e2, 1e5)
+        for k in (1e-1, 1e-2, 1e-4)
+    }
+    | {
+        f"punch-{thickness:g}-{rate:g}": punch(AtDepth(0.5), rate=rate, thickness=thickness)
+        for thickness in (1.0, 3.24, 32.0)
+        for rate in (0.1, 10.0, 1e3)
+    }
+)
+
+
+def lasting(result):
+    """Return what a test is about: the pull-off force, or the depth of a contact that holds."""
+    held = result.outcome == "still in contact"
+    return result.depth[-1] if held else pull_off_force(result)
+
+
+def compare(case, seeds, accuracy):
+    plain = solve(case, accuracy=accuracy, estimate_error=False)
+    for seed in seeds:
+        with noise(seed):
+            other = solve(case, accuracy=accuracy, estimate_error=False)
+        assert other.outcome == plain.outcome
+        assert [e.kind for e in other.events] == [e.kind for e in plain.events]
+        # runs may take other steps: a tenth of the least error that they state, 0.2 of the accuracy
+        assert lasting(other) == pytest.approx(lasting(plain), rel=0.02 * accuracy, abs=0)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_noise_changes_neither_outcome_nor_events_nor_force(name):
+    compare(CASES[name], range(2), accuracy=5e-3)
+
+
+def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
+    # just past the end of its branch this one takes more than 40 iterations, hundreds if need be
+    case = behind_spring(1e-3, material=ELASTIC)
+    patient = solve(case, accuracy=5e-3, estimate_error=False)
+    monkeypatch.setattr(march, "_PATIENCE", 40)
+    hasty = solve(case, accuracy=5e-3, estimate_error=False)
+    assert hasty.statistics["newton_iterations"] > patient.statistics["newton_iterations"]
+    assert [e.kind for e in hasty.events] == ["jump out of contact"]
+    assert pull_off_force(hasty) == pytest.approx(pull_off_force(patient), rel=1e-6, abs=0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LONG)
+def test_noise_changes_no_other_march(name):
+    compare(LONG[name], range(3), accuracy=2e-3)

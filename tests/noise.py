@@ -1,0 +1,43 @@
+"""Round-off as another processor would have it, and a hundred times more: to test without one.
+
+Processors differ in the last digits of sums of products. Here every stiffness matrix, every factor
+of a tangent and every residual and energy of the march gets relative noise, seeded.
+"""
+
+from contextlib import ExitStack, contextmanager
+from unittest.mock import patch
+
+import numpy as np
+
+from viscotack.bem import equilibrium, halfspace, punch
+
+
+@contextmanager
+def noise(seed, size=1e-14):
+    """Put noise of this relative size into all that simulations in this block work out."""
+    random = np.random.default_rng(seed)
+    factor, at, stiffness = equilibrium._factor, equilibrium._Elastic.at, halfspace.stiffness
+
+    def noisy(value):
+        return value * (1 + size * random.uniform(-1, 1, np.shape(value)))
+
+    def noisy_at(self, gap):
+        energy, gradient = at(self, gap)
+        return float(noisy(energy)), noisy(gradient)
+
+    def noisy_stiffness(*arguments):
+        S = noisy(stiffness(*arguments))
+        return (S + S.T) / 2
+
+    def noisy_factor(matrix, diagonal):
+        return factor(noisy(matrix), noisy(diagonal))
+
+    with ExitStack() as stack:
+        for owner, name, function in (
+            (equilibrium, "_factor", noisy_factor),
+            (equilibrium._Elastic, "at", noisy_at),
+            (halfspace, "stiffness", noisy_stiffness),
+            (punch, "stiffness", noisy_stiffness),
+        ):
+            stack.enter_context(patch.object(owner, name, function))
+        yield
