@@ -42,9 +42,9 @@ from typing import Any  # noqa: E402
 import numpy  # noqa: E402
 import scipy  # noqa: E402
 from threadpoolctl import threadpool_info  # noqa: E402
-from viscotack.cli import main as command_line  # noqa: E402
 
 import viscotack  # noqa: E402
+from viscotack.__main__ import main as command_line  # noqa: E402
 
 HERE = Path(__file__).parent / "unchanged"
 ANSWERS = HERE / "answers.json"

@@ -105,7 +105,7 @@ def draw(
     forces = np.array([vt.summary(r)["pull_off_force_N"] for r in results])
     slow = vt.summary(elastic)["pull_off_force_N"]
     colors = mpl.colormaps["viridis"](np.linspace(0.0, 0.8, len(results)))
-    with matplotlib.style.context("viscotack.viscotack"):
+    with matplotlib.style.context("viscotack.pictures.viscotack"):
         figure = vt.draw_rates(
             speeds, forces, elastic_force=slow, title="The faster the pull, the harder it holds"
         )

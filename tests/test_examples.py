@@ -28,6 +28,7 @@ def test_every_example_is_run_here():
         "fields.py",
         "from_toml",
         "from_dma",  # its commands are run with the pages
+        "own",  # test_own.py is all about them
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",

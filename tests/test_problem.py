@@ -5,7 +5,9 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
+from viscotack.app.cli import application
 from viscotack.geometry import Sphere
 from viscotack.materials import (
     Elastic,
@@ -278,3 +280,40 @@ def test_a_case_is_named_by_its_content():
     names = {run_id(lens()), run_id(lens().groups()), run_id(lens(geometry=Sphere(5.2e-3)))}
     assert len(names) == 3
     assert all(len(name) == 16 for name in names)
+
+
+def test_a_problem_in_si_is_converted_once_in_and_once_out(tmp_path, monkeypatch):
+    """One `simulate sphere` with words, table and JSON asks for groups and for scales once each."""
+    case = tmp_path / "lens.toml"
+    case.write_text(
+        """
+[material]
+model = "sls"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+tau0 = "0.1 s"
+poisson_ratio = 0.5
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1.5 um"
+[sphere]
+radius = "5 mm"
+[protocol]
+preload_force = "1.5 mN"
+speed = "100 um/s"
+"""
+    )
+    asked = []
+    for name in ("groups", "scales"):
+        plain = getattr(Problem, name)
+
+        def counted(self, name=name, plain=plain):
+            asked.append(name)
+            return plain(self)
+
+        monkeypatch.setattr(Problem, name, counted)
+    command = ["simulate", "sphere", str(case), "--csv", str(tmp_path / "x.csv"), "--json"]
+    done = CliRunner().invoke(application(), [*command, "--plot", str(tmp_path / "x.svg")])
+    assert done.exit_code == 0, done.stderr
+    assert sorted(asked) == ["groups", "scales"]

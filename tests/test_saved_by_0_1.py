@@ -12,9 +12,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from viscotack.cli import main
 
 import viscotack
+from viscotack.app.cli import main
 
 SAVED = Path(__file__).parent / "data" / "saved_by_0_1"
 CAMPAIGNS = SAVED / "campaigns"

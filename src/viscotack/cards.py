@@ -15,6 +15,7 @@ from dataclasses import MISSING, dataclass, fields
 from functools import lru_cache
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
+from viscotack.errors import InputError
 from viscotack.units import finite
 
 
@@ -63,7 +64,7 @@ class Quantity:
         ):
             words = "" if unit == "1" else f" {unit}"
             cure = f"; {self.advice}" if self.advice else ""
-            raise ValueError(f"{name} must {self.range}, got {number}{words}{cure}")
+            raise InputError(f"{name} must {self.range}, got {number}{words}{cure}")
         return number
 
     @property
@@ -181,7 +182,7 @@ def conform(noun: Any) -> None:
     for field in cards(type(noun)).values():
         value = getattr(noun, field.name)
         if isinstance(value, str | bytes):
-            raise ValueError(
+            raise InputError(
                 f"{field.name} must be a number in {field.card.unit}, got {value!r}; "
                 f"viscotack.parse({value!r}, {field.card.unit!r}) reads text"
             )

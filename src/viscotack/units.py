@@ -9,6 +9,8 @@ import re
 from functools import lru_cache
 from typing import Any
 
+from viscotack.errors import InputError
+
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*")
 # "J/m2" and "J/m^2" are how people write it; the unit library wants "J/m**2".
 # The unit library passes over other marks, and would read "5 ?m" as metres.
@@ -53,18 +55,18 @@ def parse(value: str | float, unit: str) -> float:
     0.1523
     """
     if isinstance(value, bool) or not isinstance(value, str | int | float):
-        raise ValueError(f"expected a quantity such as '1 {unit}', got {value!r}")
+        raise InputError(f"expected a quantity such as '1 {unit}', got {value!r}")
     if not isinstance(value, str):
         return finite("the number", value, unit)
     match = _NUMBER_AND_UNIT.fullmatch(value)
     if match is None or match[2].startswith(","):
-        raise ValueError(
+        raise InputError(
             f"{value!r} is not a number and a unit; write it like '5.19 {unit}', "
             "with a decimal point"
         )
     number, words = float(match[1]), match[2]
     if words == "" and unit != "1":
-        raise ValueError(f"{value!r} has no unit; write for example '{match[1]} {unit}'")
+        raise InputError(f"{value!r} has no unit; write for example '{match[1]} {unit}'")
     if words != "":
         number = _converted(value, number, words, unit)
     return finite(repr(value), number, unit)
@@ -75,18 +77,18 @@ def _converted(text: str, number: float, words: str, unit: str) -> float:
 
     registry = _registry()
     if _UNIT_MARKS.fullmatch(words) is None:
-        raise ValueError(f"{text!r}: the unit {words!r} is not known; expected something in {unit}")
+        raise InputError(f"{text!r}: the unit {words!r} is not known; expected something in {unit}")
     try:
         quantity = registry.Quantity(number, registry.parse_units(_EXPONENT.sub(r"**\1", words)))
         target = registry.parse_units("" if unit == "1" else _EXPONENT.sub(r"**\1", unit))
         converted = float(quantity.to(target).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(
+        raise InputError(
             f"{text!r} does not measure the right thing; expected something in {unit}"
         ) from None
     except Exception:
         # The unit library raises a dozen kinds of error for words it cannot read.
-        raise ValueError(
+        raise InputError(
             f"{text!r}: the unit {words!r} is not known; expected something in {unit}"
         ) from None
     # "18.76 ms" and "0.01876 s" are one quantity: without the rounding of the factor.
@@ -104,9 +106,9 @@ def finite(name: str, value: Any, unit: str) -> float:
             f"; viscotack.parse({value!r}, {unit!r}) reads text" if isinstance(value, str) else ""
         )
         of = "a pure number" if unit == "1" else f"a number in {unit}"
-        raise ValueError(f"{name} must be {of}, got {value!r}{cure}") from None
+        raise InputError(f"{name} must be {of}, got {value!r}{cure}") from None
     if not math.isfinite(number):
-        raise ValueError(f"{name} must be finite, got {number}{words}")
+        raise InputError(f"{name} must be finite, got {number}{words}")
     return number
 
 
@@ -115,5 +117,5 @@ def positive(name: str, value: Any, unit: str) -> float:
     number = finite(name, value, unit)
     if number <= 0:
         words = "" if unit == "1" else f" {unit}"
-        raise ValueError(f"{name} must be positive, got {number}{words}")
+        raise InputError(f"{name} must be positive, got {number}{words}")
     return number

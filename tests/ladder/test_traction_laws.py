@@ -183,8 +183,8 @@ def test_points_of_another_scale_are_refused_with_the_cure():
 @pytest.mark.parametrize(
     ("kind", "wrong", "words"),
     [
-        (Dugdale, dict(rise=0.0), r"rise must be in \(0, 0.5\]"),
-        (Dugdale, dict(fall=1.5), r"fall must be in \(0, 1\]"),
+        (Dugdale, dict(rise=0.0), r"rise must lie in \(0, 0.5\]"),
+        (Dugdale, dict(fall=1.5), r"fall must lie in \(0, 1\]"),
         (Exponential, dict(decay=-1), "decay must be positive"),
     ],
 )

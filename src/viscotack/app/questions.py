@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.cards import Quantity, card_of, cards
+from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
@@ -247,7 +248,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     if name.endswith(".toml"):
         for flag in ("modulus-ratio", "exponent"):
             if flag in given:
-                raise ValueError(f"{name} states the whole material; leave out --{flag}")
+                raise InputError(f"{name} states the whole material; leave out --{flag}")
         return read_passport(name).material.reduced(), "1"
     kind = _kind_of_material(name, nouns)
     word, _, rest = name.partition(":")
@@ -255,7 +256,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     numbers = material_numbers(kind)
     for flag in ("modulus-ratio", "exponent"):
         if flag in given and flag not in numbers:
-            raise ValueError(f"--{flag} does not go with --material {word}; leave it out")
+            raise InputError(f"--{flag} does not go with --material {word}; leave it out")
     values: dict[str, Any] = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
     if kind is Prony:
         branches, unit = read_prony(rest)
@@ -263,7 +264,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     if "modulus-ratio" in numbers:
         k = positive("--modulus-ratio", given["modulus-ratio"], "1")
         if k > 1:
-            raise ValueError(
+            raise InputError(
                 f"--modulus-ratio is the rubbery over the glassy modulus, in (0, 1], got {k:g}; "
                 f"perhaps {1 / k:.4g} is meant"
             )
@@ -284,7 +285,7 @@ def _kind_of_material(name: str, nouns: Nouns) -> Any:
     spelled = kind in (RetardationPowerLaw, Elastic, StandardSolid, Prony)
     if kind is None or kind is RelaxationPowerLaw or spelled and (kind is Prony) != bool(rest):
         own = [w for w in nouns.materials if w not in MODELS]
-        raise ValueError(
+        raise InputError(
             "--material must be a passport FILE.toml, "
             f"{', '.join(['power-law', 'elastic', 'sls', *own])} or prony:FILE, got {name!r}"
         )
@@ -312,7 +313,7 @@ def _own_numbers(kind: Any, values: Mapping[str, Any], rest: str, name: str) -> 
     needed = [f for f in fields if f.needed]
     if not len(needed) <= len(given) <= len(fields):
         wanted = ",".join(f.name.upper() for f in fields)
-        raise ValueError(
+        raise InputError(
             f"write {kind.word}{':' if wanted else ''}{wanted} for --material, got {name!r}"
         )
     return {f.name: f.card.checked(f.name, text) for f, text in zip(fields, given, strict=False)}
@@ -343,9 +344,9 @@ def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool) -> None:
         of_solid = [name for name in material_needs(solid) if name not in given]
         why = f" for --material {solid['material']}" if of_solid else ""
         more = f", and {start}, of which none is given" if start else ""
-        raise ValueError(f"{_listed(missing)} missing{why}{more}; --help says what they are")
+        raise InputError(f"{_listed(missing)} missing{why}{more}; --help says what they are")
     if start:
-        raise ValueError(f"give {start}, got none; --help says what they are")
+        raise InputError(f"give {start}, got none; --help says what they are")
 
 
 def _listed(words: list[str]) -> str:
@@ -359,7 +360,7 @@ def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
         return {}
     for flag in ("contact-modulus", "poisson-ratio", "tau0"):
         if flag in given:
-            raise ValueError(f"{name} states the whole material; leave out --{flag}")
+            raise InputError(f"{name} states the whole material; leave out --{flag}")
     solid = read_passport(name).material
     scales = {
         "contact-modulus": f"{solid.contact_modulus!r} Pa",
@@ -387,7 +388,7 @@ def _refuse_large(name: str, kind: Any, value: float, tabor: float) -> None:
         Apart: 0.0,
     }[kind]
     if radius > _LARGEST_START:
-        raise ValueError(
+        raise InputError(
             f"--{name} {value:g} is a contact of radius {radius:.3g} (pi R^2 dg0/E0*)^(1/3), and "
             f"a simulation takes up to {_LARGEST_START:g}; give less"
         )
@@ -397,14 +398,14 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
     """Return the problem in SI; `unit` is the unit of time, or "1" where --tau0 must tell it."""
     lengths = [name for name in ("equilibrium-gap", "work-of-adhesion") if name in given]
     if len(lengths) != 1:
-        raise ValueError(
+        raise InputError(
             "for SI give exactly one of --equilibrium-gap and --work-of-adhesion, "
             f"got {'both' if lengths else 'none'}; the Tabor number tells the other"
         )
     needed = ["radius", "contact-modulus", "poisson-ratio", *(["tau0"] if unit == "1" else [])]
     require(given, needed, " to go to SI")
     if unit != "1" and "tau0" in given:
-        raise ValueError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
+        raise InputError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
     scales = {}
     for name, card in SCALES.items():
         if name in given:
@@ -412,7 +413,7 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
             try:
                 scales[name.replace("-", "_")] = parse(given[name], card.unit)
             except ValueError as error:
-                raise ValueError(f"--{name}: {error}; for example --{name} {example}") from None
+                raise InputError(f"--{name}: {error}; for example --{name} {example}") from None
     time_unit = scales.pop("tau0", None)
     if time_unit is None:
         time_unit = parse(f"1 {unit}", "s")
@@ -425,7 +426,7 @@ def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
     if len(found) != 1:
         got = " and ".join(f"--{name}" for name in found) or "none"
         known = ", ".join(f"--{name}" for name in names)
-        raise ValueError(f"give exactly one of {known}, got {got}")
+        raise InputError(f"give exactly one of {known}, got {got}")
     return found[0]
 
 
@@ -433,4 +434,4 @@ def require(given: Mapping[str, Any], names: Iterable[str], why: str = "") -> No
     """Refuse flags of which some are missing, and say which."""
     missing = [f"--{name}" for name in names if name not in given]
     if missing:
-        raise ValueError(f"{_listed(missing)} missing{why}; --help says what they are")
+        raise InputError(f"{_listed(missing)} missing{why}; --help says what they are")

@@ -49,6 +49,7 @@ import numpy.typing as npt
 from scipy.interpolate import PPoly
 from scipy.special import xlogy, zeta
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
@@ -99,9 +100,9 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
     '20.355'
     """
     if not (len(x) > 1 and x[0] == 0 and np.all(np.diff(x) > 0)):
-        raise ValueError(f"the nodes x must ascend from 0, got {np.array2string(x, threshold=6)}")
+        raise InputError(f"the nodes x must ascend from 0, got {np.array2string(x, threshold=6)}")
     if not thickness > 0:
-        raise ValueError(f"thickness must be positive, got {thickness:g}")
+        raise InputError(f"thickness must be positive, got {thickness:g}")
     y = x / thickness
     end = y[-1]
     thin = bool(2 * end > _NEAR)

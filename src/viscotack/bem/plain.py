@@ -28,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipkm1
 
+from viscotack.errors import InputError
 from viscotack.materials import Material
 from viscotack.problem import Case, Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth
@@ -168,9 +169,9 @@ def plain_solve(
 def relaxed_depth(groups: Groups | PunchGroups) -> float:
     """Return the depth [h0] at which the test of a plain twin begins."""
     if not isinstance(groups.start, AtDepth):
-        raise ValueError(f"the plain twin starts by depth only, got {groups.start}")
+        raise InputError(f"the plain twin starts by depth only, got {groups.start}")
     if groups.rate is None or groups.moves:
-        raise ValueError("the plain twin retracts and does nothing else")
+        raise InputError("the plain twin retracts and does nothing else")
     return groups.start.depth
 
 

@@ -22,6 +22,7 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface, stiffness
+from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction
@@ -129,7 +130,7 @@ class PunchContact:
             while error(high) < 0:
                 high, span = high + span, 1.5 * span
         except ValueError:
-            raise ValueError(
+            raise InputError(
                 f"no relaxed contact bears a mean stress of {start.force:g} sigma0: the punch lets "
                 "go before; start with more"
             ) from None
@@ -150,11 +151,11 @@ class PunchContact:
         surface = self.surface(self.grading(settings, depth).nodes(self.size, self.size))
         guess = np.full(len(surface.position), 1 - depth if apart else 1.0)
         if apart and guess[0] <= self.law.edge_gap:
-            raise ValueError(f"surfaces {1 - depth:g} h0 apart are in contact; start farther away")
+            raise InputError(f"surfaces {1 - depth:g} h0 apart are in contact; start farther away")
         balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
         edge = surface.edge(balance.gap, self.law.edge_gap)
         if not balance.stable or np.isnan(edge) != apart:
-            raise ValueError(
+            raise InputError(
                 f"no relaxed contact exists at a depth of {depth:g} h0 (thickness "
                 f"{self.thickness:g} a0): the punch has let go there; start deeper"
                 if not apart

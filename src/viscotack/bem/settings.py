@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.bem.mesh import Grading
+from viscotack.errors import InputError
 from viscotack.traction import LennardJones, Traction, softening
 
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
@@ -72,7 +73,7 @@ class Settings:
     def for_accuracy(cls, accuracy: float) -> Settings:
         """Return the settings that keep the pull-off force within this relative error."""
         if not 1e-6 <= accuracy <= LOOSEST_ACCURACY:
-            raise ValueError(
+            raise InputError(
                 f"accuracy must be between 1e-6 and {LOOSEST_ACCURACY} (relative, on the pull-off "
                 f"force), got {accuracy}"
             )

@@ -20,6 +20,7 @@ from scipy.optimize import brentq, minimize_scalar
 from viscotack.bem.halfspace import half_space
 from viscotack.bem.sphere import SphereContact
 from viscotack.bem.surface import Surface
+from viscotack.errors import InputError
 from viscotack.geometry import Shape
 from viscotack.theory.elastic import indenter
 
@@ -121,7 +122,7 @@ def _inverse(function: Callable[[float], float], value: float, low: float) -> fl
     while function(high) < value:
         high *= 2
         if high > _MOST:
-            raise ValueError(
+            raise InputError(
                 f"the indenter does not rise to {value:g} h0 within {_MOST:g} lengths beta; "
                 "a shape rises without bound"
             )

@@ -19,6 +19,7 @@ from viscotack.bem.punch import PunchContact
 from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
 from viscotack.bem.shape import ShapeContact
 from viscotack.bem.sphere import SphereContact
+from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
@@ -123,7 +124,7 @@ def solve(
     '7.33'
     """
     if until not in _UNTIL:
-        raise ValueError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
+        raise InputError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
     # The matrices are small: a second BLAS thread costs many times what it brings.
@@ -191,7 +192,7 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
     low, high = _TABOR_RANGE
     if not low <= groups.tabor <= high:
-        raise ValueError(
+        raise InputError(
             f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
         )

@@ -24,6 +24,7 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface
+from viscotack.errors import InputError
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import jkr
 from viscotack.traction import Traction
@@ -152,7 +153,7 @@ class SphereContact:
         guess = np.maximum(surface.rigid_gap - depth, self.law.edge_gap)
         balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
         if not balance.stable or not np.isnan(surface.edge(balance.gap, self.law.edge_gap)):
-            raise ValueError(
+            raise InputError(
                 f"surfaces {start.gap:g} h0 apart (Tabor number {self.tabor:g}) jump into contact "
                 "at rest; start farther away"
             )
@@ -180,7 +181,7 @@ class SphereContact:
             if abs(found - edge) < _CENTRED * grading.half_width:
                 return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
             edge = found
-        raise ValueError(
+        raise InputError(
             f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {self.tabor:g}): "
             "the surfaces do not hold each other there; start deeper"
         )
@@ -211,7 +212,7 @@ class SphereContact:
             span = 0.05 * scale
             while error(low) > 0:
                 if low < high and error(low) > error(high):
-                    raise ValueError  # past the least there is
+                    raise InputError  # past the least there is
                 high, low, span = low, low - span, 1.6 * span
             span = 0.05 * scale
             while error(high) < 0:
@@ -220,7 +221,7 @@ class SphereContact:
             low, high = self._least(error, found, scale)
             if low == high:
                 least = min((quantity(contact) for contact in found.values()), default=np.nan)
-                raise ValueError(
+                raise InputError(
                     f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
                     f"there is, at the end of the branch in contact, is {least:.4g}"
                 ) from None

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from viscotack.errors import InputError
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
@@ -60,13 +61,13 @@ class CaseSettings:
 
     def __post_init__(self) -> None:
         if self.until not in ("detached", "pull-off"):
-            raise ValueError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
+            raise InputError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
         if not 1e-6 <= self.accuracy <= 0.02:
-            raise ValueError(f"accuracy must be between 1e-6 and 0.02, got {self.accuracy!r}")
+            raise InputError(f"accuracy must be between 1e-6 and 0.02, got {self.accuracy!r}")
         object.__setattr__(self, "own", tuple(str(path) for path in self.own))
         for name, unit in (("time_limit", "s"), ("memory_limit", "bytes")):
             if not getattr(self, name) > 0:
-                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r} {unit}")
+                raise InputError(f"{name} must be positive, got {getattr(self, name)!r} {unit}")
 
 
 Work = Callable[[Any, CaseSettings], dict[str, Any]]

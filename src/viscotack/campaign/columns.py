@@ -14,6 +14,7 @@ from typing import Any
 
 from viscotack.bem import has_start
 from viscotack.cards import Quantity, card_of, cards
+from viscotack.errors import InputError
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
@@ -57,7 +58,7 @@ class Kind:
         chosen = given & set(self.choices)
         if unknown or missing or len(chosen) != bool(self.choices):
             choice = f" and exactly one of {', '.join(self.choices)}" if self.choices else ""
-            raise ValueError(
+            raise InputError(
                 f"a case of kind {self.name!r} has the inputs {', '.join(self.columns)}{choice}, "
                 f"got {', '.join(sorted(given)) or 'none'}"
             )
@@ -168,7 +169,7 @@ def kind_of_columns(names: set[str]) -> str:
         f"{kind.name}: {', '.join([*kind.columns, ' or '.join(kind.choices)])}"
         for kind in KINDS.values()
     )
-    raise ValueError(f"its columns ({', '.join(sorted(names))}) are of no kind; known are {known}")
+    raise InputError(f"its columns ({', '.join(sorted(names))}) are of no kind; known are {known}")
 
 
 def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kind:
@@ -218,7 +219,7 @@ def _put(record: Any, path: str, value: float) -> None:
         at = _entry(at, step, path)
     old = _entry(at, last, path)
     if isinstance(old, bool) or not isinstance(old, int | float):
-        raise ValueError(f"{path} is not a number of the problem but {old!r:.60}")
+        raise InputError(f"{path} is not a number of the problem but {old!r:.60}")
     at[int(last) if isinstance(at, list) else last] = value
 
 
@@ -228,6 +229,6 @@ def _entry(at: Any, step: str, path: str) -> Any:
     if isinstance(at, list) and step.isdigit() and int(step) < len(at):
         return at[int(step)]
     known = [k for k in at if k != "type"] if isinstance(at, dict) else range(len(at or []))
-    raise ValueError(
+    raise InputError(
         f"the problem has no number {path!r}: at {step!r} there is {', '.join(map(str, known))}"
     )

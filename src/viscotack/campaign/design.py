@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 METHODS = ("sobol", "latin-hypercube")
 # A Sobol sequence is drawn in blocks of this power of two, its balance asks for one.
 _BLOCK = 10
@@ -59,11 +61,11 @@ def fill(
         Of the scrambling.
     """
     if method not in METHODS:
-        raise ValueError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
+        raise InputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
     makers = {name: _mapping(name, given) for name, given in values.items()}
     free = [name for name in makers if not isinstance(values[name], int | float)]
     if not free:
-        raise ValueError("a fill needs at least one range; give a grid for a single case")
+        raise InputError("a fill needs at least one range; give a grid for a single case")
     for point in _points(len(free), cases, method, seed):
         places = dict(zip(free, point, strict=True))
         yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
@@ -83,7 +85,7 @@ def accepted(
         if wanted is not None and len(kept) == wanted:
             break
         if rejected > 2 / _LEAST_ACCEPTED and len(kept) < _LEAST_ACCEPTED * rejected:
-            raise ValueError(
+            raise InputError(
                 f"only {len(kept)} of the first {len(kept) + rejected} points of a fill are "
                 "contacts; change its ranges"
             )
@@ -108,7 +110,7 @@ def _steps(name: str, given: Any) -> list[float]:
     if isinstance(given, Mapping):
         count = given.get("count")
         if not isinstance(count, int) or count < 1:
-            raise ValueError(f"{name}: a range of a grid needs its count, got {dict(given)}")
+            raise InputError(f"{name}: a range of a grid needs its count, got {dict(given)}")
         make = _mapping(name, {k: v for k, v in given.items() if k != "count"})
         places = np.linspace(0.0, 1.0, count) if count > 1 else [0.0]
         return [make(place) for place in places]
@@ -123,7 +125,7 @@ def _mapping(name: str, given: Any) -> Any:
     scales = [key for key in ("log", "linear", "choose") if key in given]
     allowed = {*scales, "weights"} if scales == ["choose"] else set(scales)
     if len(scales) != 1 or given.keys() - allowed:
-        raise ValueError(
+        raise InputError(
             f"{name} must be a number, {{ log = [low, high] }}, {{ linear = [low, high] }} or "
             f"{{ choose = [...], weights = [...] }}, got {dict(given)}"
         )
@@ -131,10 +133,10 @@ def _mapping(name: str, given: Any) -> Any:
     if scales == ["choose"]:
         return _choice(name, values, given.get("weights", [1] * len(values)))
     if len(values) < 2 or np.any(np.diff(values) < 0):
-        raise ValueError(f"{name}: a range is two or more rising values, got {values.tolist()}")
+        raise InputError(f"{name}: a range is two or more rising values, got {values.tolist()}")
     logarithmic = scales == ["log"]
     if logarithmic and values[0] <= 0:
-        raise ValueError(f"{name}: a log range must be positive, got {values.tolist()}")
+        raise InputError(f"{name}: a log range must be positive, got {values.tolist()}")
     ends, places = np.log(values) if logarithmic else values, np.linspace(0, 1, len(values))
 
     def value(place: float) -> float:
@@ -147,7 +149,7 @@ def _mapping(name: str, given: Any) -> Any:
 def _choice(name: str, values: npt.NDArray, weights: Sequence[float]) -> Any:
     shares = np.cumsum(_numbers(f"{name}, weights", weights))
     if len(shares) != len(values) or shares[-1] <= 0 or np.any(np.diff(shares, prepend=0) < 0):
-        raise ValueError(
+        raise InputError(
             f"{name}: needs a weight, not negative, for each of its {len(values)} choices, "
             f"got {list(weights)}"
         )
@@ -157,7 +159,7 @@ def _choice(name: str, values: npt.NDArray, weights: Sequence[float]) -> Any:
 def _numbers(name: str, given: Any) -> list[float]:
     good = isinstance(given, list | tuple) and given
     if not good or any(isinstance(v, bool) or not isinstance(v, int | float) for v in given):
-        raise ValueError(f"{name} must be a number or a list of numbers, got {given!r}")
+        raise InputError(f"{name} must be a number or a list of numbers, got {given!r}")
     if not np.all(np.isfinite(given)):
-        raise ValueError(f"{name} must be finite, got {given!r}")
+        raise InputError(f"{name} must be finite, got {given!r}")
     return [float(v) for v in given]

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
 
 from .parts import arrow, write_table
@@ -34,9 +35,9 @@ def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
     """
     suffix = Path(path).suffix if isinstance(path, str | os.PathLike) else ".csv"
     if suffix not in _WRITERS:
-        raise ValueError(f"{path}: the ending must be one of {', '.join(_WRITERS)}")
+        raise InputError(f"{path}: the ending must be one of {', '.join(_WRITERS)}")
     if not table.num_rows:
-        raise ValueError(f"there is nothing to write to {path}: the table has no rows")
+        raise InputError(f"there is nothing to write to {path}: the table has no rows")
     types = arrow().types
     if not trajectories:
         kept = [f.name for f in table.schema if not types.is_list(f.type)]

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
@@ -123,7 +124,7 @@ class Parts:
         except FileNotFoundError:
             raise
         except (OSError, pa.ArrowException) as error:
-            raise ValueError(
+            raise InputError(
                 f"{path} is damaged: {error}; move it away, and run the campaign again for its "
                 "cases"
             ) from None

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
@@ -101,7 +102,7 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         try:
             kind = KINDS[kind_of_columns(names)]
         except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+            raise InputError(f"{path}: {error}") from None
         tables: dict[str, Any] = {}
         blocks: list[tuple[str, Any]] = [("list", rows)]
         base = None
@@ -109,7 +110,7 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         tables = parse_toml(source, path)
         unknown = tables.keys() - set(_KEYS)
         if unknown:
-            raise ValueError(
+            raise InputError(
                 f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
             )
         blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
@@ -118,7 +119,7 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
             for key, block in blocks
         ]
         if not blocks:
-            raise ValueError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+            raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
         own = (*_own(path, tables), *changed.get("own", ()))
         changed |= {"own": own} if own else {}
         kind, base = _kind(path, tables, blocks, own)
@@ -143,7 +144,7 @@ def restored_kind(
         also = own_nouns(own)
         return kind_of_problem(from_dict(base, also), set(columns), also)
     if name not in KINDS:
-        raise ValueError(f"unknown kind of case {name!r}; a newer version may know it")
+        raise InputError(f"unknown kind of case {name!r}; a newer version may know it")
     return KINDS[name]
 
 
@@ -157,12 +158,12 @@ def _words(path: Path, text: str) -> tuple[list[str], list[tuple[int, list[str]]
     names = [name.strip() for name in next(reader, [])]
     rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
     if not rows or len(set(names)) != len(names):
-        raise ValueError(
+        raise InputError(
             f"{path}: needs a first row of different column names and a case a row below it"
         )
     for line, row in rows:
         if len(row) != len(names):
-            raise ValueError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+            raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
     return names, rows
 
 
@@ -178,20 +179,20 @@ def _numbers(path: Path, text: str) -> list[tuple[int, dict[str, float]]]:
         try:
             found.append((line, {n: float(v) for n, v in zip(names, row, strict=True)}))
         except ValueError as error:
-            raise ValueError(f"{path}, line {line}: {error}; inputs are numbers") from None
+            raise InputError(f"{path}, line {line}: {error}; inputs are numbers") from None
     return found
 
 
 def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
     blocks = tables.get(key, [])
     if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
-        raise ValueError(f"{path}: write [[{key}]] with two brackets; there may be several")
+        raise InputError(f"{path}: write [[{key}]] with two brackets; there may be several")
     return blocks
 
 
 def _file(path: Path, block: Mapping[str, Any]) -> str:
     if block.keys() != {"file"}:
-        raise ValueError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
+        raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
     return str(block["file"])
 
 
@@ -203,17 +204,17 @@ def _kind(
 ) -> tuple[Kind, dict[str, Any] | None]:
     if "problem" in tables:
         if "kind" in tables:
-            raise ValueError(f"{path}: kind and problem exclude each other; leave one out")
+            raise InputError(f"{path}: kind and problem exclude each other; leave one out")
         also = own_nouns(own)
         problem = read_case(path.parent / str(tables["problem"]), also=also)
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
             return kind_of_problem(problem, names, also), to_dict(problem)
         except ValueError as error:
-            raise ValueError(f"{path}: {error}") from None
+            raise InputError(f"{path}: {error}") from None
     name = tables.get("kind", "sphere")
     if name not in KINDS:
-        raise ValueError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
+        raise InputError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
     return KINDS[name], None
 
 
@@ -221,7 +222,7 @@ def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:
     """Return the files of the user's own that a plan names, beside it."""
     files = tables.get("with", [])
     if not isinstance(files, list) or not all(isinstance(file, str) for file in files):
-        raise ValueError(f'{path}: with must be a list of files, with = ["my_laws.py"]')
+        raise InputError(f'{path}: with must be a list of files, with = ["my_laws.py"]')
     return tuple(str((path.parent / file).resolve()) for file in files)
 
 
@@ -261,7 +262,7 @@ def _cases(
                 found.setdefault(case.name, case)
         except (ValueError, TypeError) as error:
             text = str(error)
-            raise ValueError(text if text.startswith(str(path)) else f"{where}: {text}") from None
+            raise InputError(text if text.startswith(str(path)) else f"{where}: {text}") from None
     return tuple(found.values()), rejected, stated - len(found)
 
 
@@ -278,7 +279,7 @@ def _rows(path: Path, kind: Kind, key: str, block: Any) -> tuple[list[dict[str, 
     cases, method = values.pop("cases", None), values.pop("method", "sobol")
     seed = values.pop("seed", 0)
     if not isinstance(cases, int) or cases < 1 or not isinstance(seed, int):
-        raise ValueError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
+        raise InputError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
     ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
     return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases)
@@ -289,14 +290,14 @@ def _checked(path: Path, kind: Kind, rows: Any) -> Iterator[dict[str, float]]:
         try:
             kind.problem(row)
         except ValueError as error:
-            raise ValueError(f"{path}, line {line}: {error}") from None
+            raise InputError(f"{path}, line {line}: {error}") from None
         yield row
 
 
 def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSettings:
     names = [field.name for field in fields(CaseSettings) if field.name != "own"]
     if not isinstance(given, dict) or given.keys() - set(names):
-        raise ValueError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
+        raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
     units = {"accuracy": "1", "time_limit": "s", "memory_limit": "byte"}
     values = dict(given) | dict(changed)
     for name, unit in units.items():
@@ -304,8 +305,8 @@ def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSetting
             try:
                 values[name] = positive(name, parse(values[name], unit), unit)
             except ValueError as error:
-                raise ValueError(f"{path}, [settings] {name}: {error}") from None
+                raise InputError(f"{path}, [settings] {name}: {error}") from None
     try:
         return CaseSettings(**values)
     except ValueError as error:
-        raise ValueError(f"{path}, [settings]: {error}") from None
+        raise InputError(f"{path}, [settings]: {error}") from None

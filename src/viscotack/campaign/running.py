@@ -13,6 +13,7 @@ from queue import Empty, SimpleQueue
 from time import perf_counter
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.files.lock import locked
 
 from .case import Answer, Work, attempt, measure
@@ -122,7 +123,7 @@ def run(
     """
     folder = Path(folder)
     if workers < 1:
-        raise ValueError(f"workers must be at least 1, got {workers}")
+        raise InputError(f"workers must be at least 1, got {workers}")
     if plan is None:
         Store(folder)  # refuses a folder without a campaign before a lock is left in it
     folder.mkdir(parents=True, exist_ok=True)

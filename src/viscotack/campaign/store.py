@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack import __version__
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.problem.older import upgraded
 
@@ -108,7 +109,7 @@ class Store:
         try:
             table = arrow().parquet.read_table(self.folder / "cases.parquet", partitioning=None)
         except FileNotFoundError:
-            raise ValueError(
+            raise InputError(
                 f"{self.folder} has lost its cases.parquet; run again with the plan"
             ) from None
         inputs = [name for name in table.column_names if name != "name"]
@@ -203,12 +204,12 @@ def _names(parts: Parts) -> set[str]:
 def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     for what in ("kind", "problem"):
         if upgraded(old[what]) != new[what]:
-            raise ValueError(
+            raise InputError(
                 f"{folder} holds cases of another {what} ({old['kind']}); give another --out"
             )
     differ: Iterable[str] = (n for n in _PHYSICAL if old["settings"][n] != new["settings"][n])
     for name in differ:
-        raise ValueError(
+        raise InputError(
             f"{folder} holds cases with {name} = {old['settings'][name]}, the plan asks for "
             f"{new['settings'][name]}; give another --out, or the same {name}"
         )
@@ -219,16 +220,16 @@ def _read_provenance(folder: Path) -> dict[str, Any]:
     if not folder.is_dir():
         raise FileNotFoundError(2, "No such folder", str(folder))
     if not path.exists():
-        raise ValueError(f"{folder} holds no campaign: it has no provenance.json")
+        raise InputError(f"{folder} holds no campaign: it has no provenance.json")
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
         if found["format"] != _FORMAT:
-            raise ValueError("it is of another kind")
+            raise InputError("it is of another kind")
         version = found["format_version"]
     except (ValueError, KeyError, TypeError) as error:
-        raise ValueError(f"{path} is damaged: {error}") from None
+        raise InputError(f"{path} is damaged: {error}") from None
     if version > _FORMAT_VERSION:
-        raise ValueError(f"{folder} was written by a newer version of viscotack; update viscotack")
+        raise InputError(f"{folder} was written by a newer version of viscotack; update viscotack")
     return found
 
 

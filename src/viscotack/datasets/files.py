@@ -5,6 +5,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from viscotack.errors import InputError
+
 NAMES = ("thesis", "broad", "chosen", "fast", "punch")
 _HERE = Path(__file__).parent
 # Written beside the data by whoever makes them; the format of `sha256sum`.
@@ -98,7 +100,7 @@ def checksum(content: bytes) -> str:
 
 def _known(name: str) -> str:
     if name not in NAMES:
-        raise ValueError(f"there is no dataset {name!r}; there are {', '.join(NAMES)}")
+        raise InputError(f"there is no dataset {name!r}; there are {', '.join(NAMES)}")
     return name
 
 
@@ -107,7 +109,7 @@ def _checked(name: str) -> bytes:
     expected = _checksums()[file.name]
     content = file.read_bytes()
     if checksum(content) != expected:
-        raise ValueError(
+        raise InputError(
             f"{file} is damaged: its SHA-256 is {checksum(content)}, published was {expected}; "
             "install viscotack again"
         )

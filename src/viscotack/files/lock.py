@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from viscotack.errors import InputError
 
-class FolderInUse(ValueError):
+
+class FolderInUse(InputError):
     """Another run writes to the folder."""
 
 
@@ -38,7 +40,7 @@ def _taken(handle: int) -> bool:
     try:
         import fcntl
     except ImportError:
-        raise ValueError("campaigns need the file locks of Linux or macOS to run") from None
+        raise InputError("campaigns need the file locks of Linux or macOS to run") from None
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -4,6 +4,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from viscotack.errors import InputError
 from viscotack.units import finite, parse
 
 from .text import read_rows
@@ -42,14 +43,14 @@ def read_quantities(
     for line, row in rows:
         try:
             if len(row) != len(header):
-                raise ValueError(f"{len(row)} entries, and the header has {len(header)}")
+                raise InputError(f"{len(row)} entries, and the header has {len(header)}")
             for name, (at, given) in places.items():
                 value = finite(name, row[at], given)
                 columns[name].append(parse(f"{value!r} {given}", units[name]))
         except ValueError as error:
-            raise ValueError(f"{path}, line {line}: {error}") from None
+            raise InputError(f"{path}, line {line}: {error}") from None
     if not rows:
-        raise ValueError(f"{path}: there are no rows below the header")
+        raise InputError(f"{path}: there are no rows below the header")
     return {name: tuple(values) for name, values in columns.items()}
 
 
@@ -57,7 +58,7 @@ def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, st
     """Return where a column is, and its unit as the file states it."""
     found = [i for i, text in enumerate(header) if text.startswith(f"{name}_")]
     if len(found) != 1:
-        raise ValueError(
+        raise InputError(
             f"{path}: one column must be {name} with its unit, such as {name}_{unit}; the first "
             f"row is {','.join(header)!r}"
         )
@@ -65,5 +66,5 @@ def _place(path: Path, header: list[str], name: str, unit: str) -> tuple[int, st
     try:
         parse(f"1 {given}", unit)
     except ValueError as error:
-        raise ValueError(f"{path}, the name of the column {name}: {error}") from None
+        raise InputError(f"{path}, the name of the column {name}: {error}") from None
     return found[0], given

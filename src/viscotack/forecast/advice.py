@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import LARGEST_CONTACT
@@ -259,7 +260,7 @@ def threshold_contact_radius(
     from viscotack.result.observables import pull_off_force
 
     if not slope > 0:
-        raise ValueError(f"slope must be positive, got {slope}; the thesis takes 0.1")
+        raise InputError(f"slope must be positive, got {slope}; the thesis takes 0.1")
     groups = problem.groups()
 
     def force(radius: float) -> float:
@@ -277,7 +278,7 @@ def threshold_contact_radius(
     radii = np.linspace(_SMALLEST_START, largest, _COARSE)
     steep = np.diff([force(float(x)) for x in radii]) / np.diff(radii) >= slope
     if steep[-1]:
-        raise ValueError(
+        raise InputError(
             f"the force still grows by more than {slope} at the largest radius tried, {largest:.3g}"
         )
     if not np.any(steep):
@@ -301,15 +302,15 @@ def _check(groups: Groups) -> None:
     """Refuse tests for which the theories have no answer."""
     if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
         shape = groups.geometry.word if isinstance(groups, Groups) else "punch"
-        raise ValueError(f"advice is for spheres, got a {shape}; simulate others")
+        raise InputError(f"advice is for spheres, got a {shape}; simulate others")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:
-        raise ValueError(
+        raise InputError(
             "advice is for a relaxed contact that a rigid drive pulls off at a constant speed; "
             "simulate other tests"
         )
     if not isinstance(groups.traction, LennardJones):
-        raise ValueError(
+        raise InputError(
             "advice is for the Lennard-Jones traction, got "
             f"{type(groups.traction).__name__}; simulate others"
         )

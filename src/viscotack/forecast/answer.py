@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.problem import Groups, Problem, PunchGroups
@@ -100,7 +101,7 @@ def check_confidence(confidence: float) -> None:
     from viscotack.surrogate.trust import CONFIDENCES
 
     if confidence not in CONFIDENCES:
-        raise ValueError(
+        raise InputError(
             f"confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which intervals "
             f"were measured; got {confidence!r}"
         )

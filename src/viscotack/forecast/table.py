@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 from .answer import check_confidence, predict
 
 if TYPE_CHECKING:
@@ -111,7 +113,7 @@ def _arrays(columns: Mapping[str, npt.ArrayLike]) -> dict[str, Array]:
     shapes = {name: values.shape for name, values in given.items()}
     if len(set(shapes.values())) > 1 or any(len(shape) != 1 for shape in shapes.values()):
         words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ValueError(f"columns must be rows of numbers of one length, got shapes {words}")
+        raise InputError(f"columns must be rows of numbers of one length, got shapes {words}")
     return given
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -57,7 +58,7 @@ def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: f
             f"theories are asked up to {_LARGEST_START:g}; {SIMULATE}"
         )
     if not has_relaxed_contact(groups):
-        raise ValueError(
+        raise InputError(
             f"there is no contact to pull off: no relaxed one exists at {groups.start}"
         )
     try:

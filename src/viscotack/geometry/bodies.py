@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import Quantity, conform
+from viscotack.errors import InputError
 
 Array = npt.NDArray[np.float64]
 
@@ -127,7 +128,7 @@ class Layer:
     def __post_init__(self) -> None:
         conform(self)
         if not isinstance(self.base, Base):
-            raise ValueError(
+            raise InputError(
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
 

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from viscotack.cards import Quantity, conform
+from viscotack.errors import InputError
 
 Array = npt.NDArray[np.float64]
 # A shape of revolution is looked at over these decades of radius [m].
@@ -256,7 +257,7 @@ def equivalent_radius(shape: Shape, length: float) -> float:
     try:
         beta = 10 ** float(brentq(excess, *_DECADES, xtol=1e-15))  # type: ignore[arg-type]
     except (ValueError, OverflowError, ZeroDivisionError):
-        raise ValueError(
+        raise InputError(
             f"the flank of {shape} must rise from the tip outwards: no radius balances "
             f"adhesion over modulus, {length:g} m"
         ) from None

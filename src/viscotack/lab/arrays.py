@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
 
 Array = npt.NDArray[np.float64]
@@ -19,7 +20,7 @@ KINDS = {"E": "tension", "G": "shear"}
 def check_kind(kind: Any) -> None:
     """Refuse a kind of modulus that is none."""
     if kind not in KINDS:
-        raise ValueError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
+        raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
 
 
 def store_temperature(instance: Any, name: str) -> None:
@@ -29,7 +30,7 @@ def store_temperature(instance: Any, name: str) -> None:
         return
     number = float(value)
     if not 0 < number < np.inf:
-        raise ValueError(f"{name} must be positive [K], got {value!r}; give Celsius + 273.15")
+        raise InputError(f"{name} must be positive [K], got {value!r}; give Celsius + 273.15")
     object.__setattr__(instance, name, number)
 
 
@@ -37,9 +38,9 @@ def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None
     """Return a copy as one row of floats, of a given length."""
     row = np.array(values, dtype=float)
     if row.ndim != 1 or not row.size:
-        raise ValueError(f"{name} must be a row of numbers [{unit}], got shape {row.shape}")
+        raise InputError(f"{name} must be a row of numbers [{unit}], got shape {row.shape}")
     if length is not None and row.size != length:
-        raise ValueError(f"{name} has {row.size} values where the others have {length}")
+        raise InputError(f"{name} has {row.size} values where the others have {length}")
     return row
 
 
@@ -52,7 +53,7 @@ def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
         wrong = row[~((row > 0) & (row < np.inf) | (may_miss & np.isnan(row)))]
         if wrong.size:
             cure = "; give Celsius + 273.15" if unit == "K" else ""
-            raise ValueError(f"{name} must be positive and finite [{unit}], got {wrong[0]:g}{cure}")
+            raise InputError(f"{name} must be positive and finite [{unit}], got {wrong[0]:g}{cure}")
         store(instance, name, row)
 
 
@@ -61,7 +62,7 @@ def store_whole(instance: Any, name: str, values: npt.ArrayLike, length: int) ->
     row = array(name, values, "-", length)
     broken = row[row != np.round(row)]
     if broken.size:
-        raise ValueError(f"{name} must be whole numbers, got {broken[0]:g}")
+        raise InputError(f"{name} must be whole numbers, got {broken[0]:g}")
     store(instance, name, row.astype(np.int64))
 
 

@@ -1,5 +1,6 @@
 """From a fit to a passport: the material with what is known of it."""
 
+from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.shift import Shift, TabulatedShift
 
@@ -72,6 +73,6 @@ def issued(
 
 def _tabulated(table: ShiftTable, temperature: float | None) -> TabulatedShift:
     if temperature is None:
-        raise ValueError("a table of shifts needs the temperature of the master curve [K]")
+        raise InputError("a table of shifts needs the temperature of the master curve [K]")
     rows, values = tuple(table.temperature.tolist()), tuple(table.log10_shift.tolist())
     return TabulatedShift(temperature, rows, values)

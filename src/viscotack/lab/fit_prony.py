@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import nnls
 
+from viscotack.errors import InputError
 from viscotack.materials import Prony
 from viscotack.materials.conversion import RetardationSeries, relaxation_series
 from viscotack.materials.modes import maxwell
@@ -62,12 +63,12 @@ def fit_series(
         Of the random numbers.
     """
     if arms is not None and not 1 <= arms <= 4 * _MOST:
-        raise ValueError(f"arms must be between 1 and {4 * _MOST}, got {arms}")
+        raise InputError(f"arms must be between 1 and {4 * _MOST}, got {arms}")
     compared: list[tuple[str, float]] = []
     if arms is None:
         grids = _grids(data)
         if not grids:
-            raise ValueError(
+            raise InputError(
                 f"{data.values.size} numbers are too few to choose how many arms they carry; give "
                 "arms, or fit a law of few constants"
             )
@@ -179,7 +180,7 @@ def _fitted(
 def _material(data: Observed, times: Array, weights: Array) -> Prony:
     arms = tuple(zip(weights[1:], times, strict=True))
     if not arms:
-        raise ValueError(
+        raise InputError(
             "the measured modulus does not rise with frequency, or fall with time: there is "
             "nothing that a Prony series could describe"
         )

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials import Material
 
 from .observed import Observed
@@ -190,7 +191,7 @@ class FitReport:
         for found in self.intervals:
             if found.name == name:
                 return found
-        raise ValueError(f"there is no {name!r}; there are {[i.name for i in self.intervals]}")
+        raise InputError(f"there is no {name!r}; there are {[i.name for i in self.intervals]}")
 
     def _scatters(self) -> str:
         """Return the root mean square residual of each part, in words."""

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq, least_squares
 
+from viscotack.errors import InputError
 from viscotack.materials import RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.materials.interconversion import reciprocal
 
@@ -44,7 +45,7 @@ class Search:
         names = tuple(n for n in names if n in kind.__dataclass_fields__)
         for name in known:
             if name not in names:
-                raise ValueError(
+                raise InputError(
                     f"{name} is no constant of the model {model}; it has {', '.join(names)}"
                 )
         softest, stiffest = data.moduli
@@ -58,7 +59,7 @@ class Search:
         }
         free = [name for name in names if name not in known]
         if not free:
-            raise ValueError("every constant is given: nothing is left to fit")
+            raise InputError("every constant is given: nothing is left to fit")
         low, high = np.array([bounds[name] for name in free]).T
         search = cls(data, kind, names, {k: float(v) for k, v in known.items()}, low, high)
         search.solid((low + high) / 2)  # refuses what is impossible, in the words of the material

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 
 from threadpoolctl import threadpool_limits
 
+from viscotack.errors import InputError
+
 from .fit_limits import misfit_cautions, opened, series_cautions, undetermined
 from .fit_power_law import fit_constants, fitted_constants
 from .fit_prony import fit_series, with_noise
@@ -94,13 +96,13 @@ def fit(
     '0.100 s, 10.00 MPa'
     """
     if model not in (*MODELS, "best"):
-        raise ValueError(f"model must be one of {', '.join(MODELS)} or best, got {model!r}")
+        raise InputError(f"model must be one of {', '.join(MODELS)} or best, got {model!r}")
     if not 0 < level < 1:
-        raise ValueError(f"level is a probability and must lie in (0, 1), got {level}")
+        raise InputError(f"level is a probability and must lie in (0, 1), got {level}")
     if arms is not None and model != "prony":
-        raise ValueError(f"arms go with the model prony, not with {model}")
+        raise InputError(f"arms go with the model prony, not with {model}")
     if known and model in ("prony", "best"):
-        raise ValueError(f"known constants go with one of {', '.join(KINDS)}, not with {model}")
+        raise InputError(f"known constants go with one of {', '.join(KINDS)}, not with {model}")
     seen = observed(data, poisson_ratio=poisson_ratio)
     if not loss:
         seen = only(seen, "storage")
@@ -121,7 +123,7 @@ def _affordable(data: Observed) -> list[str]:
     constants = {"power-law": 4, "relaxation-power-law": 4, "sls": 3, "prony": 3}
     found = [model for model in MODELS if data.values.size > constants[model] + 3]
     if not found:
-        raise ValueError(
+        raise InputError(
             f"{data.values.size} numbers are too few to compare models; name the one to fit"
         )
     return found

@@ -13,6 +13,8 @@ import numpy.typing as npt
 from scipy.optimize import nnls
 from scipy.special import spence
 
+from viscotack.errors import InputError
+
 from .sweeps import MasterCurve
 
 Array = npt.NDArray[np.float64]
@@ -109,11 +111,11 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
     True
     """
     if not 0 < tolerance < 1:
-        raise ValueError(f"tolerance must lie between 0 and 1, got {tolerance!r}")
+        raise InputError(f"tolerance must lie between 0 and 1, got {tolerance!r}")
     omega = master.angular_frequency
     decades = float(np.log10(omega[-1] / omega[0]))
     if omega.size < 4 or decades < 0.5:
-        raise ValueError(
+        raise InputError(
             f"{omega.size} points over {decades:.2g} decades of frequency are too few to check"
         )
     count = int(_PER_DECADE * (decades + 2 * _BEYOND)) + 1
@@ -187,11 +189,11 @@ def loss_from_storage(angular_frequency: npt.ArrayLike, storage: npt.ArrayLike) 
     omega = np.asarray(angular_frequency, dtype=float)
     modulus = np.asarray(storage, dtype=float)
     if omega.ndim != 1 or omega.size < 2 or omega.shape != modulus.shape:
-        raise ValueError(
+        raise InputError(
             f"expected two rows of the same length, got shapes {omega.shape} and {modulus.shape}"
         )
     if not (omega[0] > 0 and np.all(np.diff(omega) > 0) and np.all(np.isfinite(modulus))):
-        raise ValueError("frequencies must be positive and ascend, moduli must be finite")
+        raise InputError("frequencies must be positive and ascend, moduli must be finite")
     y = np.log(omega)
     slope = np.diff(modulus) / np.diff(y)
     return np.diff(_integral(y[None, :] - y[:, None]), axis=1) @ slope / np.pi

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .grouping import GAP
@@ -74,9 +75,9 @@ def master_curve(
     if reference_temperature is None:
         return _unshifted(sweeps, shift)
     if np.any(np.isnan(sweeps.temperature)):
-        raise ValueError("the temperature of some points is not known; give read_dma temperature=")
+        raise InputError("the temperature of some points is not known; give read_dma temperature=")
     if shift is not None and (vertical or by != "storage"):
-        raise ValueError("by and vertical are for shifts found from overlap; leave shift= out")
+        raise InputError("by and vertical are for shifts found from overlap; leave shift= out")
     reference_temperature = float(reference_temperature)
     if shift is None:
         if np.ptp(sweeps.temperature) <= GAP and _near(sweeps.temperature, reference_temperature):
@@ -112,7 +113,7 @@ def master_curve(
 def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> MasterCurve:
     known = not np.any(np.isnan(sweeps.temperature))
     if shift is not None or (known and np.ptp(sweeps.temperature) > GAP):
-        raise ValueError("sweeps at several temperatures, or a shift, need reference_temperature=")
+        raise InputError("sweeps at several temperatures, or a shift, need reference_temperature=")
     return MasterCurve(
         reference_temperature=float(np.mean(sweeps.temperature)) if known else None,
         angular_frequency=sweeps.angular_frequency,
@@ -147,7 +148,7 @@ def _interpolated(temperature: Array, rows: Array, values: Array, reference: flo
     beside[-1] = rows[0] < reference < rows[-1]
     if beside.any():
         if rows.size < 2:
-            raise ValueError(
+            raise InputError(
                 f"the table of shifts has one row, at {rows[0]:.2f} K; "
                 f"asked at {asked[beside][0]:.2f} K"
             )
@@ -159,7 +160,7 @@ def _interpolated(temperature: Array, rows: Array, values: Array, reference: flo
 def _refuse_ramp(sweeps: FrequencySweeps) -> None:
     omega = sweeps.angular_frequency
     if np.ptp(omega) <= 1e-3 * omega[0] and np.ptp(sweeps.temperature) > GAP:
-        raise ValueError(
+        raise InputError(
             "a temperature ramp at one frequency has no overlap to find shifts from; give "
             "shift=WLF.from_glass_transition(...) or another law"
         )

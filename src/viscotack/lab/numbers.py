@@ -4,6 +4,8 @@ import math
 import re
 from collections.abc import Iterable
 
+from viscotack.errors import InputError
+
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,][0-9]{3})+")
 _MISSING = {"", "-", "--", "---", "----", "*", "***", "nan", "na", "n/a", "#n/a", "none", "null"}
@@ -34,10 +36,10 @@ def number(text: str, mark: str) -> float:
         return math.nan
     other = "," if mark == "." else "."
     if _NUMBER.fullmatch(plain) is None or other in plain:
-        raise ValueError(f"expected a number, got {text[:40]!r}")
+        raise InputError(f"expected a number, got {text[:40]!r}")
     value = float(plain.replace(mark, "."))
     if math.isinf(value):
-        raise ValueError(f"the number {text[:40]!r} is too large")
+        raise InputError(f"the number {text[:40]!r} is too large")
     return value
 
 
@@ -59,11 +61,11 @@ def decimal_mark(cells: Iterable[str]) -> str:
     if not with_comma:
         return "."
     if any("." in cell for cell in found):
-        raise ValueError(
+        raise InputError(
             "some numbers have a decimal point and some a comma; give decimal=',' or '.'"
         )
     if all(_GROUPED.fullmatch(cell) for cell in with_comma):
-        raise ValueError(
+        raise InputError(
             f"{with_comma[0]!r} may be a decimal number or one of thousands; "
             "give decimal=',' or decimal='.'"
         )

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials import Material
 
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
@@ -113,7 +114,7 @@ class Observed:
 def only(data: Observed, part: str) -> Observed:
     """Return the measured numbers of one part of the complex modulus, "storage" or "loss"."""
     if not data.in_frequency:
-        raise ValueError(f"there is no loss modulus to leave out of a test of {data.quantity}")
+        raise InputError(f"there is no loss modulus to leave out of a test of {data.quantity}")
     row = data.values[[data.parts.index(part)]]
     return replace(data, quantity=f"{part} modulus", values=row, noise=np.ones(1))
 
@@ -140,12 +141,12 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
     [3000000.0, 6000000.0, 12000000.0]
     """
     if not isinstance(data, Data):
-        raise ValueError(
+        raise InputError(
             "a fit needs a MasterCurve, a FrequencySweeps at one temperature, a RelaxationTest or "
             f"a CreepTest, got {type(data).__name__}"
         )
     if len(data) < 3:
-        raise ValueError(f"a fit needs at least 3 points, got {len(data)}")
+        raise InputError(f"a fit needs at least 3 points, got {len(data)}")
     tension = data.in_tension(poisson_ratio)
     temperature, temperatures = _temperatures(data)
     if isinstance(tension, MasterCurve | FrequencySweeps):
@@ -178,7 +179,7 @@ def _temperatures(data: Data) -> tuple[float | None, tuple[float, float] | None]
         seen = data.temperature[np.isfinite(data.temperature)]
         # a chamber holds its temperature to about a kelvin
         if seen.size and np.ptp(seen) > 3:
-            raise ValueError(
+            raise InputError(
                 f"the sweeps are from {seen.min():.1f} K to {seen.max():.1f} K; "
                 "make a master curve of them first (viscotack.lab.master_curve)"
             )

@@ -9,6 +9,7 @@ import re
 import unicodedata
 from dataclasses import dataclass
 
+from viscotack.errors import InputError
 from viscotack.units import parse
 
 # quantity -> words; a word in capitals and small letters alike, without spaces, marks and accents
@@ -199,7 +200,7 @@ def kelvin(unit: str) -> tuple[float, float]:
         return 5 / 9, 273.15 - 32 * 5 / 9
     if unit == "K":
         return 1.0, 0.0
-    raise ValueError(f"{unit!r} is not a unit of temperature; expected C, K or F")
+    raise InputError(f"{unit!r} is not a unit of temperature; expected C, K or F")
 
 
 def radians_per_second(unit: str, *, angular: bool) -> float:
@@ -224,14 +225,14 @@ def radians_per_second(unit: str, *, angular: bool) -> float:
     if unit in _PER_SECOND:
         if angular:
             return 1.0
-        raise ValueError("a frequency in 1/s may be in Hz or in rad/s; say frequency_unit=")
+        raise InputError("a frequency in 1/s may be in Hz or in rad/s; say frequency_unit=")
     # to the unit library hertz and radians per second are the same: tell them apart by name
     if unit.endswith("Hz"):
         if angular:
-            raise ValueError(
+            raise InputError(
                 "the heading says angular frequency, the unit says Hz; correct one of them"
             )
         return 2 * math.pi * scale(unit, "Hz")
     if unit in ("rpm", "1/min", "min^-1"):
-        raise ValueError(f"{unit!r} is a speed of rotation; expected Hz or rad/s")
-    raise ValueError(f"{unit!r} is not a unit of frequency; expected Hz or rad/s")
+        raise InputError(f"{unit!r} is a speed of rotation; expected Hz or rad/s")
+    raise InputError(f"{unit!r} is not a unit of frequency; expected Hz or rad/s")

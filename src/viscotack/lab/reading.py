@@ -3,6 +3,8 @@
 from os import PathLike
 from types import ModuleType
 
+from viscotack.errors import InputError
+
 from . import (
     assembly,
     plain_layout,
@@ -165,7 +167,7 @@ def read_shifts(path: Path, *, format: str | None = None, decimal: str | None = 
 
 def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
     if format is not None and format not in FORMATS:
-        raise ValueError(f"format must be one of {', '.join(FORMATS)}, got {format!r}")
+        raise InputError(f"format must be one of {', '.join(FORMATS)}, got {format!r}")
     file = load(path)
     found = format or _sniffed(file)
     tables = FORMATS[found].tables(file)
@@ -192,11 +194,11 @@ def _given(
 ) -> assembly.Given:
     """Refuse what a caller says wrongly before the file is blamed for it."""
     if kind is not None and kind not in KINDS:
-        raise ValueError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
+        raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
     if decimal not in (None, ".", ","):
-        raise ValueError(f"decimal must be '.' or ',', got {decimal!r}")
+        raise InputError(f"decimal must be '.' or ',', got {decimal!r}")
     if temperature is not None and not 0 < temperature < 3000:
-        raise ValueError(f"temperature must be positive [K], got {temperature!r}; not Celsius")
+        raise InputError(f"temperature must be positive [K], got {temperature!r}; not Celsius")
     if frequency_unit is not None:
         radians_per_second(frequency_unit, angular="rad" in frequency_unit)
     if modulus_unit is not None:

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius
 
 from .sweeps import ShiftTable
@@ -68,7 +69,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
     (8.86, 101.6)
     """
     if len(table) < 3:
-        raise ValueError(f"a WLF law needs three or more temperatures, got {len(table)}")
+        raise InputError(f"a WLF law needs three or more temperatures, got {len(table)}")
     above = table.temperature - reference_temperature
     weight = 1 / _deviation(table)
     coldest = min(float(np.min(above)), 0.0)
@@ -89,7 +90,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
     best = min((least_squares(residual, s, bounds=limits) for s in starts), key=lambda f: f.cost)
     values, c1, c2 = shape(best.x)
     if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
-        raise ValueError(
+        raise InputError(
             "the shifts do not bend as a WLF law does; fit Arrhenius, or the part of the table "
             "above the glass transition"
         )
@@ -123,13 +124,13 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> ShiftFi
     80000
     """
     if len(table) < 2:
-        raise ValueError(f"an Arrhenius law needs two or more temperatures, got {len(table)}")
+        raise InputError(f"an Arrhenius law needs two or more temperatures, got {len(table)}")
     unit = np.asarray(Arrhenius(reference_temperature, 1.0).log10_shift(table.temperature))
     weight = 1 / _deviation(table)
     columns = np.column_stack((unit, np.ones(len(table))))
     found, *_ = np.linalg.lstsq(columns * weight[:, None], table.log10_shift * weight, rcond=None)
     if found[0] <= 0:
-        raise ValueError(
+        raise InputError(
             f"the shift rises with temperature (activation energy {found[0]:.3g} J/mol); "
             "log10 a_T is positive where the solid is slower, that is in the cold"
         )

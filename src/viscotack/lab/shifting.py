@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
+from viscotack.errors import InputError
 from viscotack.materials.shift import TabulatedShift
 
 from .grouping import GAP
@@ -93,15 +94,15 @@ def shift_factors(
     Points within 1 K are one temperature, their mean.
     """
     if by not in MODULI:
-        raise ValueError(f"by must be 'storage', 'loss' or 'both', got {by!r}")
+        raise InputError(f"by must be 'storage', 'loss' or 'both', got {by!r}")
     levels = temperature_levels(sweeps)
     temperature = np.array([float(np.mean(level.temperature)) for level in levels])
     if len(levels) < 2:
-        raise ValueError(
+        raise InputError(
             "a shift needs sweeps at two or more temperatures, got one; give shift=WLF(...)"
         )
     if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
-        raise ValueError(
+        raise InputError(
             f"reference_temperature must lie between {temperature[0]:.2f} and "
             f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give shift=WLF(...) to go "
             "beyond"
@@ -112,7 +113,7 @@ def shift_factors(
         try:
             steps.append(step_between(colder, hotter, vertical=vertical))
         except ValueError as error:
-            raise ValueError(
+            raise InputError(
                 f"sweeps at {temperature[i]:.2f} and {temperature[i + 1]:.2f} K: {error}"
             ) from None
     shift, vertical_shift, deviation = _summed(steps, temperature, reference_temperature)
@@ -132,7 +133,7 @@ def step_between(colder: Curve, hotter: Curve, *, vertical: bool) -> Step:
     costs = np.stack([_costs(_pair(colder, hotter, tried, vertical, d)) for d in _DEGREES])
     degree, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
     if best in (0, tried.size - 1):
-        raise ValueError(
+        raise InputError(
             "the curves fit best end to end, so the data do not fix the shift; measure closer "
             "temperatures, superpose by another modulus, or give shift=WLF(...)"
         )
@@ -242,7 +243,7 @@ def _summed(
 def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
     """Return the points of each temperature, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
-        raise ValueError("the temperature of some points is not known; give read_dma temperature=")
+        raise InputError("the temperature of some points is not known; give read_dma temperature=")
     order = np.argsort(sweeps.temperature, kind="stable")
     breaks = np.flatnonzero(np.diff(sweeps.temperature[order]) > GAP) + 1
     return [sweeps.chosen(points) for points in np.split(order, breaks)]
@@ -253,7 +254,7 @@ def curve(level: FrequencySweeps, by: str) -> Curve:
     order = np.argsort(level.angular_frequency, kind="stable")
     x = np.log10(level.angular_frequency[order])
     if x.size < FEWEST or np.ptp(x) < 0.1:
-        raise ValueError(
+        raise InputError(
             f"{x.size} points at {np.mean(level.temperature):.2f} K, over "
             f"{np.ptp(x):.1g} decades of frequency: too few to find a shift from overlap; "
             "give shift=WLF(...) or leave them out"

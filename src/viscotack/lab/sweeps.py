@@ -14,6 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 from . import arrays
 
 Array = npt.NDArray[np.float64]
@@ -120,14 +122,14 @@ class FrequencySweeps:
         """Return one sweep, in ascending order of frequency."""
         found = np.flatnonzero(self.sweep == sweep)
         if not found.size:
-            raise ValueError(f"there is no sweep {sweep}; there are {list(self.ids)}")
+            raise InputError(f"there is no sweep {sweep}; there are {list(self.ids)}")
         return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
 
     def without(self, *sweeps: int) -> "FrequencySweeps":
         """Return the sweeps without some of them, for example those that were flagged."""
         unknown = set(sweeps) - set(self.ids)
         if unknown:
-            raise ValueError(f"there is no sweep {min(unknown)}; there are {list(self.ids)}")
+            raise InputError(f"there is no sweep {min(unknown)}; there are {list(self.ids)}")
         return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
 
     def chosen(self, points: npt.ArrayLike) -> "FrequencySweeps":
@@ -175,21 +177,21 @@ class ShiftTable:
     def __post_init__(self):
         temperature = arrays.array("temperature", self.temperature, "K")
         if not np.all(temperature > 0):
-            raise ValueError(
+            raise InputError(
                 f"temperature must be positive, got {temperature.min():g} K; give Celsius + 273.15"
             )
         order = np.argsort(temperature, kind="stable")
         if np.any(np.diff(temperature[order]) == 0):
-            raise ValueError("a table of shift factors has one row per temperature, got two")
+            raise InputError("a table of shift factors has one row per temperature, got two")
         for name in ("temperature", "log10_shift", "uncertainty", "log10_vertical"):
             values = getattr(self, name)
             if values is None:
                 continue
             values = arrays.array(name, values, "-", temperature.size)[order]
             if not np.all(np.isfinite(values)):
-                raise ValueError(f"{name} must be finite")
+                raise InputError(f"{name} must be finite")
             if name == "uncertainty" and np.any(values < 0):
-                raise ValueError(f"uncertainty must not be negative, got {values.min():g}")
+                raise InputError(f"uncertainty must not be negative, got {values.min():g}")
             arrays.store(self, name, values)
 
     def __len__(self) -> int:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 from .arrays import KINDS
 from .lab_file import LabFile
 from .numbers import decimal_mark, half_digit, number
@@ -254,9 +256,9 @@ class Columns:
                 except ValueError:
                     own = factor  # the file is ambiguous: the caller decides
                 if not math.isclose(own, factor):
-                    raise ValueError(f"the file says {bare(unit)}, frequency_unit says {said}")
+                    raise InputError(f"the file says {bare(unit)}, frequency_unit says {said}")
             elif no_unit(unit):
-                raise ValueError("no unit; give frequency_unit='Hz' or 'rad/s', or write it")
+                raise InputError("no unit; give frequency_unit='Hz' or 'rad/s', or write it")
             else:
                 factor = radians_per_second(unit, angular=angular)
         except ValueError as error:

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from importlib import import_module
 from typing import Any
 
+from viscotack.errors import InputError
+
 from .lab_file import LARGEST, LabFile
 from .table import Table, first_headings, tabulated
 
@@ -77,7 +79,7 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     openpyxl = import_module("openpyxl")
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
         if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
-            raise ValueError("it unpacks to more than 200 MB")
+            raise InputError("it unpacks to more than 200 MB")
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
     for sheet in book.worksheets:
         _refuse_huge(sheet.max_row or 0, sheet.max_column or 0)
@@ -88,7 +90,7 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
 
 def _refuse_huge(rows: int, columns: int) -> None:
     if rows > _LONGEST or columns > _WIDEST:
-        raise ValueError(f"a sheet has {rows} rows and {columns} columns")
+        raise InputError(f"a sheet has {rows} rows and {columns} columns")
 
 
 def _text(value: Any) -> str:

@@ -6,12 +6,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 
 def positive(name: str, value: float, unit: str) -> float:
     """Return a positive, finite number as a float."""
     number = _number(value)
     if not 0 < number < math.inf:
-        raise ValueError(
+        raise InputError(
             f"{name} must be a positive, finite number [{unit}], got {value!r}; give SI numbers"
         )
     return number
@@ -21,7 +23,7 @@ def stiffens(material: Any) -> None:
     """Refuse a short-time modulus below the long-time one."""
     glassy, rubbery = material.glassy_modulus, material.rubbery_modulus
     if glassy < rubbery:
-        raise ValueError(
+        raise InputError(
             "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
             f"{glassy:g} Pa < {rubbery:g} Pa; perhaps the two are exchanged"
         )
@@ -33,9 +35,9 @@ def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float,
     longest = positive("longest", longest, "s")
     tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
     if longest < shortest:
-        raise ValueError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
+        raise InputError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
     if tolerance >= 1:
-        raise ValueError(
+        raise InputError(
             f"tolerance is a part of the rubbery compliance and must be below 1, got {tolerance:g}"
         )
     return shortest, longest, tolerance
@@ -46,7 +48,7 @@ def nonnegative(name: str, values: npt.ArrayLike, unit: str) -> npt.NDArray[np.f
     array = np.asarray(values, dtype=float)
     wrong = array[~(array >= 0)]  # true for nan as well
     if wrong.size:
-        raise ValueError(f"{name} must not be negative or nan, got {wrong[0]} {unit}")
+        raise InputError(f"{name} must not be negative or nan, got {wrong[0]} {unit}")
     return array
 
 

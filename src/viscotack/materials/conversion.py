@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import conform
+from viscotack.errors import InputError
 from viscotack.materials import checks
 from viscotack.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.materials.interconversion import reciprocal
@@ -65,7 +66,7 @@ class RetardationSeries:
             for C, time in self.elements
         ]
         if not checked:
-            raise ValueError("elements must not be empty; describe a solid without any by Elastic")
+            raise InputError("elements must not be empty; describe a solid without any by Elastic")
         conform(self)
         checks.store(
             self,
@@ -144,7 +145,7 @@ def relaxation_form(material: Prony | StandardSolid) -> Prony:
     if isinstance(material, Prony):
         return material
     if not isinstance(material, StandardSolid) or material.modulus_ratio == 1:
-        raise ValueError(
+        raise InputError(
             f"{type(material).__name__} is no sum of exponentials; prony_form makes one that is "
             "close to it"
         )
@@ -190,13 +191,13 @@ def prony_form(
     """
     low, high = (checks.positive("a frequency", w, "rad/s") for w in frequencies)
     if not 0 < tolerance < 1:
-        raise ValueError(f"tolerance is relative and must lie in (0, 1), got {tolerance:g}")
+        raise InputError(f"tolerance is relative and must lie in (0, 1), got {tolerance:g}")
     if low >= high:
-        raise ValueError(f"frequencies must ascend, got {low:g} and {high:g} rad/s")
+        raise InputError(f"frequencies must ascend, got {low:g} and {high:g} rad/s")
     if isinstance(material, Prony) or isinstance(material, StandardSolid):
         return PronyForm(material=relaxation_form(material), error=0.0, frequencies=(low, high))
     if material.modulus_ratio == 1 or isinstance(material, Elastic):
-        raise ValueError("an elastic solid does not relax: it has no Prony series")
+        raise InputError("an elastic solid does not relax: it has no Prony series")
     omega = np.geomspace(low, high, 2 + int(40 * np.log10(high / low)))
     exact = material.complex_modulus(omega)
     least = float(np.min(np.abs(material.complex_compliance(omega))) * material.rubbery_modulus)
@@ -217,7 +218,7 @@ def prony_form(
         error = float(np.max(np.abs(np.asarray(series.complex_modulus(omega)) / exact - 1)))
         if error <= tolerance:
             return PronyForm(material=series, error=error, frequencies=(low, high))
-    raise ValueError(
+    raise InputError(
         f"no series came closer to the solid than {error:.1e}, and {tolerance:g} was asked for; "
         "ask for less"
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.power_law import RetardationPowerLaw
 from viscotack.materials.shift import WLF
@@ -69,7 +70,7 @@ def published(name: str) -> Passport:
     0.2207
     """
     if name not in MATERIALS:
-        raise ValueError(
+        raise InputError(
             f"there is no published material {name!r} in the library; it has {', '.join(MATERIALS)}"
         )
     return MATERIALS[name]()

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, nonnegative
 
 Array = npt.NDArray[np.float64]
@@ -46,7 +47,7 @@ class Modes:
         object.__setattr__(self, "times", tuple(float(t) for t in self.times))
         object.__setattr__(self, "error", float(self.error))
         if len(self.weights) != len(self.times):
-            raise ValueError(
+            raise InputError(
                 f"modes need one time for each weight, got {len(self.weights)} weights "
                 f"and {len(self.times)} times"
             )

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.materials.conversion import slowed
 from viscotack.materials.shift import Shift
 
@@ -117,17 +118,17 @@ class Passport:
 
     def __post_init__(self):
         if not hasattr(self.material, "retardation_modes"):
-            raise ValueError(
+            raise InputError(
                 f"material must be one of viscotack.materials, got {type(self.material).__name__}"
             )
         if self.shift is not None and self.temperature is None:
-            raise ValueError("a shift needs the temperature [K] at which the material holds")
+            raise InputError("a shift needs the temperature [K] at which the material holds")
         if self.measured not in ("E", "G", None):
-            raise ValueError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
+            raise InputError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
         for name in ("temperatures", "frequencies"):
             pair = getattr(self, name)
             if pair is not None and not 0 < pair[0] <= pair[1]:
-                raise ValueError(f"{name} must be positive and ascend, got {pair}")
+                raise InputError(f"{name} must be positive and ascend, got {pair}")
 
     def shift_factor(self, temperature: float) -> float:
         """Return a_T: how many times slower the material is at another temperature [K].
@@ -141,11 +142,11 @@ class Passport:
             return 1.0
         if self.shift is None or self.temperature is None:
             known = "" if self.temperature is None else f" from {_both(self.temperature)}"
-            raise ValueError(f"{self.name}: no law says how times change with temperature{known}")
+            raise InputError(f"{self.name}: no law says how times change with temperature{known}")
         if self.temperatures is not None:
             low, high = self.temperatures
             if not low - _DRIFT <= temperature <= high + _DRIFT:
-                raise ValueError(
+                raise InputError(
                     f"{self.name} was measured from {_both(low)} to {_both(high)}, got "
                     f"{_both(temperature)}; superposition is not extrapolated"
                 )

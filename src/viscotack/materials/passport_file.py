@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.files.whole import Target, write_whole
 from viscotack.materials.material import Material
@@ -48,12 +49,12 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
     path = Path(path)
     tables = read_toml(path)
     if "passport" not in tables:
-        raise ValueError(
+        raise InputError(
             f"{path} is no material passport: it has no line 'passport = {VERSION}'; "
             "`viscotack material fit` writes one, docs/materials.md shows one"
         )
     if tables["passport"] != VERSION:
-        raise ValueError(
+        raise InputError(
             f"{path}: passport version {tables['passport']!r} is not known, only {VERSION}; "
             "a newer viscotack may read it"
         )
@@ -64,16 +65,16 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
         words = (
             f"{error.args[0]} is missing; docs/materials.md shows a passport" if missing else error
         )
-        raise ValueError(f"{path}: {words}") from None
+        raise InputError(f"{path}: {words}") from None
 
 
 def _passport(tables: Mapping[str, Any]) -> Passport:
     for name in tables:
         if name not in ("passport", "name", *_TABLES):
-            raise ValueError(f"unknown table [{name}]; a passport has {', '.join(_TABLES)}")
+            raise InputError(f"unknown table [{name}]; a passport has {', '.join(_TABLES)}")
     convention = tables.get("convention", {})
     if convention.get("modulus", "E") != "E":
-        raise ValueError(
+        raise InputError(
             f'[convention] modulus must be "E", got {convention["modulus"]!r}; a passport states '
             "Young's moduli, E = 2 (1 + nu) G"
         )
@@ -99,14 +100,14 @@ def material_in(table: Mapping[str, Any]) -> Material:
     """Return the material of a table [material] that states a model."""
     model = table["model"]
     if model not in MODELS:
-        raise ValueError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
+        raise InputError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
     units = units_of(MODELS[model])
     values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
     if model == "prony":
         values["branches"] = [(parse(E, "Pa"), parse(t, "s")) for E, t in table["branches"]]
     extra = table.keys() - {"model", "branches", *units}
     if extra:
-        raise ValueError(f"[material] has the unknown key {min(extra)!r}")
+        raise InputError(f"[material] has the unknown key {min(extra)!r}")
     return MODELS[model](**values)
 
 
@@ -126,7 +127,7 @@ def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:
         exact = np.asarray(passport.material.complex_modulus(omega))
         allowed = min(1.5 * float(table["largest_error"]), 0.1) + 1e-9
         if not np.max(np.abs(stated / exact - 1)) < allowed:
-            raise ValueError(
+            raise InputError(
                 f"the table [{name}] is not that of [material]; it follows from it, so delete "
                 "[relaxation] and [retardation] after a change of [material]"
             )
@@ -149,7 +150,7 @@ def _shift(table: Mapping[str, Any]) -> Shift | None:
         temperature, values = zip(*rows, strict=True)
         return TabulatedShift(zero, temperature, values)
     if table["law"] not in LAWS:
-        raise ValueError(
+        raise InputError(
             f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"
         )
     kind, units = LAWS[table["law"]]
@@ -159,7 +160,7 @@ def _shift(table: Mapping[str, Any]) -> Shift | None:
 def _made(kind: Any, table: Mapping[str, Any]) -> Any:
     unknown = table.keys() - {field.name for field in fields(kind)}
     if unknown:
-        raise ValueError(f"[{kind.__name__.lower()}] has the unknown key {min(unknown)!r}")
+        raise InputError(f"[{kind.__name__.lower()}] has the unknown key {min(unknown)!r}")
     return kind(**{key: _frozen(value) for key, value in table.items()})
 
 

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from scipy.constants import gas_constant
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, positive, store
 
 Array = npt.NDArray[np.float64]
@@ -87,7 +88,7 @@ class WLF:
         """Return log10 a_T at temperatures [K] above the pole, in the shape given."""
         above = _temperatures(temperature) - self.reference_temperature
         if np.any(above <= -self.c2):
-            raise ValueError(
+            raise InputError(
                 f"the WLF shift has its pole at {_in_celsius(self.pole)} and no value below, got "
                 f"{_in_celsius(float(np.min(above)) + self.reference_temperature)}; "
                 "leave these temperatures out, or use a measured table of shifts"
@@ -99,7 +100,7 @@ class WLF:
         temperature = positive("reference_temperature", temperature, "K")
         c2 = self.c2 + temperature - self.reference_temperature
         if c2 <= 0:
-            raise ValueError(
+            raise InputError(
                 f"the reference temperature must lie above the pole of the WLF shift at "
                 f"{_in_celsius(self.pole)}, got {_in_celsius(temperature)}"
             )
@@ -188,14 +189,14 @@ class TabulatedShift:
         temperature = _temperatures(self.temperature)
         values = np.asarray(self.values, dtype=float)
         if temperature.ndim != 1 or temperature.size < 2 or temperature.shape != values.shape:
-            raise ValueError(
+            raise InputError(
                 "a table of shifts needs two or more temperatures and one value for each, got "
                 f"shapes {temperature.shape} and {values.shape}"
             )
         if np.any(np.diff(temperature) <= 0):
-            raise ValueError("the temperatures of a table of shifts must ascend, each once")
+            raise InputError("the temperatures of a table of shifts must ascend, each once")
         if not np.all(np.isfinite(values)):
-            raise ValueError("the values of a table of shifts must be finite")
+            raise InputError("the values of a table of shifts must be finite")
         store(
             self,
             reference_temperature=positive(
@@ -221,7 +222,7 @@ class TabulatedShift:
         low, high = self.temperature[0], self.temperature[-1]
         outside = temperature[(temperature < low) | (temperature > high)]
         if outside.size:
-            raise ValueError(
+            raise InputError(
                 f"the table of shifts runs from {_in_celsius(low)} to {_in_celsius(high)}, "
                 f"got {_in_celsius(float(outside[0]))}; a table is not extrapolated: "
                 "fit a WLF or Arrhenius law to it"
@@ -235,7 +236,7 @@ def _temperatures(values: npt.ArrayLike) -> Array:
     array = np.asarray(values, dtype=float)
     wrong = array[~((array > 0) & (array < np.inf))]
     if wrong.size:
-        raise ValueError(
+        raise InputError(
             f"temperatures must be positive and finite [K], got {wrong[0]:g}; give Celsius + 273.15"
         )
     return array

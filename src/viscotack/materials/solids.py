@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import Pairs, conform
+from viscotack.errors import InputError
 from viscotack.materials import checks
 from viscotack.materials.checks import like_input, nonnegative
 from viscotack.materials.constants import (
@@ -339,12 +340,12 @@ def _branches(given) -> tuple[tuple[float, float], ...]:
     try:
         pairs = [tuple(pair) for pair in given]
     except TypeError:
-        raise ValueError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
+        raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
     if not pairs:
-        raise ValueError("branches must not be empty; describe a solid without any by Elastic")
+        raise InputError("branches must not be empty; describe a solid without any by Elastic")
     for pair in pairs:
         if len(pair) != 2:
-            raise ValueError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
+            raise InputError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
     checked = sorted(
         (
             (
@@ -357,7 +358,7 @@ def _branches(given) -> tuple[tuple[float, float], ...]:
     )
     for (_, time), (_, following) in zip(checked, checked[1:], strict=False):
         if following < time * (1 + 1e-9):
-            raise ValueError(
+            raise InputError(
                 "relaxation times of branches must differ by more than 1e-9 of themselves, got "
                 f"{time!r} s and {following!r} s; add the moduli of the two"
             )

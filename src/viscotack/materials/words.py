@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from viscotack.cards import cards
+from viscotack.errors import InputError
 from viscotack.materials.material import Material
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
@@ -36,7 +37,7 @@ def word_of(material: Material) -> str:
     """
     word = getattr(material, "word", None)
     if word is None:
-        raise ValueError(
+        raise InputError(
             f"{type(material).__name__} has no word in files; give the class one, "
             f'word: ClassVar[str] = "...", other than {", ".join(MODELS)}'
         )

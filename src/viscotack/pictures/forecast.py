@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.forecast.prediction import Prediction
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Result
@@ -42,7 +43,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
 
     curve = prediction.curve
     if curve is None:
-        raise ValueError(f"the theory {prediction.method!r} gives a force and no curve to draw")
+        raise InputError(f"the theory {prediction.method!r} gives a force and no curve to draw")
     scales = prediction.problem.scales()
     if scales is None:
         length, load = 1.0, 1.0

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import Unit
 from viscotack.result import Result
@@ -76,7 +77,7 @@ def draw_energy(result: Result) -> "Figure":
         If the result keeps no energies.
     """
     if result.energy is None:
-        raise ValueError("the result keeps no energies to draw; simulate it anew")
+        raise InputError("the result keeps no energies to draw; simulate it anew")
     energy = result.energy
     depth, _, depth_label = _series(result, "depth")
     factor, unit = _work_unit(result)
@@ -196,7 +197,7 @@ def check_format(path: str | os.PathLike[str]) -> None:
 
     known = FigureCanvasBase.get_supported_filetypes()
     if Path(path).suffix.lstrip(".").lower() not in known:
-        raise ValueError(
+        raise InputError(
             f"cannot draw to {os.fspath(path)!r}: "
             f"its ending must be one of {', '.join(sorted(known))}"
         )

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
 from viscotack.materials import Material, Prony
@@ -52,7 +53,7 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
     refuse_unknown(f"{path}", tables, names, "table")
     found = {name: Table(path, name, tables) for name in names}
     if "layer" in found and not plain:
-        raise ValueError(
+        raise InputError(
             f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
             "under it is not known: leave the table out"
         )
@@ -71,14 +72,14 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
     try:
         return Problem(**parts)
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+        raise InputError(f"{path}: {error}") from None
 
 
 def _shape_table(path: Path, tables: Mapping[str, Any], nouns: Nouns) -> str:
     """Return the name of the table that states the indenter."""
     given = [name for name in tables if name in nouns.shapes]
     if len(given) > 1:
-        raise ValueError(f"{path}: one indenter at a time, got [{'] and ['.join(given)}]")
+        raise InputError(f"{path}: one indenter at a time, got [{'] and ['.join(given)}]")
     if given:
         return given[0]
     return "punch" if "layer" in tables else "sphere"
@@ -98,7 +99,7 @@ def _shape(table: Table, kind: Any) -> Any:
     height = table.quantity("height", "m", '"10 um"')
     radius = table.quantity("at_radius", "m", '"200 um"')
     if not (height > 0 and radius > 0):
-        raise ValueError(
+        raise InputError(
             f"{table.name} height and at_radius must be positive, got {height} m and {radius} m"
         )
     return table.make(PowerLawProfile, coefficient=height / radius**exponent, exponent=exponent)
@@ -132,7 +133,7 @@ def _prony(table: Table) -> Prony:
     """Return a Prony series whose branches are in a file, in moduli over the rubbery one."""
     ratios, unit = read_prony(table.path.parent / str(table.get("file", '"prony.csv"')))
     if unit == "1":
-        raise ValueError(
+        raise InputError(
             f"{table.name} file: its times have no unit; name the column relaxation_time_s"
         )
     second = parse(f"1 {unit}", "s")

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Field, cards
+from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.problem.table import Table
 from viscotack.traction import LAWS, Tabulated, Traction
@@ -26,7 +27,7 @@ def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
     if "strength" not in table.values:
         gap = table.number(scales["equilibrium_gap"])
     elif "equilibrium_gap" in table.values:
-        raise ValueError(f"{table.name} strength and equilibrium_gap say the same; leave out one")
+        raise InputError(f"{table.name} strength and equilibrium_gap say the same; leave out one")
     else:
         strength = table.quantity("strength", "Pa", '"100 kPa"')
         strength = table.make(positive, "strength", strength, "Pa")
@@ -46,18 +47,18 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """
     name, _, rest = words.partition(":")
     if name not in laws:
-        raise ValueError(f"the law must be one of {', '.join(laws)}, got {words!r}")
+        raise InputError(f"the law must be one of {', '.join(laws)}, got {words!r}")
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:
-            raise ValueError("a law of the kind table needs its file: table:FILE.csv")
+            raise InputError("a law of the kind table needs its file: table:FILE.csv")
         return _tabulated(rest).reduced()
     constants = [constant.name for constant in _constants(kind)]
     needed = [constant.name for constant in _constants(kind) if constant.needed]
     given = rest.split(",") if rest else []
     if not len(needed) <= len(given) <= len(constants):
         wanted = ",".join(constant.upper() for constant in constants)
-        raise ValueError(f"write {name}{':' if wanted else ''}{wanted}, got {words!r}")
+        raise InputError(f"write {name}{':' if wanted else ''}{wanted}, got {words!r}")
     values = {
         constant: finite(constant, text, "1")
         for constant, text in zip(constants, given, strict=False)
@@ -79,4 +80,4 @@ def _tabulated(path: str | Path) -> Tabulated:
     try:
         return Tabulated.of_points(columns["gap"], columns["traction"])
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+        raise InputError(f"{path}: {error}") from None

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack import geometry, materials, problem, protocol
+from viscotack.errors import InputError
 from viscotack.geometry import SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.traction import LAWS
@@ -66,7 +67,7 @@ def known(also: Iterable[Any] = ()) -> Nouns:
             continue
         room = _room(noun)
         if noun.word in own[room] or noun.__name__ in types:
-            raise ValueError(
+            raise InputError(
                 f"{noun.__name__} ({noun.word!r}) has a name or a word that is taken; choose others"
             )
         own[room][noun.word] = types[noun.__name__] = noun
@@ -96,17 +97,17 @@ def _defined(path: Path, content: str) -> tuple[Any, ...]:
     name = f"viscotack_own_{content[:16]}"
     spec = importlib.util.spec_from_file_location(name, path)
     if spec is None or spec.loader is None:
-        raise ValueError(f"{path} is not a Python file; give one that ends in .py")
+        raise InputError(f"{path} is not a Python file; give one that ends in .py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
     except Exception as error:
         del sys.modules[name]
-        raise ValueError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
+        raise InputError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
     found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
     if not found:
-        raise ValueError(
+        raise InputError(
             f"{path} defines no law, material, shape or observable; docs/own.md shows how one looks"
         )
     return found
@@ -128,7 +129,7 @@ def _room(noun: Any) -> str:
             if all(hasattr(noun, sign) for sign in signs):
                 return room
     wanted = "; ".join(f"{room}: {', '.join(signs)}" for room, signs in _SIGNS.items())
-    raise ValueError(
+    raise InputError(
         f"{getattr(noun, '__name__', noun)!r} is no law, material or shape: a frozen dataclass "
         f"with a `word` and ({wanted}), or an Observable"
     )

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Layer
 from viscotack.protocol import Units
 
@@ -102,12 +103,12 @@ def check(problem: Any) -> None:
         In both cases.
     """
     if not isinstance(problem.body, Layer):
-        raise ValueError(
+        raise InputError(
             f"a flat punch presses a layer, got {problem.body}; try body=Layer(thickness=1e-4)"
         )
     base, nu = problem.body.base, problem.material.poisson_ratio
     if isinstance(base, Bonded) and base.poisson_ratio != nu:
-        raise ValueError(
+        raise InputError(
             f"a bonded layer has the Poisson ratio of its material, {nu:g}, got "
             f"{base.poisson_ratio:g}"
         )

@@ -21,6 +21,7 @@ from typing import Annotated, Any
 import numpy as np
 
 from viscotack.cards import Quantity, conform
+from viscotack.errors import InputError
 from viscotack.geometry import (
     Base,
     Body,
@@ -127,7 +128,7 @@ class Problem:
         ):
             part = getattr(self, name)
             if not all(hasattr(part, attribute) for attribute in wanted):
-                raise ValueError(f"{name} cannot be a {type(part).__name__}; try {example}")
+                raise InputError(f"{name} cannot be a {type(part).__name__}; try {example}")
         self._kind.check(self)
 
     @property
@@ -235,6 +236,7 @@ class Groups:
     Examples
     --------
     >>> from viscotack.materials import RetardationPowerLaw
+    >>> from viscotack.protocol import AtDepth
     >>> material = RetardationPowerLaw(
     ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
     ... )
@@ -257,7 +259,7 @@ class Groups:
 
     def __post_init__(self) -> None:
         if getattr(self.geometry, "symmetry", "") != "revolution":
-            raise ValueError(
+            raise InputError(
                 f"geometry must be a reduced shape of revolution, got {self.geometry!r}; leave it "
                 "out for a sphere"
             )
@@ -328,7 +330,7 @@ class Groups:
         """
         R, E = positive("radius", radius, "m"), positive("contact_modulus", contact_modulus, "Pa")
         if (equilibrium_gap is None) == (work_of_adhesion is None):
-            raise ValueError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
+            raise InputError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
         if equilibrium_gap is not None:
             h0 = positive("equilibrium_gap", equilibrium_gap, "m")
             w = float(np.sqrt(self.tabor**3 * E**2 * h0**3 / R))
@@ -405,11 +407,11 @@ class PunchGroups:
     def __post_init__(self) -> None:
         _check_reduced(self)
         if not isinstance(self.base, Base):
-            raise ValueError(
+            raise InputError(
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
         if isinstance(self.start, AtRadius):
-            raise ValueError(
+            raise InputError(
                 "a punch does not start at a contact radius: its contact is as wide as the punch; "
                 "give a depth or a force"
             )
@@ -494,7 +496,7 @@ Case = Problem | Groups | PunchGroups
 def _check_material(material: Any) -> None:
     """Refuse what is not a material."""
     if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
-        raise ValueError(
+        raise InputError(
             f"material must be one of viscotack.materials, got {type(material).__name__}; "
             "for example Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)"
         )
@@ -503,7 +505,7 @@ def _check_material(material: Any) -> None:
 def _check_traction(traction: Any) -> None:
     """Refuse what is not a traction law."""
     if not hasattr(traction, "stiffness") or not hasattr(traction, "reduced"):
-        raise ValueError(
+        raise InputError(
             f"traction must be a traction law, got {type(traction).__name__}; "
             "for example LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)"
         )
@@ -514,17 +516,17 @@ def _check_reduced(groups: Any) -> None:
     _check_material(groups.material)
     _check_traction(groups.traction)
     if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
-        raise ValueError(
+        raise InputError(
             "the material of dimensionless groups must have a rubbery modulus of 1 and a "
             f"Poisson ratio of 0, got {groups.material}; pass material.reduced()"
         )
     if groups.traction.work_of_adhesion != 1 or groups.traction.equilibrium_gap != 1:
-        raise ValueError(
+        raise InputError(
             f"the traction law of dimensionless groups must be reduced, got {groups.traction}; "
             "pass traction.reduced()"
         )
     if not isinstance(groups.start, Start | Apart):
-        raise ValueError(f"start must be AtDepth, AtForce, AtRadius or Apart, got {groups.start!r}")
+        raise InputError(f"start must be AtDepth, AtForce, AtRadius or Apart, got {groups.start!r}")
     object.__setattr__(groups, "moves", tuple(groups.moves))
     check_moves(groups.moves, groups.rate, "rate")
     conform(groups)

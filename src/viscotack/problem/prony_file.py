@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+from viscotack.errors import InputError
 from viscotack.files.text import read_rows
 from viscotack.units import parse, positive
 
@@ -38,7 +39,7 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         or header[0] != "modulus_ratio"
         or not header[1].startswith("relaxation_time")
     ):
-        raise ValueError(
+        raise InputError(
             f"{path}: the first row must be 'modulus_ratio,relaxation_time_s' (or another unit of "
             f"time), got {','.join(header)!r}"
         )
@@ -47,16 +48,16 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
         try:
             parse(f"1 {unit}", "s")
         except ValueError as error:
-            raise ValueError(f"{path}, the name of the second column: {error}") from None
+            raise InputError(f"{path}, the name of the second column: {error}") from None
     branches = []
     for line, row in rows:
         try:
             if len(row) != 2:
-                raise ValueError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
+                raise InputError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
             ratio, time = row
             branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
         except ValueError as error:
-            raise ValueError(f"{path}, line {line}: {error}") from None
+            raise InputError(f"{path}, line {line}: {error}") from None
     if not branches:
-        raise ValueError(f"{path}: there is no branch below the header")
+        raise InputError(f"{path}: there is no branch below the header")
     return tuple(branches), unit

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from viscotack.cards import cards
+from viscotack.errors import InputError
 from viscotack.problem.table import Table
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Move, Retraction, Start
 from viscotack.protocol.words import history_from_file, move_from_words, start_from_words
@@ -39,7 +40,7 @@ def _history(
 ) -> tuple[Start | Apart, tuple[Move, ...]]:
     for key in (*_preloads(units), "start", "moves"):
         if key in table.values:
-            raise ValueError(
+            raise InputError(
                 f"{table.name} history states the start and the moves; leave out {key}"
             )
     return history_from_file(table.path.parent / str(table.get("history")), equilibrium_gap)
@@ -50,7 +51,7 @@ def _start(table: Table, units: Mapping[str, str]) -> Start | Apart:
     known = [*preloads, "start"]
     given = [key for key in known if key in table.values]
     if len(given) != 1:
-        raise ValueError(
+        raise InputError(
             f"{table.name} needs exactly one of {', '.join(known)}, "
             f"got {' and '.join(given) or 'none'}; "
             'write for example preload_depth = "2 um", or start = "apart 20 um"'
@@ -71,7 +72,7 @@ def _moves(table: Table, units: Mapping[str, str]) -> tuple[Move, ...]:
         return ()
     moves = table.get("moves")
     if not isinstance(moves, list):
-        raise ValueError(
+        raise InputError(
             f"{table.name} moves must be a list, got {moves!r}; write for example "
             'moves = ["approach 10 um/s to 1.5 mN", "dwell 60 s"]'
         )
@@ -84,5 +85,5 @@ def _cycles(table: Table) -> int:
         return 1
     cycles = table.get("cycles")
     if not isinstance(cycles, int) or isinstance(cycles, bool) or cycles < 1:
-        raise ValueError(f"{table.name} cycles must be a whole number from 1, got {cycles!r}")
+        raise InputError(f"{table.name} cycles must be a whole number from 1, got {cycles!r}")
     return cycles

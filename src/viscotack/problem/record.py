@@ -6,8 +6,13 @@ from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
 from typing import Any
 
+from viscotack.errors import InputError
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.older import naming, upgraded
+
+
+class UnknownNoun(InputError):
+    """A record names a law, a material or a shape that nobody has given."""
 
 
 def to_dict(thing: Any) -> dict[str, Any]:
@@ -24,7 +29,7 @@ def to_dict(thing: Any) -> dict[str, Any]:
     {'type': 'AtForce', 'force': 0.0015}
     """
     if not is_dataclass(thing) or isinstance(thing, type):
-        raise ValueError(f"expected a problem or a part of one, got {type(thing).__name__}")
+        raise InputError(f"expected a problem or a part of one, got {type(thing).__name__}")
     values = {f.name: getattr(thing, f.name) for f in fields(thing)}
     defaults = {f.name: f.default for f in fields(thing)}
     return {"type": type(thing).__name__} | {
@@ -67,10 +72,10 @@ def _plain(value: Any) -> Any:
 
 def _made(record: Any, nouns: Nouns) -> Any:
     if not isinstance(record, dict) or not isinstance(record.get("type"), str):
-        raise ValueError(f"a record must be a dictionary with a 'type', got {record!r:.80}")
+        raise InputError(f"a record must be a dictionary with a 'type', got {record!r:.80}")
     kind = nouns.types.get(record["type"])
     if kind is None:
-        raise ValueError(
+        raise UnknownNoun(
             f"unknown type {record['type']!r} in a record: if it is one of your own, give its "
             f"class (also=({record['type']},) in Python, --with FILE.py on the command line); a "
             "newer version may know it"
@@ -78,11 +83,11 @@ def _made(record: Any, nouns: Nouns) -> Any:
     given, names = record.keys() - {"type"}, {f.name for f in fields(kind)}
     needed = {f.name for f in fields(kind) if f.default is MISSING}
     if not needed <= given <= names:
-        raise ValueError(
+        raise InputError(
             f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
             f"{sorted(names - needed)}, got {sorted(given)}"
         )
-    return kind(**{name: _value(record[name], nouns) for name in given})
+    return kind(**{name: _value(x, nouns) for name, x in record.items() if name != "type"})
 
 
 def _value(value: Any, nouns: Nouns) -> Any:

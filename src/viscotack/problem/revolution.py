@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
 from viscotack.materials import Material
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
@@ -131,7 +132,7 @@ def check(problem: Any) -> None:
         where the undeformed gap is h_0.
     """
     if not isinstance(problem.body, HalfSpace):
-        raise ValueError(
+        raise InputError(
             f"a {problem.geometry.word} presses a half-space, got {problem.body}; a layer under it "
             "is not known: leave it out, or take a FlatPunch"
         )
@@ -147,14 +148,14 @@ def _check_sphere(problem: Any) -> None:
         a = _relaxed_radius(problem, state)
         if a <= LARGEST_CONTACT * R:
             continue
-        raise ValueError(
+        raise InputError(
             "the start lies beyond small strain: its relaxed contact radius is about "
             f"{a:.3g} m = {a / R:.2g} sphere radii, and the theory holds to {LARGEST_CONTACT}; "
             f"reduce the preload of {state}, or use a larger sphere"
         )
     rim = float(np.sqrt(2 * R * problem.traction.equilibrium_gap))
     if rim > LARGEST_CONTACT * R:
-        raise ValueError(
+        raise InputError(
             f"equilibrium_gap of {problem.traction.equilibrium_gap:.3g} m is too long beside the "
             f"sphere radius of {R:.3g} m: the forces would reach where a sphere is no longer a "
             f"paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
@@ -166,7 +167,7 @@ def _check_flank(problem: Any) -> None:
     rim = _where(lambda r: float(shape.gap(r)), h0)
     flank = float(shape.flank(rim))
     if flank > STEEPEST_FLANK:
-        raise ValueError(
+        raise InputError(
             f"the flank of {shape} is too steep: its slope is {flank:.3g} where the gap "
             f"is equilibrium_gap = {h0:.3g} m, and the theory holds to {STEEPEST_FLANK}"
         )
@@ -187,7 +188,7 @@ def _check_flank(problem: Any) -> None:
         else:
             given, most, unit = state.contact_radius, a, "m"
         if given > most:
-            raise ValueError(
+            raise InputError(
                 f"{state} lies beyond small strain: the slope of the flank at the edge of its "
                 f"contact would be over {STEEPEST_FLANK}; it may be up to {most:.3g} {unit}"
             )

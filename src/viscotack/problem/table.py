@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.cards import Field, Pairs, cards
+from viscotack.errors import InputError
 from viscotack.units import parse
 
 
@@ -18,7 +19,7 @@ class Table:
     def __init__(self, path: Path, name: str, tables: Mapping[str, Any]) -> None:
         self.path, self.name = path, f"{path}, [{name}]"
         if not isinstance(tables.get(name), dict):
-            raise ValueError(f"{path}: the table [{name}] is missing; see docs/input.md")
+            raise InputError(f"{path}: the table [{name}] is missing; see docs/input.md")
         self.values: Mapping[str, Any] = tables[name]
         self.known: set[str] = set()
 
@@ -30,7 +31,7 @@ class Table:
                 key, self.values.keys() - self.known, n=1, cutoff=0.75
             )
             hint = f" (is {close[0]} meant?)" if close else ""
-            raise ValueError(
+            raise InputError(
                 f"{self.name} {key} is missing{hint}; write for example {key} = {example}"
             )
         return self.values[key]
@@ -40,14 +41,14 @@ class Table:
         example = example or ("1" if unit == "1" else f'"1 {unit}"')
         value = self.get(key, example)
         if unit != "1" and not isinstance(value, str):
-            raise ValueError(
+            raise InputError(
                 f"{self.name} {key} must be text with a unit, got {value!r}; "
                 f"write for example {key} = {example}"
             )
         try:
             return parse(value, unit)
         except ValueError as error:
-            raise ValueError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
+            raise InputError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
 
     def number(self, field: Field, key: str = "", unit: str = "") -> float:
         """Return the number that a card describes, by the name of its field or another key."""
@@ -57,7 +58,7 @@ class Table:
         try:
             return card.checked(key, value, unit)
         except ValueError as error:
-            raise ValueError(f"{self.name} {error}") from None
+            raise InputError(f"{self.name} {error}") from None
 
     def pairs(self, field: Field) -> tuple[tuple[float, float], ...]:
         """Return the list of pairs that a card describes."""
@@ -70,7 +71,7 @@ class Table:
                 for x, y in (_pair(x, card.words) for x in given)
             )
         except (TypeError, ValueError) as error:
-            raise ValueError(
+            raise InputError(
                 f"{self.name} {key}: {error}; write for example {key} = {card.example}"
             ) from None
 
@@ -88,7 +89,7 @@ class Table:
         allowed = list(allowed)
         value = self.get(key, f'"{allowed[0]}"')
         if value not in allowed:
-            raise ValueError(
+            raise InputError(
                 f"{self.name} {key} must be one of {', '.join(allowed)}, got {value!r}"
             )
         return value
@@ -98,7 +99,7 @@ class Table:
         try:
             return kind(*value, **values)
         except ValueError as error:
-            raise ValueError(f"{self.name} {error}") from None
+            raise InputError(f"{self.name} {error}") from None
 
     def finish(self) -> None:
         """Refuse keys that nobody asked for."""
@@ -112,12 +113,12 @@ def refuse_unknown(where: str, given: Iterable[str], known: Iterable[str], what:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)
             hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}"
-            raise ValueError(f"{where}: unknown {what} {name!r}; {hint}")
+            raise InputError(f"{where}: unknown {what} {name!r}; {hint}")
 
 
 def _pair(given: Any, words: str) -> tuple[Any, Any]:
     if not isinstance(given, list) or len(given) != 2:
-        raise ValueError(f"each entry is a pair, {words}, got {given!r}")
+        raise InputError(f"each entry is a pair, {words}, got {given!r}")
     return given[0], given[1]
 
 

@@ -5,6 +5,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 from viscotack.cards import Pairs, cards
+from viscotack.errors import InputError
 
 _FACTOR = re.compile(r"(Pa|s)(?:\^(-?[0-9.]+))?")
 
@@ -23,7 +24,7 @@ def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: fl
     numbers, lists = cards(kind), cards(kind, Pairs)
     bare = [f.name for f in fields(kind) if f.name not in {*numbers, *lists}]
     if bare:
-        raise ValueError(
+        raise InputError(
             f"{kind.__name__} does not say what {', '.join(bare)} is measured in; give the field a "
             "card: Annotated[float, Quantity(...)]"
         )
@@ -48,7 +49,7 @@ def _factor(text: str, unit: dict[str, float]) -> float:
         for word in words.split():
             found = _FACTOR.fullmatch(word)
             if found is None and word != "1":
-                raise ValueError(f"a material is measured in Pa and s, got {text!r}")
+                raise InputError(f"a material is measured in Pa and s, got {text!r}")
             if found is not None:
                 factor *= unit[found[1]] ** (sign * float(found[2] or 1))
     return factor

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
 
 from viscotack.cards import Quantity, conform
+from viscotack.errors import InputError
 
 Speed = Annotated[
     float,
@@ -227,7 +228,7 @@ class Dwell:
     def __post_init__(self) -> None:
         conform(self)
         if self.hold not in HOLDS:
-            raise ValueError(f"hold must be one of {', '.join(HOLDS)}, got {self.hold!r}")
+            raise InputError(f"hold must be one of {', '.join(HOLDS)}, got {self.hold!r}")
 
 
 @dataclass(frozen=True)
@@ -259,7 +260,7 @@ Move = Approach | Retract | MoveTo | Dwell | LoadTo
 
 def _check_end(to: object, name: str) -> None:
     if not isinstance(to, Start):
-        raise ValueError(f"{name} ends AtDepth, AtForce or AtRadius, got {to!r}")
+        raise InputError(f"{name} ends AtDepth, AtForce or AtRadius, got {to!r}")
 
 
 @dataclass(frozen=True)
@@ -300,7 +301,7 @@ class Retraction:
 
     def __post_init__(self) -> None:
         if not isinstance(self.start, Start | Apart):
-            raise ValueError(
+            raise InputError(
                 f"start must be AtDepth, AtForce, AtRadius or Apart, got {self.start!r}; "
                 "for example AtForce(force=1.5e-3)"
             )
@@ -313,11 +314,11 @@ def check_moves(moves: tuple[Move, ...], speed: float | None, name: str) -> None
     """Refuse moves that are none, and a test in which nothing moves."""
     for move in moves:
         if not isinstance(move, Move):
-            raise ValueError(
+            raise InputError(
                 f"moves must be Approach, Retract, MoveTo, Dwell or LoadTo, got {move!r}"
             )
     if speed is None and not moves:
-        raise ValueError(f"a test without moves needs the {name} of its retraction")
+        raise InputError(f"a test without moves needs the {name} of its retraction")
 
 
 @dataclass(frozen=True)

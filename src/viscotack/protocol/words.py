@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.cards import cards
+from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.units import parse
 
@@ -89,15 +90,15 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
     words = " ".join(str(words).split())
     kind = words.partition(" ")[0]
     if kind not in _PATTERNS:
-        raise ValueError(f"{words!r} is no move; write {', or '.join(_SHAPES.values())}")
+        raise InputError(f"{words!r} is no move; write {', or '.join(_SHAPES.values())}")
     found = re.fullmatch(_PATTERNS[kind], words)
     if found is None:
-        raise ValueError(f"{words!r} is not understood; write {_SHAPES[kind]}")
+        raise InputError(f"{words!r} is not understood; write {_SHAPES[kind]}")
     said = found.groupdict()
     try:
         return _move(kind, said, units)
     except ValueError as error:
-        raise ValueError(f"{words!r}: {error}") from None
+        raise InputError(f"{words!r}: {error}") from None
 
 
 def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
@@ -110,7 +111,7 @@ def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
     """
     kind, _, value = str(words).strip().partition(" ")
     if kind not in _STARTS:
-        raise ValueError(
+        raise InputError(
             f"{words!r} is no start; write apart, depth, force or radius and a quantity"
         )
     return _STARTS[kind](parse(value, units["depth" if kind == "apart" else kind]))
@@ -144,7 +145,7 @@ def history_from_file(
     columns = read_quantities(path, {"time": "s", "displacement": "m"})
     time, displacement = columns["time"], columns["displacement"]
     if len(time) < 2 or np.any(np.diff(time) <= 0):
-        raise ValueError(
+        raise InputError(
             f"{path}: a history has at least two rows, and its times ascend; a step takes a time"
         )
     first = displacement[0]
@@ -180,7 +181,7 @@ def _where(words: str, units: Mapping[str, str]) -> Start:
     if kind in ("depth", "force", "radius"):
         return _STARTS[kind](parse(value, units[kind]))
     if units["depth"] == units["force"]:
-        raise ValueError(f"say whether {words} is a depth, a force or a radius")
+        raise InputError(f"say whether {words} is a depth, a force or a radius")
     try:
         return AtForce(parse(words, units["force"]))
     except ValueError:

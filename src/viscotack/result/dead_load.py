@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.protocol import Dwell
 
 from . import Outcome, Result
@@ -51,12 +52,12 @@ def time_to_detachment(result: Result) -> float:
     problem = result.groups
     last = problem.moves[-1] if problem.moves else None
     if problem.rate is not None or not isinstance(last, Dwell) or last.hold != "force":
-        raise ValueError(
+        raise InputError(
             "the test must end with a dwell at constant force: Dwell(duration, hold='force') as "
             "the last move, and no speed"
         )
     if result.outcome not in (Outcome.JUMPED, Outcome.DETACHED):
-        raise ValueError(
+        raise InputError(
             f"the contact has not let go, the run ended: {result.status}; dwell longer, or pull "
             "harder than the elastic pull-off force"
         )

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
+from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
 from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
@@ -62,19 +63,19 @@ def pull_off(result: Result) -> PullOff:
         minimum has not been seen.
     """
     if result.outcome is Outcome.STOPPED:
-        raise ValueError(f"the run failed and has no observables: {result.status}")
+        raise InputError(f"the run failed and has no observables: {result.status}")
     pieces = _pieces(result)
     piece = min(pieces, key=lambda p: result.force[p].min())
     # The motion is a retraction without a break: travel, minus the depth, orders the steps.
     x, force = -result.depth[piece], result.force[piece]
     lowest = int(np.argmin(force))
     if force[lowest] >= 0:
-        raise ValueError(
+        raise InputError(
             f"the force is nowhere tensile, there is no pull-off; the run ended: {result.status}"
         )
     unfinished = lowest == len(piece) - 1 and piece is pieces[-1]
     if unfinished and result.outcome is not Outcome.JUMPED:
-        raise ValueError(
+        raise InputError(
             f"the force still falls at the end of the run ({result.status}), the pull-off is not "
             "in it; run further"
         )
@@ -145,7 +146,7 @@ def work_of_separation(result: Result) -> float:
         If the run did not end in separation.
     """
     if result.outcome not in (Outcome.DETACHED, Outcome.JUMPED):
-        raise ValueError(
+        raise InputError(
             f"the surfaces have not separated, the run ended: {result.status}; "
             "solve with until='detached'"
         )
@@ -193,7 +194,7 @@ def effective_surface_energy(result: Result) -> float:
     """
     groups = _punch(result)
     if groups.base.foundation == 0:
-        raise ValueError(
+        raise InputError(
             "a bonded layer with a Poisson ratio of 0.5 cannot be stretched without flowing "
             "sideways, and the thin-layer formula has no answer for it"
         )
@@ -240,10 +241,10 @@ class Observable:
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or self.name in _OBSERVABLES:
-            raise ValueError(f"name must be a new name such as 'rise_time', got {self.name!r}")
+            raise InputError(f"name must be a new name such as 'rise_time', got {self.name!r}")
         measures = ("force", "depth", "radius", "speed", "work", "time", "1")
         if self.measure not in measures:
-            raise ValueError(f"measure must be one of {', '.join(measures)}, got {self.measure!r}")
+            raise InputError(f"measure must be one of {', '.join(measures)}, got {self.measure!r}")
 
 
 def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
@@ -317,7 +318,7 @@ def _number(
 def _punch(result: Result) -> PunchGroups:
     groups = result.groups
     if not isinstance(groups, PunchGroups):
-        raise ValueError(
+        raise InputError(
             "the observable is one of a punch, and the result that of another indenter"
         )
     return groups

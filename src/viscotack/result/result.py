@@ -27,9 +27,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
-from viscotack.problem.record import from_dict, to_dict
+from viscotack.problem.record import UnknownNoun, from_dict, to_dict
 from viscotack.units import finite
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
@@ -156,22 +157,22 @@ class Result:
 
     def _check(self) -> None:
         if not isinstance(self.problem, Problem | Groups | PunchGroups):
-            raise ValueError(
+            raise InputError(
                 f"problem must be a Problem or Groups, got {type(self.problem).__name__}"
             )
         lengths = {name: getattr(self, name).shape for name in _SERIES}
         if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:
-            raise ValueError(
+            raise InputError(
                 f"the series of a result must be equally long and not empty, got {lengths}"
             )
         for name in ("time", "depth", "force"):
             if not np.all(np.isfinite(getattr(self, name))):
-                raise ValueError(f"the {name} of a result must be finite, got nan or infinity")
+                raise InputError(f"the {name} of a result must be finite, got nan or infinity")
         if np.any(np.diff(self.time) < 0):
-            raise ValueError("the time of a result must not go back")
+            raise InputError("the time of a result must not go back")
         if not any(self.status.startswith(o) for o in Outcome):
             known = ", ".join(repr(str(o)) for o in Outcome)
-            raise ValueError(f"status must begin with one of {known}, got {self.status!r}")
+            raise InputError(f"status must begin with one of {known}, got {self.status!r}")
 
     @cached_property
     def groups(self) -> Any:
@@ -304,24 +305,26 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     try:
         with open(path, "rb") as file:
             if not zipfile.is_zipfile(file):
-                raise ValueError("it is not an archive")
+                raise InputError("it is not an archive")
             file.seek(0)
             with np.load(file, allow_pickle=False) as parts:
                 arrays = {name: parts[name] for name in parts.files}
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:
-            raise ValueError("its header is not one of viscotack")
+            raise InputError("its header is not one of viscotack")
         if header["format_version"] <= _FORMAT_VERSION:
             return _from_parts(header, arrays, also)
         writer = header["versions"]["viscotack"]
     except FileNotFoundError:
         raise
+    except UnknownNoun as error:
+        raise UnknownNoun(f"{os.fspath(path)}: {error}") from None
     except _UNREADABLE as error:
-        raise ValueError(
+        raise InputError(
             f"{os.fspath(path)} is not a readable result of viscotack (damaged, or another kind of "
             f"file): {error}; give a file that viscotack.save or --save wrote"
         ) from error
-    raise ValueError(
+    raise InputError(
         f"{os.fspath(path)} was written by viscotack {writer} in a newer format; update viscotack"
     )
 

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
+from viscotack.errors import InputError
+
 from . import physics
 from .model import Surrogate
 from .physics import INPUTS, Array
@@ -43,9 +45,9 @@ def choose(surrogate: Surrogate, count: int, *, seed: int = 0) -> Array:
     """
     most = _POINTS + _POINTS // 4
     if not 0 < count <= most:
-        raise ValueError(f"there are {most} points to choose from, {count} were asked for")
+        raise InputError(f"there are {most} points to choose from, {count} were asked for")
     if len(surrogate.force.weights[0]) < 2:
-        raise ValueError("one network alone does not disagree; the surrogate has only one")
+        raise InputError("one network alone does not disagree; the surrogate has only one")
     low, high = np.log10(physics.LOW), np.log10(physics.HIGH)
     random = np.random.default_rng(seed)
     # the name that every supported version of SciPy knows

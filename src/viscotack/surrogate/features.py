@@ -10,6 +10,8 @@ from enum import StrEnum
 
 import numpy as np
 
+from viscotack.errors import InputError
+
 from ..materials import RetardationPowerLaw
 from ..theory import persson_brener, rate
 from .table import Array, Detachments
@@ -65,7 +67,7 @@ def crack_amplification(rows: Detachments, descriptor: Descriptor) -> Array:
     ['4.547', '6.013']
     """
     if descriptor is Descriptor.NONE:
-        raise ValueError("no descriptor was asked for")
+        raise InputError("no descriptor was asked for")
     r = rows.rate
     if descriptor is Descriptor.OWN_TABOR:
         r = r * rate.FITTED_TABOR / rows.tabor

@@ -11,6 +11,8 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 from threadpoolctl import threadpool_limits
 
+from viscotack.errors import InputError
+
 from . import physics
 from .network import Networks
 
@@ -116,7 +118,7 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
         first = _first(sizes, seed)
         found = minimize(evaluate, first, jac=True, method="L-BFGS-B", options=limits)
     if not np.isfinite(found.fun):
-        raise ValueError(
+        raise InputError(
             "what is to be learned is not finite everywhere; look for gaps in the rows"
         )
     layers = [np.asarray(a)[None] for a in parts(found.x)]

@@ -11,6 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from viscotack.errors import InputError
+
 from . import physics
 from .line import Curves, curves
 from .network import Networks
@@ -173,7 +175,7 @@ class Surrogate:
             If no start in the range learned from has it.
         """
         if (force is None) == (contact_radius is None):
-            raise ValueError("give either the force or the contact radius of the start")
+            raise InputError("give either the force or the contact radius of the start")
         which, wanted = (0, force) if force is not None else (1, contact_radius)
         assert wanted is not None
         low, high = LIMITS["preload"]
@@ -187,7 +189,7 @@ class Surrogate:
             first = first or (float(found[0]), float(found[-1]))
             if not first[0] <= wanted <= first[1]:
                 what = "force [1.5 pi R dg0]" if which == 0 else "contact radius"
-                raise ValueError(
+                raise InputError(
                     f"no relaxed start between depths of {low:g} and {high:g} h0 has a {what} of "
                     f"{wanted:g}; at that Tabor number it is between {first[0]:.4g} and "
                     f"{first[1]:.4g}"

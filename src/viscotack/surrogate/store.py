@@ -12,6 +12,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 
 from .model import Scaled, Surrogate
@@ -90,11 +91,11 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
-        raise ValueError(f"{path} is not the file of a surrogate, or damaged: {error}") from None
+        raise InputError(f"{path} is not the file of a surrogate, or damaged: {error}") from None
     if form != _FORM:
-        raise ValueError(f"{path} has the form {form!r}, this version reads {_FORM!r}")
+        raise InputError(f"{path} has the form {form!r}, this version reads {_FORM!r}")
     if digest != _digest(arrays):
-        raise ValueError(f"{path} is damaged: its arrays do not have the checksum beside them")
+        raise InputError(f"{path} is damaged: its arrays do not have the checksum beside them")
     scaled = {
         name: Scaled(
             from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
+
 from .features import DESCRIPTOR, INPUTS, Descriptor, Target, crack_amplification, inputs, target
 from .learners import BOOSTING, FOREST, LINEAR, NETWORK, TREE, check_installed
 from .study_extrapolation import extrapolation
@@ -85,9 +87,9 @@ def study(
     """
     check_installed()
     if len(rows) < 50:
-        raise ValueError(f"a study needs at least 50 rows, got {len(rows)}")
+        raise InputError(f"a study needs at least 50 rows, got {len(rows)}")
     if jobs < 1:
-        raise ValueError(f"jobs must be at least 1, got {jobs}")
+        raise InputError(f"jobs must be at least 1, got {jobs}")
     plain: dict[str, Any] = {"seed": seed, "quick": quick}
     every: dict[str, Any] = plain | {"jobs": jobs}
     progress("tables 5.1 to 5.4, by every split")

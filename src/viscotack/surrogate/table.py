@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 Array = npt.NDArray[np.float64]
 
 # Column here -> column of the published table, and the factor that makes ours of theirs. Their rate
@@ -89,7 +91,7 @@ def read_detachments(path: str | os.PathLike[str]) -> Detachments:
         scaled = {name: (name, 1.0) for name in _PUBLISHED}
     missing = [old for old, _ in scaled.values() if old not in columns]
     if missing:
-        raise ValueError(
+        raise InputError(
             f"{path} has no column {', '.join(missing)}; it needs {', '.join(_PUBLISHED)}, or the "
             "columns of the published table"
         )
@@ -110,11 +112,11 @@ def _csv(path: Path) -> dict[str, list[str]]:
     with open(path, newline="", encoding="utf-8-sig") as file:
         rows = list(csv.reader(file))
     if len(rows) < 2:
-        raise ValueError(f"{path} has no rows")
+        raise InputError(f"{path} has no rows")
     width = len(rows[0])
     short = next((i for i, row in enumerate(rows) if len(row) != width), None)
     if short is not None:
-        raise ValueError(f"{path}, line {short + 1}: {len(rows[short])} values, expected {width}")
+        raise InputError(f"{path}, line {short + 1}: {len(rows[short])} values, expected {width}")
     return {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
 
 
@@ -127,7 +129,7 @@ def _parquet(path: Path) -> dict[str, list[Any]]:
         ) from None
     table = parquet.ParquetFile(path).read()
     if not table.num_rows:
-        raise ValueError(f"{path} has no rows")
+        raise InputError(f"{path} has no rows")
     return {name: table.column(name).to_pylist() for name in table.column_names}
 
 
@@ -137,7 +139,7 @@ def _column(path: Path, name: str, values: list[Any]) -> Array:
         try:
             found[i] = float(value)
         except (TypeError, ValueError):
-            raise ValueError(f"{path}, row {i + 1}: {name} is {value!r}, not a number") from None
+            raise InputError(f"{path}, row {i + 1}: {name} is {value!r}, not a number") from None
     return found
 
 
@@ -145,7 +147,7 @@ def _numbers(path: Path, name: str, values: list[Any], factor: float) -> Array:
     found = factor * _column(path, name, values)
     wrong = np.flatnonzero(~(np.isfinite(found) & (found > 0)))
     if wrong.size:
-        raise ValueError(
+        raise InputError(
             f"{path}: {name} must be {'negative' if factor < 0 else 'positive'} and finite, for "
             f"its logarithm is learned; {wrong.size} rows are not, the first is row {wrong[0] + 1} "
             f"with {values[wrong[0]]!r}; leave them out"

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 from . import physics
 
 Array = npt.NDArray[np.float64]
@@ -56,7 +58,7 @@ class Trust:
     ) -> tuple[Array, Array]:
         """Return by what force and work are multiplied and divided, arrays of shape (n,)."""
         if confidence not in CONFIDENCES:
-            raise ValueError(
+            raise InputError(
                 f"the confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
                 f"intervals were measured; got {confidence!r}"
             )

@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
 Number = float | npt.NDArray[np.float64]
 
 UNITS = {
@@ -38,7 +40,7 @@ def positive(**quantities: npt.ArrayLike) -> Any:
         x = np.asarray(value, dtype=float)
         bad = ~(np.isfinite(x) & (x > 0))
         if np.any(bad):
-            raise ValueError(
+            raise InputError(
                 f"{name} must be positive and finite, got {x[bad].flat[0]}{UNITS.get(name, '')}"
             )
         found.append(x)
@@ -54,7 +56,7 @@ def at_least(lower: npt.ArrayLike, hint: str, **quantity: npt.ArrayLike) -> Any:
         unit = UNITS.get(name, "")
         given = np.broadcast_to(x, bad.shape)[bad].flat[0]
         limit = np.broadcast_to(low, bad.shape)[bad].flat[0]
-        raise ValueError(
+        raise InputError(
             f"{name} must be finite and at least {limit:.6g}{unit}, got {given}{unit}; {hint}"
         )
     return np.maximum(x, low)
@@ -64,7 +66,7 @@ def ratio(modulus_ratio: npt.ArrayLike) -> Any:
     """Return the modulus ratio as a float array in (0, 1]."""
     k = positive(modulus_ratio=modulus_ratio)
     if np.any(k > 1):
-        raise ValueError(
+        raise InputError(
             f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
         )
     return k

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import Quantity
+from viscotack.errors import InputError
 
 WorkOfAdhesion = Annotated[
     float,
@@ -57,7 +58,7 @@ def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return gaps as an array, or refuse surfaces that touch or pass through each other."""
     h = np.asarray(gap, dtype=float)
     if not (h > 0).all():
-        raise ValueError(f"gap must be positive, got a minimum of {h.min()} m")
+        raise InputError(f"gap must be positive, got a minimum of {h.min()} m")
     return h
 
 

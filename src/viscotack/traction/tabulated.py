@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from scipy.optimize import brentq
 
 from viscotack.cards import conform
+from viscotack.errors import InputError
 from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 # What the table says of its own work and zero may miss 1 by this.
@@ -69,7 +70,7 @@ class Tabulated:
         work = float(self._curves.energy(points[-1][0]) - self._curves.energy(1.0))
         size = max(abs(traction) for _, traction in points)
         if abs(work - 1) > _ROUND_OFF or abs(at_one) > _ROUND_OFF * size:
-            raise ValueError(
+            raise InputError(
                 "points must have zero traction at gap 1 and work 1 beyond it, got "
                 f"{at_one:g} and {work:g}; Tabulated.of_points makes them so"
             )
@@ -161,23 +162,23 @@ def _zero_at_end(curve: PPoly) -> PPoly:
 def _check(gap: npt.NDArray, traction: npt.NDArray) -> None:
     """Refuse points through which no law goes."""
     if gap.ndim != 1 or gap.shape != traction.shape or len(gap) < 4:
-        raise ValueError("a table has at least four gaps, and as many tractions")
+        raise InputError("a table has at least four gaps, and as many tractions")
     if not (np.isfinite(gap).all() and np.isfinite(traction).all()):
-        raise ValueError("gaps and tractions must be finite numbers")
+        raise InputError("gaps and tractions must be finite numbers")
     if gap[0] <= 0 or np.any(np.diff(gap) <= 0):
-        raise ValueError(f"gaps must be positive and ascend, got {gap}")
+        raise InputError(f"gaps must be positive and ascend, got {gap}")
     if not (traction[0] < 0 and traction[1] > traction[0]):
-        raise ValueError(
+        raise InputError(
             "the table must begin with repulsion (a negative traction) that falls with the gap, "
             f"got {traction[0]:g} and {traction[1]:g} at its first gaps"
         )
     if traction[-1] != 0:
-        raise ValueError(
+        raise InputError(
             f"the traction must be zero at the last gap, got {traction[-1]:g}; add a row with the "
             "gap beyond which there is none"
         )
     if traction.max() <= 0 or sum(a < 0 <= b or a >= 0 > b for a, b in pairwise(traction)) != 1:
-        raise ValueError(
+        raise InputError(
             "the traction must change its sign once, from repulsion to tension, got "
             f"{traction}; smooth the table first"
         )

@@ -176,9 +176,9 @@ def run_command(
         from viscotack.campaign import AllCrashed, read_plan, run
 
         if out is None:
-            raise ValueError("--out is missing: the folder that keeps the campaign")
+            raise InputError("--out is missing: the folder that keeps the campaign")
         if plan_file is None and any(value is not None for value in changed.values()):
-            raise ValueError("settings are those of the folder; give the plan to change limits")
+            raise InputError("settings are those of the folder; give the plan to change limits")
         plan = None if plan_file is None else read_plan(plan_file, **changed)
         end, trouble = None, ""
         try:
@@ -254,7 +254,7 @@ def export_command(
         from viscotack.campaign import Store, export
 
         if not any(wanted.values()):
-            raise ValueError("say what to write: --csv, --parquet, --mat or --failures FILE")
+            raise InputError("say what to write: --csv, --parquet, --mat or --failures FILE")
         check_files(wanted)
         for flag, ending in (("--csv", ".csv"), ("--parquet", ".parquet"), ("--mat", ".mat")):
             file = wanted[flag]
@@ -360,4 +360,4 @@ def _words_for_what_is_missing() -> Iterator[None]:
         try:
             yield
         except ModuleNotFoundError as error:
-            raise ValueError(str(error)) from None
+            raise InputError(str(error)) from None

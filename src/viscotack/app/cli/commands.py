@@ -210,11 +210,11 @@ def stated_problem(
         return stated(door, given, also)
     flags = [f"--{name}" for name in given_of(given)]
     if flags:
-        raise ValueError(f"{case} states the whole problem; leave out {', '.join(flags)}")
+        raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
     problem = read_case(case, also=also)
     if door is None or door.word == _door_of(problem):
         return problem
-    raise ValueError(f"{case} states a {_door_of(problem)}, which has commands of its own")
+    raise InputError(f"{case} states a {_door_of(problem)}, which has commands of its own")
 
 
 def _door_of(problem: Problem) -> str:
@@ -271,7 +271,7 @@ def show(
     with wrong_input():
         check_files({"--plot": plot_file, "--csv": csv_file}, as_json=as_json, reads=(file,))
         if file.is_dir():
-            raise ValueError(f"{file} is a folder; give the name of a file")
+            raise InputError(f"{file} is a folder; give the name of a file")
         result = load(file, also=own_nouns(own or ()))
     _report(result, Writing(), as_json, plot_file, plot_kind, csv_file, own)
 

@@ -11,6 +11,7 @@ import typer
 from typer import Argument, Option
 
 from viscotack import __version__
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.materials.conversion import PronyForm, prony_form
 from viscotack.materials.exchange import Units, exported, imported
@@ -297,7 +298,7 @@ def convert_command(
                 passport, material=form.material, frequencies=form.frequencies, origin=origin
             )
         elif frequencies is not None:
-            raise ValueError("--frequencies go with --prony")
+            raise InputError("--frequencies go with --prony")
     write = Writing()
     write("wrote", output or Path("-"), lambda target: write_passport(passport, target))
     write.end()
@@ -352,7 +353,7 @@ def _passport(name: str) -> Passport:
     if name in MATERIALS:
         return published(name)
     if not name.endswith(".toml") and not Path(name).exists():
-        raise ValueError(
+        raise InputError(
             f"{name!r} is neither a passport (FILE.toml) nor a published material "
             f"({', '.join(MATERIALS)})"
         )
@@ -367,9 +368,9 @@ def _master_curve(
 
     named = [name for name, value in shifting.items() if value is not None]
     if len(named) > 1:
-        raise ValueError(f"give one shift, got {' and '.join(f'--{n}' for n in named)}")
+        raise InputError(f"give one shift, got {' and '.join(f'--{n}' for n in named)}")
     if named and reference is None:
-        raise ValueError(f"--{named[0]} needs --reference-temperature")
+        raise InputError(f"--{named[0]} needs --reference-temperature")
     sweeps = read_dma(file, **given)
     shift: Any = None
     if shifting["glass-transition"] is not None:
@@ -381,12 +382,12 @@ def _master_curve(
         shift = read_shifts(shifting["shift-file"])
     known = sweeps.temperature[np.isfinite(sweeps.temperature)]
     if reference is None and known.size and np.ptp(known) > 3:
-        raise ValueError(
+        raise InputError(
             f"{file} has sweeps from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} C; "
             'say at which temperature the material is wanted, --reference-temperature "20 degC"'
         )
     if not named and np.ptp(sweeps.angular_frequency) == 0 and known.size and np.ptp(known) > 3:
-        raise ValueError(
+        raise InputError(
             f"{file} is a temperature ramp at one frequency: nothing overlaps that could tell the "
             'shift; give --glass-transition "-115 degC", --wlf or --shift-file'
         )
@@ -404,20 +405,20 @@ def _imported(
     file: str, code: Code, pressure: str | None, time: str | None, also: dict[str, Any]
 ) -> Passport:
     if (pressure is None) != (time is None):
-        raise ValueError("give both --pressure-unit and --time-unit")
+        raise InputError("give both --pressure-unit and --time-unit")
     constants: dict[str, float] = {}
     if also["rubbery-modulus"] is not None:
         constants["rubbery_modulus"] = parse(also["rubbery-modulus"], "Pa")
     if also["poisson-ratio"] is not None:
         constants["poisson_ratio"] = also["poisson-ratio"]
     if constants and code not in (Code.COMSOL, Code.RADIOSS):
-        raise ValueError(f"input of {code} holds modulus and Poisson ratio; leave them out")
+        raise InputError(f"input of {code} holds modulus and Poisson ratio; leave them out")
     units = Units(pressure, time) if pressure and time else None
     try:
         text = Path(file).read_text(encoding="utf-8")
         solid = imported(text, str(code), units=units, **constants)
     except (ValueError, UnicodeDecodeError) as error:
-        raise ValueError(f"{file}: {error}") from None
+        raise InputError(f"{file}: {error}") from None
     origin = Origin(file=Path(file).name, format=str(code), made_by=f"viscotack {__version__}")
     return Passport(name=Path(file).stem, material=solid, origin=origin)
 
@@ -433,7 +434,7 @@ def _series(passport: Passport, frequencies: str | None, tolerance: float) -> Pr
         unit = passport.material.time_unit
         bounds = 1e-3 / unit, 1e3 / unit
     else:
-        raise ValueError(
+        raise InputError(
             f"{passport.name} does not say where it was measured; say where the series must hold, "
             '--frequencies "1 mHz,1 MHz"'
         )
@@ -455,7 +456,7 @@ def _in_radians(text: str) -> list[str]:
 def _two(text: str, flag: str) -> list[str]:
     words = [word.strip() for word in text.split(",")]
     if len(words) != 2:
-        raise ValueError(f"{flag} needs two values with a comma between them, got {text!r}")
+        raise InputError(f"{flag} needs two values with a comma between them, got {text!r}")
     return words
 
 
@@ -483,7 +484,7 @@ def _kelvin(text: str | None) -> float | None:
 def _refuse(why: str, flags: dict[str, Any]) -> None:
     given = [f"--{name}" for name, value in flags.items() if value is not None]
     if given:
-        raise ValueError(f"{' and '.join(given)} cannot be used {why}; leave it out")
+        raise InputError(f"{' and '.join(given)} cannot be used {why}; leave it out")
 
 
 def _json(passport: Passport, **more: Any) -> str:

@@ -133,7 +133,7 @@ def _predict(
 def _refuse(others: dict[str, Any], why: str) -> None:
     given = [name for name, value in others.items() if value is not None and value is not False]
     if given:
-        raise ValueError(f"{why}; leave out {', '.join(given)}")
+        raise InputError(f"{why}; leave out {', '.join(given)}")
 
 
 def _problem(
@@ -141,9 +141,9 @@ def _problem(
 ) -> Problem | Groups:
     if what != "sphere":
         if case is not None:
-            raise ValueError(f"give one file, got {what} and {case}")
+            raise InputError(f"give one file, got {what} and {case}")
         if not Path(what).suffix:
-            raise ValueError(
+            raise InputError(
                 f"predictions are for 'sphere', a file CASE.toml or a table CASES.csv, got {what!r}"
             )
         case = Path(what)

@@ -13,6 +13,7 @@ import typer
 
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.plan import read_words
+from viscotack.errors import InputError
 from viscotack.files.whole import Target, is_standard_output, write_whole
 from viscotack.forecast.table import ANSWERS, predict_table
 
@@ -34,12 +35,12 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
         a table of spheres.
     """
     if out is None:
-        raise ValueError(f"say where the answers to {path} are to go: --csv answers.csv")
+        raise InputError(f"say where the answers to {path} are to go: --csv answers.csv")
     given = read_table(path)
     if not is_standard_output(out) and out.exists() and out.samefile(path):
-        raise ValueError(f"--csv {out} is the table of cases itself; give it another name")
+        raise InputError(f"--csv {out} is the table of cases itself; give it another name")
     if there := [name for name in ANSWERS if name in given]:
-        raise ValueError(
+        raise InputError(
             f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
             "rename or leave them out"
         )
@@ -50,7 +51,7 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
         numbers = {name: _numbers(given[name]) for name in names}
         found = predict_table(numbers, confidence=confidence, report=_teller())
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+        raise InputError(f"{path}: {error}") from None
     for i in np.flatnonzero(found["method"] == "").tolist():
         wrong = [n for n in names if not _is_number(given[n][i])]
         if wrong:

@@ -10,6 +10,7 @@ import numpy as np
 from typer import Option
 
 from viscotack.app.questions import PUNCH, material_from, require
+from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded, FlatPunch, Frictionless
 from viscotack.materials import Elastic, Material
 from viscotack.materials.passport_file import read_passport
@@ -160,7 +161,7 @@ def _stated_pad(
     units = {"thickness": "m", "stress": "Pa", "speed": "m/s"}
     wanted = {name: _quantity(name, text, units[name]) for name, text in _given(asked).items()}
     if "thickness" in wanted and "stress" in wanted:
-        raise ValueError("give --thickness or --stress, not both: one answers the other")
+        raise InputError("give --thickness or --stress, not both: one answers the other")
     if case is None:
         pad, solid = _pad_from_flags(_given(flags))
     else:
@@ -171,17 +172,17 @@ def _stated_pad(
             stated["thickness"] = problem.body.thickness
         wanted = _given(stated) | wanted
     if wanted.keys() & {"thickness", "stress"} and "speed" not in wanted:
-        raise ValueError('--speed missing, the retraction speed; for example --speed "100 um/s"')
+        raise InputError('--speed missing, the retraction speed; for example --speed "100 um/s"')
     return pad, solid, wanted
 
 
 def _pad_problem(case: Path, flags: Mapping[str, Any]) -> Any:
     given = [f"--{name}" for name in _given(flags)]
     if given:
-        raise ValueError(f"{case} states the whole problem; leave out {', '.join(given)}")
+        raise InputError(f"{case} states the whole problem; leave out {', '.join(given)}")
     problem = read_case(case)
     if not isinstance(problem.geometry, FlatPunch):
-        raise ValueError(f"{case} states a {problem.geometry.word}, which has commands of its own")
+        raise InputError(f"{case} states a {problem.geometry.word}, which has commands of its own")
     return problem
 
 
@@ -189,7 +190,7 @@ def _quantity(name: str, text: str, unit: str) -> float:
     try:
         return parse(text, unit)
     except ValueError as error:
-        raise ValueError(f"--{name}: {error}") from None
+        raise InputError(f"--{name}: {error}") from None
 
 
 def _pad_of(problem: Any) -> Pad:
@@ -271,7 +272,7 @@ def _map(pad: Pad, law: CrackLaw) -> punch.RegimeMap:
     """Return how the pad comes off, over the thicknesses and speeds that matter to it."""
     a = pad.half_width
     if law.largest == 1:
-        raise ValueError("an elastic layer comes off in the same way at every speed: no map")
+        raise InputError("an elastic layer comes off in the same way at every speed: no map")
     cracks = law.speed(1 + np.array([_SLOW, _FAST]) * (law.largest - 1))
     # a punch moved by the depth of its pull-off while the cracks run through it
     slow, fast = np.asarray(cracks) * -pad.elastic_depth(a) / a

@@ -7,6 +7,8 @@ from typing import Annotated, Any
 import typer
 from typer import Option
 
+from viscotack.errors import InputError
+
 from .commands import AsJson, application, wrong_input
 
 studies = typer.Typer(
@@ -76,13 +78,13 @@ def _studied(data: Path, out: Path, **settings: Any) -> dict[str, Any]:
     from viscotack.surrogate.table import read_detachments
 
     if out.exists() and not out.is_dir():
-        raise ValueError(f"cannot write to {out}: it is a file; give the name of a folder")
+        raise InputError(f"cannot write to {out}: it is a file; give the name of a folder")
     try:
         rows = read_detachments(data)
         done = study(rows, progress=lambda part: typer.echo(f"{part} ...", err=True), **settings)
     except ModuleNotFoundError as error:
         # the sentence says what to install
-        raise ValueError(str(error)) from None
+        raise InputError(str(error)) from None
     files = write_study(done, out, source=data.name)
     typer.echo(f"wrote {files[-1]}", err=True)
     return {"said": summary(done.numbers), "files": [str(file) for file in files]}

@@ -10,6 +10,7 @@ import typer
 from typer import Option
 
 from viscotack.app.questions import SPHERE, material_from
+from viscotack.errors import InputError
 from viscotack.problem import Groups, Problem
 from viscotack.theory import jkr, maugis, tabulated_modulus
 from viscotack.theory.crack.law import THEORIES
@@ -253,9 +254,9 @@ def _check_maugis(quantities: dict[str, str | None], tabor: float | None) -> Non
     given = [name for name, value in quantities.items() if value is not None]
     missing = [name for name, value in quantities.items() if value is None]
     if tabor is not None and given:
-        raise ValueError(f"--tabor states the whole problem; leave out {', '.join(given)}")
+        raise InputError(f"--tabor states the whole problem; leave out {', '.join(given)}")
     if tabor is None and missing:
-        raise ValueError(f"{' and '.join(missing)} missing; or give --tabor alone")
+        raise InputError(f"{' and '.join(missing)} missing; or give --tabor alone")
 
 
 _TABLE_LAWS = {
@@ -304,7 +305,7 @@ def _of_material(
         low, high = law.speed(1 + part * (1 / solid.modulus_ratio - 1), material=solid)
         v = np.geomspace(low, high, _ROWS)
     else:
-        raise ValueError("an elastic solid has an amplification of 1 at every speed")
+        raise InputError("an elastic solid has an amplification of 1 at every speed")
     return v, {"amplification": np.asarray(law.amplification(v, material=solid))}
 
 
@@ -317,10 +318,10 @@ def _of_table(
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     if given:
         others = ", ".join(f"--{flag}" for flag in given)
-        raise ValueError(f"--modulus-table states the solid; leave out {others}")
+        raise InputError(f"--modulus-table states the solid; leave out {others}")
     if file is None or rubbery_modulus is None:
         missing = "--modulus-table" if file is None else "--rubbery-modulus"
-        raise ValueError(f"{missing} missing; --modulus-table and --rubbery-modulus go together")
+        raise InputError(f"{missing} missing; --modulus-table and --rubbery-modulus go together")
     amplification, speed_range = _TABLE_LAWS[name]
     plateau = positive("--rubbery-modulus", parse(rubbery_modulus, "Pa"), "Pa")
     modulus = read_modulus(file, rubbery_modulus=plateau)

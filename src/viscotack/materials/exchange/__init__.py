@@ -16,6 +16,7 @@ The Poisson ratio is constant here, so that shear and bulk relax alike; where a 
 series it is written too. A file that comes in with another bulk series is refused.
 """
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange import abaqus, ansys, comsol, radioss, tamaas
 from viscotack.materials.exchange.units import SI, Units
 from viscotack.materials.solids import Prony
@@ -93,5 +94,5 @@ def imported(text: str, code: str, *, units: Units | None = None, **also: float)
 
 def _module(code: str):
     if code not in CODES:
-        raise ValueError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
+        raise InputError(f"the program must be one of {', '.join(CODES)}, got {code!r}")
     return CODES[code]

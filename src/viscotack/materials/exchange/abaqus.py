@@ -5,6 +5,7 @@ exp(-t/tau_i)), data lines g_i, k_i, tau_i; ``*ELASTIC`` states the modulus, lon
 instantaneous.
 """
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
     Units,
     from_ratios,
@@ -47,7 +48,7 @@ def read(text: str, units: Units | None) -> Prony:
             if keyword == "*ELASTIC":
                 instantaneous = "MODULI=INSTANTANEOUS" in command
             if keyword == "*VISCOELASTIC" and "TIME=PRONY" not in command:
-                raise ValueError(
+                raise InputError(
                     f"line {line}: only TIME=PRONY states a Prony series, got {words!r}"
                 )
             continue
@@ -58,10 +59,10 @@ def read(text: str, units: Units | None) -> Prony:
             elastic = (values[0], values[1])
         elif keyword == "*VISCOELASTIC":
             if len(values) < 3:
-                raise ValueError(f"line {line}: expected g_i, k_i, tau_i, got {words!r}")
+                raise InputError(f"line {line}: expected g_i, k_i, tau_i, got {words!r}")
             rows.append((line, values[0], values[1], values[2]))
     if elastic is None:
-        raise ValueError("there is no *ELASTIC with Young's modulus and Poisson ratio")
+        raise InputError("there is no *ELASTIC with Young's modulus and Poisson ratio")
     modulus, nu = elastic
     for line, g, k, _ in rows:
         if nu != 0.5 and abs(g - k) > 1e-6 * max(g, k):

@@ -4,6 +4,7 @@ G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)), with G_0 from EX and NUXY; S
 series apart. ``TBDATA`` takes a first place and up to six numbers: three pairs.
 """
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
     Units,
     from_ratios,
@@ -53,18 +54,18 @@ def read(text: str, units: Units | None) -> Prony:
             first = words[1] if len(words) > 1 else ""
             place = int(number(first, line, "the place of TBDATA")) if first else 1
             if not first and tables[part]:
-                raise ValueError(f"line {line}: TBDATA must say at which place its numbers begin")
+                raise InputError(f"line {line}: TBDATA must say at which place its numbers begin")
             for offset, word in enumerate(words[2:]):
                 if word:
                     tables[part][place + offset] = number(word, line, "a value")
     nu = constants.get("NUXY", constants.get("PRXY"))
     if "EX" not in constants or nu is None:
-        raise ValueError("MP,EX and MP,NUXY (instantaneous modulus, Poisson ratio) are missing")
+        raise InputError("MP,EX and MP,NUXY (instantaneous modulus, Poisson ratio) are missing")
     if "SHEAR" not in tables:
-        raise ValueError("there is no TB,PRONY with SHEAR in the text")
+        raise InputError("there is no TB,PRONY with SHEAR in the text")
     for part, table in tables.items():
         if counts[part] is not None and len(table) != 2 * (counts[part] or 0):
-            raise ValueError(
+            raise InputError(
                 f"line {lines[part]}: TB says {counts[part]} pairs, and {len(table)} numbers follow"
             )
     shear = _pairs(tables["SHEAR"], lines["SHEAR"])
@@ -83,5 +84,5 @@ def read(text: str, units: Units | None) -> Prony:
 
 def _pairs(table: dict[int, float], line: int) -> list[tuple[float, float]]:
     if sorted(table) != list(range(1, len(table) + 1)) or len(table) % 2:
-        raise ValueError(f"line {line}: the numbers of TBDATA are not whole pairs from place 1 on")
+        raise InputError(f"line {line}: the numbers of TBDATA are not whole pairs from place 1 on")
     return [(table[i], table[i + 1]) for i in range(1, len(table), 2)]

@@ -7,6 +7,7 @@ stand in comments here, as that file has no place for them.
 
 import re
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange.units import Units, head, number, series, shear_factor, units_of
 from viscotack.materials.solids import Prony
 
@@ -48,7 +49,7 @@ def read(
     if nu is None and found[1] is not None:
         nu = number(found[1][1], _line(text, found[1]), "the Poisson ratio")
     if modulus is None or nu is None:
-        raise ValueError(
+        raise InputError(
             "a table of branches does not say the long-term Young's modulus and the Poisson "
             "ratio; give both"
         )
@@ -58,7 +59,7 @@ def read(
         if not words:
             continue
         if len(words) != 3:
-            raise ValueError(
+            raise InputError(
                 f"line {line}: expected branch, shear modulus and relaxation time, got {raw!r}"
             )
         G = number(words[1], line, "the shear modulus") * unit.pascal

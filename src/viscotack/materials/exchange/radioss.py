@@ -5,6 +5,7 @@ of G_i, Beta_i, K_i, Beta_ki (20 each), with beta = 1/(relaxation time). The ela
 same number states the long-term moduli; they stand in a comment here.
 """
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
     Units,
     bulk_factor,
@@ -62,22 +63,22 @@ def read(
         elif inside and raw.strip() and not raw.startswith("#"):
             rows.append((line, raw))
     if modulus is None or nu is None:
-        raise ValueError(
+        raise InputError(
             "/VISC/PRONY does not say the long-term Young's modulus and the Poisson ratio, its "
             "/MAT does; give both"
         )
     if not rows:
-        raise ValueError("there is no /VISC/PRONY in the text")
+        raise InputError("there is no /VISC/PRONY in the text")
     line, first = rows[0]
     count = int(number(first[:10].strip() or "0", line, "M"))
     if count != len(rows) - 1:
-        raise ValueError(f"line {line}: M says {count} branches, and {len(rows) - 1} follow")
+        raise InputError(f"line {line}: M says {count} branches, and {len(rows) - 1} follow")
     branches = []
     for line, raw in rows[1:]:
         fields = [raw[i : i + 20].strip() for i in range(0, 80, 20)]
         G, beta, K, beta_k = (number(w or "0", line, "a value") for w in fields)
         if beta <= 0:
-            raise ValueError(f"line {line}: the decay constant Beta_i must be positive, got {beta}")
+            raise InputError(f"line {line}: the decay constant Beta_i must be positive, got {beta}")
         E = G * unit.pascal / shear_factor(nu)
         bulk = E * bulk_factor(nu) / unit.pascal
         if nu != 0.5 and (abs(K - bulk) > 1e-6 * bulk or abs(beta_k - beta) > 1e-6 * beta):

@@ -6,6 +6,7 @@ lengths of its model must go with the unit of pressure.
 
 import ast
 
+from viscotack.errors import InputError
 from viscotack.materials.exchange.units import Units, head, series, shear_factor, units_of
 from viscotack.materials.solids import Prony
 
@@ -33,7 +34,7 @@ def read(text: str, units: Units | None) -> Prony:
     try:
         tree = ast.parse(text)
     except SyntaxError as error:
-        raise ValueError(f"line {error.lineno}: this is no Python") from None
+        raise InputError(f"line {error.lineno}: this is no Python") from None
     for node in tree.body:
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             name = ast.unparse(node.targets[0])
@@ -41,19 +42,19 @@ def read(text: str, units: Units | None) -> Prony:
                 try:
                     found[name] = ast.literal_eval(node.value)
                 except ValueError:
-                    raise ValueError(
+                    raise InputError(
                         f"line {node.lineno}: {name} must be plain numbers, got "
                         f"{ast.unparse(node.value)!r}"
                     ) from None
     missing = [name for name in _NAMES if name not in found]
     if missing:
-        raise ValueError(f"{' and '.join(missing)} missing")
+        raise InputError(f"{' and '.join(missing)} missing")
     modulus, nu, moduli, times = (found[name] for name in _NAMES)
     try:
         pairs = [(float(G), float(t)) for G, t in zip(moduli, times, strict=True)]
         modulus, nu = float(modulus), float(nu)
     except (TypeError, ValueError):
-        raise ValueError(
+        raise InputError(
             "shear_moduli and characteristic_times must be lists of equal length"
         ) from None
     factor = shear_factor(nu)

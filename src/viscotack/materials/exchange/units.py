@@ -5,6 +5,7 @@ import re
 from dataclasses import dataclass
 from typing import NoReturn
 
+from viscotack.errors import InputError
 from viscotack.materials.checks import positive
 from viscotack.materials.solids import Prony
 from viscotack.units import parse
@@ -61,7 +62,7 @@ def units_of(text: str, units: Units | None) -> Units:
         return units
     found = _COMMENT.search(text)
     if found is None:
-        raise ValueError(
+        raise InputError(
             "the text does not say its units; give them (units=Units('MPa', 's'), or on the "
             "command line --pressure-unit and --time-unit)"
         )
@@ -91,7 +92,7 @@ def number(word: str, line: int, what: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ValueError(f"line {line}: {what} must be a number, got {word!r}")
+        raise InputError(f"line {line}: {what} must be a number, got {word!r}")
     return value
 
 
@@ -100,7 +101,7 @@ def series(
 ) -> Prony:
     """Return the solid, or say that no branch was found."""
     if not branches:
-        raise ValueError("there is no branch of a Prony series in the text")
+        raise InputError("there is no branch of a Prony series in the text")
     return Prony(
         rubbery_modulus=rubbery_modulus,
         branches=tuple(branches),
@@ -126,7 +127,7 @@ def from_ratios(
     """
     rest = 1 - sum(sorted(g for g, _ in ratios))
     if rest <= 0:
-        raise ValueError(
+        raise InputError(
             f"the ratios to the instantaneous modulus sum to {1 - rest:.12g}: a solid needs less "
             "than 1, or nothing is left of it after a long time"
         )
@@ -137,7 +138,7 @@ def from_ratios(
 
 def other_bulk(line: int, shear: float, bulk: float) -> NoReturn:
     """Refuse a bulk series that is not the shear series."""
-    raise ValueError(
+    raise InputError(
         f"line {line}: shear and bulk relax differently ({shear:g} and {bulk:g}), so that the "
         "Poisson ratio changes in time; materials here have a constant one. Make the bulk series "
         "equal to the shear series, or state an incompressible solid (Poisson ratio 0.5)"

@@ -19,6 +19,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain
 
 Array = npt.NDArray[np.floating[Any]]
@@ -86,7 +87,7 @@ def speed(
     )
     k = material.modulus_ratio
     if np.any(gamma * k >= 1) and np.any(gamma > 1):
-        raise ValueError(
+        raise InputError(
             f"amplification must stay below glassy over rubbery modulus {1 / k:.6g}, reached at "
             f"infinite speed, got {np.max(gamma)}"
         )
@@ -145,7 +146,7 @@ def _bracket(
         low = 2 * low if odds[0] > least else low
         high = 2 * high if odds[1] < most else high
         if max(-low, high) > 500:
-            raise ValueError(
+            raise InputError(
                 "amplification is reached only at a speed beyond 1e-200 or 1e200; "
                 "stay farther from 1 and from glassy over rubbery modulus"
             )

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive, ratio
 
 from . import _crack, persson_brener
@@ -105,7 +106,7 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
     """
     k = material.modulus_ratio
     if k >= 1:
-        raise ValueError("an elastic solid has no intermediate range; its amplification is 1")
+        raise InputError("an elastic solid has no intermediate range; its amplification is 1")
     span = 1 / k - 1
     low, high = (
         float(persson_brener.speed(1 + span * part, material=material)) for part in (1e-3, 0.999)

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory._checks import Number, plain, positive, ratio
 
@@ -57,7 +58,7 @@ class CrackLaw:
 
     def __post_init__(self) -> None:
         if self.theory not in THEORIES:
-            raise ValueError(f"theory must be {' or '.join(THEORIES)}, got {self.theory!r}")
+            raise InputError(f"theory must be {' or '.join(THEORIES)}, got {self.theory!r}")
         object.__setattr__(self, "tip_length", float(positive(tip_length=self.tip_length)))
 
     @property

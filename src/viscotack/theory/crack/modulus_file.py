@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.files.text import read_rows
 from viscotack.units import parse
 
@@ -63,7 +64,7 @@ def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> Tab
         except ValueError:
             values = []
         if len(values) != len(order) or not np.all(np.isfinite(values)):
-            raise ValueError(
+            raise InputError(
                 f"{path}, line {line}: a row is {len(order)} numbers with decimal points, got "
                 f"{','.join(row)!r}; drop the rows where nothing was measured"
             )
@@ -73,7 +74,7 @@ def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> Tab
     try:
         return TabulatedModulus(rubbery_modulus, *(tuple(c.tolist()) for c in columns.T))
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+        raise InputError(f"{path}: {error}") from None
 
 
 def _columns(path: Path, header: list[str]) -> tuple[list[float], list[int]]:
@@ -89,9 +90,9 @@ def _columns(path: Path, header: list[str]) -> tuple[list[float], list[int]]:
             elif name:
                 found[name] = (parse(f"1 {words}", "Pa"), place)
         except ValueError as error:
-            raise ValueError(f"{path}, the column {title}: {error}") from None
+            raise InputError(f"{path}, the column {title}: {error}") from None
     if len(header) != 3 or len(found) != 3:
-        raise ValueError(
+        raise InputError(
             f"{path}: the first row must name frequency, storage and loss with their units, such "
             f"as '{_EXAMPLE}' or '{_ANGULAR}_rad/s' for the first, got {','.join(header)!r}"
         )
@@ -104,13 +105,13 @@ def _check_step(path: Path, line: int, before: float | None, now: float) -> None
     if before is None or before <= 0:
         return
     if now <= before:
-        raise ValueError(
+        raise InputError(
             f"{path}, line {line}: the frequency {now:g} comes after {before:g}; sort the table, "
             "and give overlapping sweeps as one master curve"
         )
     gap = np.log10(now / before)
     if gap > WIDEST_GAP * (1 + 1e-9):
-        raise ValueError(
+        raise InputError(
             f"{path}, line {line}: a gap of {gap:.2g} decades between the frequencies {before:g} "
             f"and {now:g}; at most {WIDEST_GAP:g} decade may lie between two rows"
         )

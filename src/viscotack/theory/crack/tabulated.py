@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.materials import Modes
 
 # A table with a wider gap, in decades, leaves open what the solid does in between.
@@ -62,35 +63,35 @@ class TabulatedSpectrum:
     def __post_init__(self) -> None:
         E = float(self.rubbery_modulus)
         if not 0 < E < np.inf:
-            raise ValueError(f"rubbery_modulus must be a positive, finite number [Pa], got {E}")
+            raise InputError(f"rubbery_modulus must be a positive, finite number [Pa], got {E}")
         t, L = np.asarray(self.times, dtype=float), np.asarray(self.densities, dtype=float)
         if t.ndim != 1 or t.shape != L.shape or t.size < _FEWEST:
-            raise ValueError(
+            raise InputError(
                 f"a spectrum needs {_FEWEST} or more times and as many densities, got "
                 f"{t.size} times and {L.size} densities"
             )
         if not np.all(np.isfinite(t) & (t > 0)):
-            raise ValueError("times must be positive and finite [s]; drop the empty rows")
+            raise InputError("times must be positive and finite [s]; drop the empty rows")
         if not np.all(np.diff(t) > 0):
             i = int(np.argmax(np.diff(t) <= 0))
-            raise ValueError(
+            raise InputError(
                 f"times must ascend, got {t[i]:g} s before {t[i + 1]:g} s; sort the table (one "
                 "made of frequencies is turned around)"
             )
         gaps = np.diff(np.log10(t))
         if np.max(gaps) > WIDEST_GAP * (1 + 1e-9):
             i = int(np.argmax(gaps))
-            raise ValueError(
+            raise InputError(
                 f"the table has a gap of {gaps[i]:.2g} decades between {t[i]:g} s and "
                 f"{t[i + 1]:g} s; at most {WIDEST_GAP:g} decade may lie between two rows"
             )
         if not np.all(np.isfinite(L) & (L >= 0)):
-            raise ValueError(
+            raise InputError(
                 f"densities must be finite and not negative [1/Pa], got a minimum of {np.min(L):g}"
             )
         total = float(np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t))))
         if not 0 < total * E < 1:
-            raise ValueError(
+            raise InputError(
                 f"the spectrum adds up to {total:.4g} 1/Pa and must stay between 0 and the "
                 f"rubbery compliance {1 / E:.4g} 1/Pa; check the units of the densities"
             )

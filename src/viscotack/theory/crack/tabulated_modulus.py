@@ -42,6 +42,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 
 from . import _loss_integral as integral
@@ -103,32 +104,32 @@ class TabulatedModulus:
         }
         w, stored, lost = columns.values()
         if w.ndim != 1 or w.size < _FEWEST or not w.shape == stored.shape == lost.shape:
-            raise ValueError(
+            raise InputError(
                 f"a modulus needs {_FEWEST} or more rows of frequency, storage and loss, got "
                 f"{w.size}, {stored.size} and {lost.size}"
             )
         for name, column in columns.items():
             if not np.all(np.isfinite(column) & (column > 0)):
                 unit = "rad/s" if name == "frequencies" else "Pa"
-                raise ValueError(
+                raise InputError(
                     f"{name} must be positive and finite [{unit}], got a minimum of "
                     f"{np.min(column):g}; drop the rows where nothing was measured"
                 )
         if not np.all(np.diff(w) > 0):
             i = int(np.argmax(np.diff(w) <= 0))
-            raise ValueError(
+            raise InputError(
                 f"frequencies must ascend, got {w[i]:g} rad/s before {w[i + 1]:g} rad/s; sort "
                 "the table, and give overlapping sweeps as one master curve"
             )
         gaps = np.diff(np.log10(w))
         if np.max(gaps) > WIDEST_GAP * (1 + 1e-9):
             i = int(np.argmax(gaps))
-            raise ValueError(
+            raise InputError(
                 f"the table has a gap of {gaps[i]:.2g} decades between {w[i]:g} and "
                 f"{w[i + 1]:g} rad/s; at most {WIDEST_GAP:g} decade may lie between two rows"
             )
         if E > stored[0] * (1 + 1e-12):
-            raise ValueError(
+            raise InputError(
                 f"rubbery_modulus {E:g} Pa is above the first storage modulus {stored[0]:g} Pa; "
                 "give the plateau that the modulus tends to at low frequency"
             )
@@ -137,7 +138,7 @@ class TabulatedModulus:
             object.__setattr__(self, name, tuple(column.tolist()))
         low, _ = _tables(self)
         if not integral.rest(w[-1:], low)[0] > 0:
-            raise ValueError(
+            raise InputError(
                 "the loss adds up to more than the rubbery compliance, which no linear solid "
                 "can have; check rubbery_modulus and the units of storage and loss"
             )
@@ -244,7 +245,7 @@ def greenwood_speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
 
 def _refuse_outside(v: npt.NDArray, ends: tuple[float, float], length: str) -> None:
     if np.any(v < ends[0]) or np.any(v > ends[1]):
-        raise ValueError(
+        raise InputError(
             f"the table holds cracks of {ends[0]:.4g} to {ends[1]:.4g} {length} lengths a second, "
             f"got {np.min(v):.4g} to {np.max(v):.4g}; for others measure a wider range of "
             "frequencies"

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 
 from . import _maugis_equations as equations
@@ -118,7 +119,7 @@ def regime(
     case = dict(radius=radius, work_of_adhesion=work_of_adhesion)
     mu = tabor_number(**case, contact_modulus=contact_modulus, equilibrium_gap=equilibrium_gap)
     if not np.isfinite(force):
-        raise ValueError(f"force must be finite, got {force} N")
+        raise InputError(f"force must be finite, got {force} N")
     load = force / (np.pi * radius * work_of_adhesion)
     if load > hertz_load(mu):
         return "hertz"
@@ -133,7 +134,7 @@ def _parameter(tabor: npt.ArrayLike) -> Any:
     mu = positive(tabor=tabor)
     low, high = _RANGE
     if np.any((mu < low) | (mu > high)):
-        raise ValueError(
+        raise InputError(
             f"tabor must lie between {low:g} and {high:g} on the map, got {np.min(mu):.3g} to "
             f"{np.max(mu):.3g}; below it is rigid or DMT, above JKR or Hertz"
         )

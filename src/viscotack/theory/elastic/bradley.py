@@ -15,6 +15,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 
 
@@ -43,7 +44,7 @@ def force(
     )
     d = np.asarray(depth, dtype=float)
     if not np.all(np.isfinite(d) & (d < h0)):
-        raise ValueError(
+        raise InputError(
             f"depth must be finite and below the equilibrium gap {np.min(h0):.6g} m, got "
             f"{np.max(d)} m; rigid bodies do not overlap"
         )

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain
 from viscotack.theory._scales import contact_scales
 
@@ -62,7 +63,7 @@ def unstable_contact_radius_at_depth(
     length, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
     d = at_least(-0.75 * height, _NO_DEPTH, depth=depth) / height
     if np.any(d > 0):
-        raise ValueError(
+        raise InputError(
             f"depth must not be positive on the unstable branch, got {np.max(depth)} m; "
             "use contact_radius_at_depth"
         )
@@ -114,7 +115,7 @@ def unstable_contact_radius_at_force(
     length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
     if np.any(P > 0):
-        raise ValueError(
+        raise InputError(
             f"force must not be positive on the unstable branch, got {np.max(force)} N; "
             "use contact_radius_at_force"
         )

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 
 from . import hertz
@@ -48,7 +49,7 @@ def pressure(
     )
     a, r = positive(contact_radius=contact_radius), np.asarray(position, dtype=float)
     if np.any(r == a):
-        raise ValueError("position must not be the contact edge, where the JKR tension is infinite")
+        raise InputError("position must not be the contact edge, where the JKR tension is infinite")
     inside = np.where(r < a, (a - r) * (a + r), np.inf)
     return plain(compression - np.sqrt(2 * E * a * w / (np.pi * inside)))
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import ROUND_OFF, Number, at_least, plain, positive
 from viscotack.theory._scales import contact_scales
 
@@ -75,7 +76,7 @@ def curve(
     """
     m = np.asarray(ratio, dtype=float)
     if not np.all(np.isfinite(m) & (m > 1)):
-        raise ValueError(
+        raise InputError(
             f"ratio must be above 1 (a cohesive ring of no width) and finite, got {np.min(m)}; "
             "for a contact that is a point use curve_without_contact"
         )
@@ -158,7 +159,7 @@ def curve_without_contact(
     c = at_least(0, "it is a length", cohesive_radius=cohesive_radius)
     limit = np.asarray(touching_radius(radius=R, contact_modulus=E, work_of_adhesion=w, strength=s))
     if np.any(c > limit * (1 + ROUND_OFF)):
-        raise ValueError(
+        raise InputError(
             f"cohesive_radius must not exceed the touching radius {np.min(limit):.6g} m, got "
             f"{np.max(c)} m; where the sphere touches use curve"
         )

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 from viscotack.theory._scales import contact_scales
 
@@ -177,7 +178,7 @@ def _parameter_in_range(
     )
     low, high = _RANGE
     if np.any((lam < low) | (lam > high)):
-        raise ValueError(
+        raise InputError(
             f"the Maugis parameter must lie between {low:g} and {high:g}, got {np.min(lam):.3g} "
             f"to {np.max(lam):.3g}; below use theory.dmt, above theory.jkr"
         )

@@ -24,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import gammaln
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 
 _LENGTH = "a contact radius is a length"
@@ -124,7 +125,7 @@ def punch_pressure(
     a, E = positive(contact_radius=contact_radius, contact_modulus=contact_modulus)
     r = at_least(0, "a distance from the axis is not negative", position=position)
     if np.any(r == a):
-        raise ValueError("position must not be the edge of the punch, where the stress is infinite")
+        raise InputError("position must not be the edge of the punch, where the stress is infinite")
     inside = np.where(r < a, (a - r) * (a + r), np.inf)
     return plain(E * np.asarray(depth, dtype=float) / (np.pi * np.sqrt(inside)))
 
@@ -266,7 +267,7 @@ def _checked(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any) -
 def _end(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any, factor: float) -> Point:
     q, C, E, w = _checked(exponent, coefficient, contact_modulus, work)
     if np.any(q <= 0.5):
-        raise ValueError(
+        raise InputError(
             f"exponent must be above 1/2, got {np.min(q)}; the force of a flatter tip has no "
             "minimum, see punch_pull_off"
         )

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 from viscotack.theory._scales import contact_scales
 
@@ -58,7 +59,7 @@ def maugis_parameter(transition: npt.ArrayLike) -> Number:
     """
     alpha = _transition(transition)
     if np.any(1.02 * alpha >= 1):
-        raise ValueError(
+        raise InputError(
             f"transition must be below 1/1.02 = 0.98, got {np.max(alpha)}: beyond that the fit has "
             "no Maugis parameter; use theory.jkr"
         )
@@ -124,7 +125,7 @@ def contact_radius_without_load(
 def _transition(value: Any) -> Any:
     alpha = at_least(0, "0 is DMT and 1 is JKR", transition=value)
     if np.any(alpha > 1):
-        raise ValueError(f"transition must lie between 0 (DMT) and 1 (JKR), got {np.max(alpha)}")
+        raise InputError(f"transition must lie between 0 (DMT) and 1 (JKR), got {np.max(alpha)}")
     return alpha
 
 

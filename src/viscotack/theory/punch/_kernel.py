@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import make_interp_spline
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
 
 Array = npt.NDArray[np.float64]
@@ -64,7 +65,7 @@ class Curve(NamedTuple):
 def curve(base: Base) -> Curve:
     """Return the state of a punch on a layer with this base, computed on first use."""
     if isinstance(base, Bonded) and base.poisson_ratio > LARGEST_POISSON_RATIO:
-        raise ValueError(
+        raise InputError(
             f"poisson_ratio of a bonded layer must be at most {LARGEST_POISSON_RATIO} here, got "
             f"{base.poisson_ratio}: the nearer to 0.5, the farther its edges feel each other"
         )

@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
 
@@ -196,7 +197,7 @@ def thickness(
     least = np.sqrt(np.pi / 2)
     if np.any(wanted <= least):
         lowest = np.min(np.broadcast_to(sigma, wanted.shape)[wanted <= least])
-        raise ValueError(
+        raise InputError(
             f"stress must be above that of a half-plane, got {lowest:.6g} Pa: every "
             "layer holds more"
         )

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.theory._checks import Number, plain, positive
 
@@ -130,14 +131,14 @@ def work_of_separation(depth: npt.ArrayLike, stress: npt.ArrayLike) -> float:
     """
     d, s = np.asarray(depth, dtype=float), np.asarray(stress, dtype=float)
     if d.ndim != 1 or d.shape != s.shape or d.size < 2:
-        raise ValueError(
+        raise InputError(
             f"depth and stress must be two lists of one length, got shapes {d.shape} and {s.shape}"
         )
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(s))):
-        raise ValueError("depth and stress must be finite: leave out what was not measured")
+        raise InputError("depth and stress must be finite: leave out what was not measured")
     top = int(np.argmax(s))
     if s[top] <= 0:
-        raise ValueError(f"the curve has no tension, its largest stress is {s[top]:.6g} Pa")
+        raise InputError(f"the curve has no tension, its largest stress is {s[top]:.6g} Pa")
     pressed = np.flatnonzero(s[:top] <= 0)
     if pressed.size:
         i = int(pressed[-1])
@@ -162,7 +163,7 @@ def _checked(
         contact_modulus=contact_modulus,
     )
     if np.any(c > a):
-        raise ValueError(
+        raise InputError(
             "ligament must not be wider than the punch: it is the half width still in contact"
         )
     return s * a / c, b, a, c, E

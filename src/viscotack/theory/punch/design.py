@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 from viscotack.theory.crack import CrackLaw
 
@@ -123,13 +124,13 @@ def _thickness(
     """Return where a stress that falls with the thickness takes the wanted values."""
     sigma, s0, a = positive(stress=wanted), pad.strength, pad.half_width
     if np.any(sigma >= s0):
-        raise ValueError(
+        raise InputError(
             f"stress must be below the strength of the interface, {s0:.6g} Pa, got "
             f"{np.max(sigma):.6g} Pa"
         )
     lowest = float(stress(thickest * a))
     if np.any(sigma <= lowest):
-        raise ValueError(
+        raise InputError(
             f"stress must be above that of a layer {thickest:g} times as thick as the half width, "
             f"{lowest:.6g} Pa, got {np.min(sigma):.6g} Pa"
         )

@@ -16,6 +16,7 @@ import warnings
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
 from viscotack.theory._checks import Number, plain, positive
 
@@ -142,7 +143,7 @@ def stiffening(base: Base) -> float:
     '1.225'
     """
     if base.foundation == 0:
-        raise ValueError(
+        raise InputError(
             "the thin-layer law has no answer for a bonded layer with a Poisson ratio of 0.5: it "
             "cannot be stretched without flowing sideways"
         )

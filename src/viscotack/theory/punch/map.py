@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import positive
 from viscotack.theory.crack import CrackLaw
 
@@ -74,7 +75,7 @@ def regime_map(
     """
     b, r = (np.atleast_1d(x) for x in positive(thickness=thickness, speed=speed))
     if b.ndim > 1 or r.ndim > 1:
-        raise ValueError(
+        raise InputError(
             f"thickness and speed must be lists, the axes of the map, got shapes {b.shape} and "
             f"{r.shape}"
         )

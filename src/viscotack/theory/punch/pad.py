@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.theory._checks import Number, positive
 from viscotack.theory.crack import CrackLaw
@@ -58,7 +59,7 @@ class Pad:
         for name in ("half_width", "contact_modulus", "work_of_adhesion", "strength"):
             object.__setattr__(self, name, float(positive(**{name: getattr(self, name)})))
         if not isinstance(self.base, Base):
-            raise ValueError(
+            raise InputError(
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
 

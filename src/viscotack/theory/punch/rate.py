@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 from viscotack.theory.crack import CrackLaw
 
@@ -124,7 +125,7 @@ def crack_speed(amplification: npt.ArrayLike, law: CrackLaw, *, largest: npt.Arr
     )
     most = np.minimum(limit, law.largest)
     if np.any((gamma >= most) & (gamma > 1)):
-        raise ValueError(
+        raise InputError(
             "amplification must stay below what size and material allow, reached at infinite "
             f"speed: got {np.max(gamma):.6g} of at most {np.min(most):.6g}"
         )
@@ -137,7 +138,7 @@ def crack_speed(amplification: npt.ArrayLike, law: CrackLaw, *, largest: npt.Arr
 def _positive_limit(largest: npt.ArrayLike) -> Any:
     limit = np.asarray(largest, dtype=float)
     if not np.all(limit > 0):
-        raise ValueError(f"largest must be a positive amplification, got {np.min(limit)}")
+        raise InputError(f"largest must be a positive amplification, got {np.min(limit)}")
     return limit
 
 

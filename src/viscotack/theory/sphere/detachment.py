@@ -44,6 +44,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
@@ -139,7 +140,7 @@ def at_pull_off(
     dimensionless = law.reduced()
     least = depth + _DEPTH * height
     if not least > 0:
-        raise ValueError(
+        raise InputError(
             f"depth must be above {-_DEPTH * height:.6g} m, that of the pull-off of the relaxed "
             f"contact, got {depth} m"
         )
@@ -173,7 +174,7 @@ def at_pull_off(
     a = length * np.cbrt(9 / 8 * gamma)
     if np.any(a > start):
         i = int(np.argmax(np.ravel(a)))
-        raise ValueError(
+        raise InputError(
             f"the relaxed contact radius of {start:.3g} m at the start is below the "
             f"{np.ravel(a)[i]:.3g} m at which a heavier preload would detach at "
             f"{np.ravel(r)[i]:.3g} m/s; press deeper, or pull slower"

@@ -30,6 +30,7 @@ import numpy.typing as npt
 from scipy.integrate import LSODA
 from scipy.interpolate import CubicSpline
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import positive
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
@@ -142,7 +143,7 @@ def retraction(
     '9.71 mN'
     """
     if law.largest <= 1:
-        raise ValueError("an elastic solid has no rate; its curve is that of theory.jkr")
+        raise InputError("an elastic solid has no rate; its curve is that of theory.jkr")
     r = float(positive(speed=speed))
     case = dict(radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
     length, height, load = (float(x) for x in contact_scales(**case))

@@ -1,0 +1,135 @@
+"""A fractional Zener solid, as a user would add one: one file, no edit of viscotack.
+
+viscotack simulate sphere --material fractional-zener:0.6 --with examples/own/fractional_zener.py
+--modulus-ratio 0.1 --tabor 3 --preload 20 --rate 30
+"""
+
+from dataclasses import dataclass, replace
+from typing import Annotated, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack import Quantity
+from viscotack.cards import conform
+from viscotack.materials import Modes
+from viscotack.materials.constants import (
+    GlassyModulus,
+    PoissonRatio,
+    RetardationTime,
+    RubberyModulus,
+)
+from viscotack.materials.interconversion import reciprocal
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FractionalZener:
+    r"""A spring in series with a spring and a springpot side by side.
+
+    .. math:: C^*(\omega) = C_\infty + \frac{C_0 - C_\infty}{1 + (i \omega \tau_0)^a}, \quad
+              w(\tau) = \frac{\sin \pi a}{2 \pi (\cosh(a \ln \tau/\tau_0) + \cos \pi a)}
+
+    with w the weight of the retardation times per unit of ln tau (Cole and Cole).
+
+    Parameters
+    ----------
+    rubbery_modulus, glassy_modulus : float
+        Long-time and short-time Young's modulus [Pa].
+    tau0 : float
+        Retardation time [s].
+    order : float
+        Order a of the springpot, in (0, 0.95]; 1 would be the standard solid.
+    poisson_ratio : float
+        Between 0 and 0.5.
+
+    References
+    ----------
+    Cole & Cole (1941), doi:10.1063/1.1750906, for the spectrum.
+    """
+
+    word: ClassVar[str] = "fractional-zener"
+
+    rubbery_modulus: RubberyModulus
+    glassy_modulus: GlassyModulus
+    tau0: RetardationTime
+    order: Annotated[
+        float, Quantity("1", "a", "order of the springpot", above=0, most=0.95, example="0.6")
+    ]
+    poisson_ratio: PoissonRatio
+
+    def __post_init__(self) -> None:
+        conform(self)
+
+    @property
+    def modulus_ratio(self) -> float:
+        """Rubbery over glassy modulus k."""
+        return self.rubbery_modulus / self.glassy_modulus
+
+    @property
+    def contact_modulus(self) -> float:
+        """Relaxed contact modulus E0* [Pa]."""
+        return self.rubbery_modulus / (1 - self.poisson_ratio**2)
+
+    @property
+    def time_unit(self) -> float:
+        """Unit of dimensionless times [s]: tau0."""
+        return self.tau0
+
+    def complex_compliance(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
+        """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
+        C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
+        s = (1j * np.asarray(omega, dtype=float) * self.tau0) ** self.order
+        return Cinf + (C0 - Cinf) / (1 + s)
+
+    def complex_modulus(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
+        return 1 / self.complex_compliance(omega)
+
+    def creep(self, time: npt.ArrayLike) -> Array:
+        """Return the creep compliance [1/Pa] at times [s]."""
+        t = np.asarray(time, dtype=float)
+        weight, tau = self._nodes(0.05)
+        crept = -np.expm1(-t[..., None] / tau) @ weight
+        k = self.modulus_ratio
+        return (k + (1 - k) * crept) / self.rubbery_modulus
+
+    def relaxation(self, time: npt.ArrayLike) -> Array:
+        """Return the relaxation modulus [Pa] at times [s]: the reciprocal of the creep."""
+        t = np.asarray(time, dtype=float)
+        k = self.modulus_ratio
+        weight, tau = self._nodes(0.05)
+        stiff, relaxing = reciprocal(k, (1 - k) * weight, tau)
+        return self.rubbery_modulus * (1 + np.exp(-t[..., None] / relaxing) @ stiff)
+
+    def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
+        """Return the creep in exponential modes for shortest <= time <= longest [s]."""
+        k = self.modulus_ratio
+        weight, tau = self._nodes(0.5)
+        fast, slow = tau < shortest / 40, tau > longest / tolerance
+        # what has passed is instantaneous; what has not begun by the end is left out
+        kept = ~fast & ~slow
+        return Modes(
+            instantaneous=k + (1 - k) * float(weight[fast].sum()),
+            weights=tuple(((1 - k) * weight[kept]).tolist()),
+            times=tuple(tau[kept].tolist()),
+            error=tolerance,
+        )
+
+    def reduced(self) -> "FractionalZener":
+        """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        return replace(
+            self,
+            rubbery_modulus=1.0,
+            glassy_modulus=self.glassy_modulus / self.rubbery_modulus,
+            tau0=1.0,
+            poisson_ratio=0.0,
+        )
+
+    def _nodes(self, step: float) -> tuple[Array, Array]:
+        """Return weights that add up to 1, and retardation times [s]: the rule of trapezoids."""
+        a = self.order
+        y = np.arange(-45 / a, 45 / a + step, step)
+        weight = np.sin(np.pi * a) / (2 * np.pi * (np.cosh(a * y) + np.cos(np.pi * a)))
+        return weight / weight.sum(), self.tau0 * np.exp(y)

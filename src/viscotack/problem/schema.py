@@ -1,0 +1,121 @@
+"""What a problem may say, as a JSON schema and as tables of words; both read from the cards.
+
+The schema describes the dictionaries of :func:`viscotack.to_dict`: what results and campaigns keep,
+and what another program may send.
+"""
+
+import types
+from collections.abc import Iterable
+from dataclasses import MISSING, fields
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from viscotack.cards import Field, Pairs, Quantity, cards
+from viscotack.geometry import Bonded, FlatPunch, Layer, Shape
+from viscotack.materials import Material
+from viscotack.problem.nouns import Nouns, known
+from viscotack.problem.problem import Groups, Problem, PunchGroups
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
+from viscotack.traction import Traction
+
+_PROBLEMS = (Problem, Groups, PunchGroups)
+
+
+def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
+    """Return the JSON schema of a problem, in SI or dimensionless.
+
+    Parameters
+    ----------
+    also : iterable of classes
+        Laws, materials and shapes of the user's own, which are then part of it.
+
+    Examples
+    --------
+    >>> found = schema()["$defs"]["Sphere"]["properties"]["radius"]
+    >>> found["unit"], found["exclusiveMinimum"]
+    ('m', 0)
+    """
+    from pydantic import TypeAdapter
+
+    models = _Models(known(also))
+    problems: Any = Union[tuple(models.of(kind) for kind in _PROBLEMS)]  # noqa: UP007
+    return TypeAdapter(problems).json_schema() | {"title": "A problem of viscotack"}
+
+
+def words(also: Iterable[Any] = ()) -> str:
+    """Return tables in Markdown of what can be set: word, symbol, unit and meaning."""
+    nouns = known(also)
+    rooms = {
+        "Materials": nouns.materials.values(),
+        "Traction laws": nouns.laws.values(),
+        "Shapes and bodies": (*nouns.shapes.values(), Layer, Bonded),
+        "The test": (AtDepth, AtForce, AtRadius, Apart, Retraction),
+        "Dimensionless": (Groups, PunchGroups),
+    }
+    lines: list[str] = []
+    for title, kinds in rooms.items():
+        rows: dict[tuple[str, ...], list[str]] = {}
+        for kind in kinds:
+            for field in (*cards(kind).values(), *cards(kind, Pairs).values()):
+                rows.setdefault(_row(field), []).append(f"`{kind.__name__}`")
+        lines += [
+            f"### {title}",
+            "",
+            "| word | symbol | unit | meaning | of |",
+            "|---|---|---|---|---|",
+        ]
+        lines += [f"| {' | '.join(row)} | {', '.join(of)} |" for row, of in rows.items()]
+        lines.append("")
+    if nouns.observables:
+        lines += ["### Observables", "", "| name | measures | meaning |", "|---|---|---|"]
+        lines += [f"| `{x.name}` | {x.measure} | {x.words} |" for x in nouns.observables]
+        lines.append("")
+    return "\n".join(lines)
+
+
+def _row(field: Field) -> tuple[str, ...]:
+    """Return word, symbol, unit and meaning of a field."""
+    card = field.card
+    unit = card.unit if isinstance(card, Quantity) else ", ".join(card.units)
+    limits = f"; must {card.range}" if getattr(card, "bounded", False) else ""
+    return f"`{field.name}`", card.symbol, unit, f"{card.words}{limits}"
+
+
+class _Models:
+    """Models of the classes for the library that writes the schema: fields, cards and a type."""
+
+    def __init__(self, nouns: Nouns) -> None:
+        self._nouns = nouns
+        self._made: dict[Any, Any] = {}
+
+    def of(self, kind: Any) -> Any:
+        """Return the model of a class, whose records name it as their type."""
+        from pydantic import ConfigDict, Field, create_model
+
+        if kind not in self._made:
+            hints = get_type_hints(kind, include_extras=True)
+            told: dict[str, Any] = {"type": (Literal[kind.__name__], ...)}
+            for field in fields(kind):
+                # a default is left out of records, so only that there is one matters
+                given = ... if field.default is MISSING else Field(default_factory=dict)
+                told[field.name] = (self._told(hints[field.name]), given)
+            forbid = ConfigDict(extra="forbid")
+            self._made[kind] = create_model(kind.__name__, __config__=forbid, **told)
+        return self._made[kind]
+
+    def _told(self, hint: Any) -> Any:
+        """Return the type of a field, with the classes that are known in place of their kinds."""
+        kinds = {
+            Material: self._nouns.materials,
+            Traction: self._nouns.laws,
+            Shape: {w: k for w, k in self._nouns.shapes.items() if k is not FlatPunch},
+        }
+        if hint in kinds:
+            return Union[tuple(self.of(kind) for kind in kinds[hint].values())]  # noqa: UP007
+        origin, inner = get_origin(hint), get_args(hint)
+        if origin is Annotated:
+            return Annotated[self._told(inner[0]), *hint.__metadata__]
+        if origin in (Union, types.UnionType):
+            return Union[tuple(self._told(part) for part in inner)]  # noqa: UP007
+        if origin is tuple:
+            return list[self._told(inner[0])] if inner[-1] is ... else hint
+        return self.of(hint) if hasattr(hint, "__dataclass_fields__") else hint

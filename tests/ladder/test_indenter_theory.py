@@ -1,0 +1,69 @@
+"""JKR by quadrature of any profile, against the closed forms of spheres and power laws."""
+
+import numpy as np
+import pytest
+
+from viscotack.geometry import Cone, PowerLawProfile, Sphere, equivalent_radius
+from viscotack.theory import jkr, profiles
+from viscotack.theory.elastic import indenter
+
+SOLID = {"contact_modulus": 2e6, "work_of_adhesion": 0.05}
+RADII = np.geomspace(1e-6, 3e-4, 7)
+TIPS = [Cone(0.2), PowerLawProfile(7.0, 1.5), PowerLawProfile(5e7, 3.0)]
+
+
+class Unknown:
+    """A shape that says how steep it is, and nothing of its kind."""
+
+    def __init__(self, shape):
+        self.gap, self.flank = shape.gap, shape.flank
+
+
+def test_a_sphere_has_the_depth_the_force_and_the_gap_of_jkr():
+    sphere = {"radius": 1e-3, **SOLID}
+    shape = Unknown(Sphere(1e-3))
+    for name in ("depth", "force"):
+        found = getattr(indenter, name)(RADII, shape=shape, **SOLID)
+        scale = np.abs(getattr(jkr, name)(RADII, **sphere)).max()
+        np.testing.assert_allclose(
+            found, getattr(jkr, name)(RADII, **sphere), rtol=1e-12, atol=1e-13 * scale
+        )
+    r = 1e-4 * np.array([0.5, 1.0, 1.001, 1.1, 2.0, 30.0])
+    found = indenter.gap(r, contact_radius=1e-4, shape=shape, **SOLID)
+    exact = jkr.gap(r, contact_radius=1e-4, **sphere)
+    np.testing.assert_allclose(found, exact, rtol=1e-9, atol=1e-12 * exact.max())
+
+
+@pytest.mark.parametrize("tip", TIPS, ids=["cone", "1.5", "cubic"])
+def test_power_laws_have_their_closed_forms(tip):
+    closed = {"exponent": tip.exponent, "coefficient": tip.coefficient, **SOLID}
+    for name in ("depth", "force"):
+        exact = getattr(profiles, name)(RADII, **closed)
+        found = getattr(indenter, name)(RADII, shape=Unknown(tip), **SOLID)
+        np.testing.assert_allclose(found, exact, rtol=1e-6, atol=1e-6 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("tip", [Sphere(1e-3), *TIPS], ids=["sphere", "cone", "1.5", "cubic"])
+def test_force_is_the_work_that_depth_takes(tip):
+    """Without adhesion dP/da = 2 E* a dD/da: each new ring is a flat punch."""
+    a, step = 1e-4, 1e-8
+    solid = SOLID | {"work_of_adhesion": 1e-30}
+    force = [float(indenter.force(x, shape=tip, **solid)) for x in (a - step, a + step)]
+    depth = [float(indenter.bare_depth(x, shape=tip)) for x in (a - step, a + step)]
+    slope = (force[1] - force[0]) / (depth[1] - depth[0])
+    assert slope == pytest.approx(2 * SOLID["contact_modulus"] * a, rel=1e-6)
+
+
+@pytest.mark.parametrize("tip", [Sphere(1e-3), *TIPS], ids=["sphere", "cone", "1.5", "cubic"])
+def test_the_equivalent_radius_of_an_unknown_shape_is_that_of_its_kind(tip):
+    length = 0.05 / 2e6
+    assert equivalent_radius(Unknown(tip), length) == pytest.approx(
+        equivalent_radius(tip, length), rel=1e-12
+    )
+
+
+def test_units_change_nothing():
+    shape, other = PowerLawProfile(7.0, 1.5), PowerLawProfile(7.0 * 1e3**-0.5, 1.5)
+    in_metres = indenter.depth(1e-4, shape=shape, **SOLID)
+    in_millimetres = indenter.depth(1e-1, shape=other, contact_modulus=2.0, work_of_adhesion=5e-5)
+    assert in_millimetres == pytest.approx(1e3 * in_metres, rel=1e-12)

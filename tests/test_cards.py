@@ -1,0 +1,93 @@
+import json
+import re
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Annotated
+
+import pytest
+from typer.testing import CliRunner
+
+import viscotack as vt
+from viscotack.app.cli import application
+from viscotack.app.questions import PROFILE, PUNCH, SPHERE
+from viscotack.cards import Pairs, Quantity, cards, conform
+from viscotack.geometry import SHAPES
+from viscotack.materials.words import MODELS
+from viscotack.problem.schema import schema, words
+from viscotack.traction import LAWS
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+NOUNS = [*MODELS.values(), *LAWS.values(), *SHAPES.values()]
+every_noun = pytest.mark.parametrize("noun", NOUNS, ids=lambda noun: noun.__name__)
+
+
+@every_noun
+def test_every_number_that_can_be_set_has_a_card(noun):
+    plain = {"points"}  # of a table: two pure numbers each
+    known = {*cards(noun), *cards(noun, Pairs), *plain}
+    assert {field.name for field in fields(noun)} <= known
+    for field in cards(noun).values():
+        assert field.card.words and field.card.symbol and field.card.unit
+
+
+def test_a_number_out_of_its_range_is_refused_with_unit_range_and_cure():
+    @dataclass(frozen=True)
+    class Wall:
+        height: Annotated[
+            float, Quantity("m", "h", "height", above=0, most=2, advice="build two walls")
+        ]
+
+        def __post_init__(self):
+            conform(self)
+
+    assert Wall(1).height == 1.0 and isinstance(Wall(1).height, float)
+    with pytest.raises(ValueError, match=r"height must lie in .0, 2., got 3.0 m; build two walls"):
+        Wall(3)
+    with pytest.raises(ValueError, match=r"height must be a number in m, got '1 m'; .*parse"):
+        Wall("1 m")
+    with pytest.raises(ValueError, match="height must be finite"):
+        Wall(float("nan"))
+
+
+@pytest.mark.parametrize("door", [SPHERE, PUNCH, PROFILE], ids=lambda door: door.word)
+def test_every_question_is_a_flag_of_its_command_and_says_its_card(door):
+    done = CliRunner().invoke(application(), ["simulate", door.word, "--help"])
+    told = " ".join(done.stdout.split())
+    for question in door.questions:
+        assert f"--{question.name} " in told
+        assert " ".join(question.words.split()) in told
+    for card in door.numbers.values():
+        assert card.words.partition(",")[0][1:] in told
+
+
+def test_a_changed_card_changes_flag_schema_and_words(monkeypatch):
+    card = cards(vt.Sphere)["radius"].card
+    # a card is frozen; only this test may write on it
+    object.__setattr__(card, "words", "radius of the ball")
+    try:
+        assert schema()["$defs"]["Sphere"]["properties"]["radius"]["description"].endswith("ball")
+        assert "radius of the ball" in words()
+    finally:
+        object.__setattr__(card, "words", "sphere radius")
+
+
+def test_the_table_of_the_symbols_is_read_from_the_cards():
+    text = (DOCS / "symbols.md").read_text(encoding="utf-8")
+    found = re.search(r"<!-- viscotack schema --words -->\n(.*?)\n<!-- end -->", text, re.S)
+    assert found is not None
+    assert found[1].strip() == words().strip(), "write it anew: viscotack schema --words"
+
+
+def test_the_schema_holds_the_records_of_problems():
+    jsonschema = schema()
+    defs = jsonschema["$defs"]
+    material = vt.StandardSolid(
+        rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0
+    )
+    record = vt.to_dict(vt.Groups(3.0, material, vt.AtDepth(2.0), 1.0))
+    for part in (record, record["material"], record["start"]):
+        described = defs[part["type"]]
+        assert part.keys() <= described["properties"].keys()
+        assert set(described["required"]) <= part.keys()
+    done = CliRunner().invoke(application(), ["schema"])
+    assert json.loads(done.stdout) == jsonschema

@@ -1,0 +1,254 @@
+"""A law, a material, a shape and an observable of a user's own: one file each, and all is known."""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import viscotack as vt
+from viscotack.app.cli import application
+from viscotack.campaign import Store, read_plan, run
+from viscotack.problem.nouns import known, own_nouns
+from viscotack.problem.schema import schema, words
+
+OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
+FILES = {"law": "morse.py", "material": "fractional_zener.py", "shape": "rounded_cone.py"}
+MORSE, ZENER, SHAPE, RADIUS = own_nouns(OWN / file for file in FILES.values())
+
+CASE = """
+[material]
+model = "fractional-zener"
+rubbery_modulus = "1.5 MPa"
+glassy_modulus = "15 MPa"
+tau0 = "0.1 s"
+order = 0.6
+poisson_ratio = 0.5
+
+[interface]
+law = "morse"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "0.5 um"
+steepness = 3
+
+[rounded-cone]
+slope = 0.2
+rounding = "20 um"
+
+[protocol]
+preload_force = "20 uN"
+speed = "10 um/s"
+"""
+
+
+@pytest.fixture
+def case_file(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return path
+
+
+@pytest.fixture
+def problem(case_file):
+    return vt.read_case(case_file, also=(MORSE, ZENER, SHAPE))
+
+
+def call(*arguments):
+    """Run a command with the three files; return its exit status, output and errors."""
+    files = [word for file in FILES.values() for word in ("--with", str(OWN / file))]
+    done = CliRunner().invoke(application(), [*map(str, arguments), *files])
+    return done.exit_code, done.stdout, done.stderr
+
+
+# --- simulated, saved, loaded -----------------------------------------------------------------
+
+
+def test_a_file_states_all_three_by_their_words(problem):
+    assert type(problem.traction) is MORSE and problem.traction.steepness == 3
+    assert type(problem.material) is ZENER and problem.material.order == 0.6
+    assert problem.geometry == SHAPE(slope=0.2, rounding=20e-6)
+
+
+def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
+    result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
+    assert vt.pull_off_force(result) > 0
+    vt.save(result, tmp_path / "run.npz")
+    with pytest.raises(ValueError, match="unknown type 'FractionalZener'.*also=.FractionalZener,"):
+        vt.load(tmp_path / "run.npz")
+    again = vt.load(tmp_path / "run.npz", also=(MORSE, ZENER, SHAPE))
+    assert again.problem == problem
+    np.testing.assert_array_equal(again.force, result.force)
+    assert vt.run_id(again.problem) == vt.run_id(problem)
+    found = vt.summary(again, also=(RADIUS,))
+    assert found["largest_contact_radius"] == np.nanmax(result.contact_radius)
+    assert found["largest_contact_radius_m"] == pytest.approx(
+        found["largest_contact_radius"] * problem.scales().radius
+    )
+    assert found["rounding"] == problem.groups().geometry.rounding
+
+
+def test_the_command_line_knows_them(case_file, tmp_path):
+    status, out, err = call(
+        "simulate", "case", case_file, "--json", "--until", "pull-off", "--accuracy", 1e-2,
+        "--save", tmp_path / "run.npz",
+    )  # fmt: skip
+    assert status == 0, err
+    answer = json.loads(out)
+    assert answer["problem"]["traction"]["type"] == "Morse"
+    assert answer["largest_contact_radius_m"] > 0
+    status, out, err = call("show", tmp_path / "run.npz")
+    assert status == 0 and "largest contact radius" in out, err
+    alone = CliRunner().invoke(application(), ["show", str(tmp_path / "run.npz")])
+    assert alone.exit_code == 2 and "--with FILE.py" in alone.stderr
+
+
+def test_flags_take_their_numbers_in_the_order_of_their_fields():
+    status, out, err = call(
+        *"simulate sphere --law morse:3 --material fractional-zener:0.6 --tabor 1".split(),
+        *"--modulus-ratio 0.1 --preload 3 --rate 10 --until pull-off --accuracy 1e-2".split(),
+        "--json",
+    )
+    assert status == 0, err
+    stated = json.loads(out)["problem"]
+    assert stated["traction"]["steepness"] == 3 and stated["material"]["order"] == 0.6
+    status, _, err = call(*"simulate sphere --material fractional-zener --tabor 1".split())
+    assert status == 2 and "missing" in err
+
+
+def test_a_campaign_keeps_their_numbers_and_goes_on(case_file, tmp_path):
+    plan = tmp_path / "plan.toml"
+    files = ", ".join(f'"{OWN / file}"' for file in FILES.values())
+    plan.write_text(
+        f"""problem = "{case_file.name}"
+with = [{files}]
+[settings]
+accuracy = 1e-2
+[[grid]]
+traction.steepness = {{linear = [2.0, 3.0], count = 2}}
+geometry.rounding = 20e-6
+"""
+    )
+    done = run(read_plan(plan), tmp_path / "study", workers=1)
+    assert (done.done, done.failed) == (2, 0)
+    rows = Store(tmp_path / "study").results().to_pylist()
+    assert all(row["largest_contact_radius_m"] > 0 for row in rows)
+    assert [row["traction.steepness"] for row in rows] == [2.0, 3.0]
+    assert run(None, tmp_path / "study", workers=1).done == 2
+
+
+def test_schema_and_words_know_them():
+    found = schema((MORSE, ZENER, SHAPE))["$defs"]
+    assert found["Morse"]["properties"]["steepness"]["exclusiveMinimum"] == 0
+    assert found["FractionalZener"]["properties"]["order"]["maximum"] == 0.95
+    assert found["RoundedCone"]["properties"]["rounding"]["unit"] == "m"
+    told = words((MORSE, ZENER, SHAPE, RADIUS))
+    for row in ("| `steepness` | b | 1 |", "| `order` | a | 1 |", "| `rounding` | b | m |"):
+        assert row in told
+    assert "`largest_contact_radius`" in told
+    assert "Morse" not in schema()["$defs"]
+
+
+# --- and they are right -----------------------------------------------------------------------
+
+
+def test_the_traction_of_morse_is_the_derivative_of_its_energy():
+    law = MORSE(0.15, 0.5e-6, 3.0)
+    h = np.linspace(0.3e-6, 3e-6, 200)
+    step = 1e-12
+    slope = (law.energy(h + step) - law.energy(h - step)) / (2 * step)
+    np.testing.assert_allclose(law.traction(h), slope, rtol=1e-5, atol=1e-3 * law.strength)
+    assert law.traction(law.edge_gap) == pytest.approx(law.strength, rel=1e-12)
+    assert law.energy(law.equilibrium_gap) == pytest.approx(-0.15, rel=1e-12)
+
+
+def test_a_morse_law_of_short_range_pulls_like_jkr():
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    groups = vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, MORSE(1.0, 1.0, 3.0))
+    force = vt.pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
+    assert force == pytest.approx(1.0, abs=0.03)
+    assert force != pytest.approx(1.0, abs=0.001)
+
+
+def test_fractional_zener_of_order_near_one_tends_to_the_standard_solid():
+    standard = vt.StandardSolid(
+        rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
+    )
+    w = np.geomspace(1e-2, 1e4, 30)
+    off = []
+    for order in (0.9, 0.95):
+        solid = ZENER(
+            rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, order=order, poisson_ratio=0.5
+        )
+        difference = solid.complex_compliance(w) / standard.complex_compliance(w) - 1
+        off.append(np.max(np.abs(difference)))
+    assert off[1] < 0.55 * off[0]
+
+
+def test_the_modes_of_fractional_zener_are_its_creep():
+    solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, order=0.6, poisson_ratio=0.0)
+    modes = solid.retardation_modes(shortest=1e-3, longest=1e3, tolerance=1e-3)
+    t = np.geomspace(1e-3, 1e3, 40)
+    assert np.max(np.abs(modes.creep(t) - solid.creep(t))) < 1e-3
+    product = solid.complex_modulus(3.0) * solid.complex_compliance(3.0)
+    assert product == pytest.approx(1.0, rel=1e-12)
+
+
+def test_a_wide_rounding_is_a_sphere_to_second_order_in_the_contact_over_it():
+    material = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
+    law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1e-6)
+    test = vt.Retraction(start=vt.AtForce(0.0), speed=1e-5)
+
+    def force(shape):
+        problem = vt.Problem(material, law, shape, test)
+        result = vt.solve(problem, until="pull-off", estimate_error=False, accuracy=1e-4)
+        return vt.pull_off_force(result) * problem.scales().force
+
+    sphere = force(vt.Sphere(1e-3))
+    near, nearer = (force(SHAPE(b / 1e-3, b)) / sphere - 1 for b in (1e-3, 2e-3))
+    assert 0 < nearer < near < 0.01
+    assert near / nearer == pytest.approx(4, rel=0.15)
+
+
+# --- refusals ---------------------------------------------------------------------------------
+
+
+def test_a_word_or_a_name_that_is_taken_is_refused():
+    taken = type("Sphere", (SHAPE,), {"word": "mine"})
+    with pytest.raises(ValueError, match="a name or a word that is taken"):
+        known((taken,))
+    with pytest.raises(ValueError, match="'int' is no law, material or shape"):
+        known((int,))
+
+
+def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
+    (tmp_path / "empty.py").write_text("x = 1\n")
+    with pytest.raises(ValueError, match="defines no law, material, shape or observable"):
+        own_nouns([tmp_path / "empty.py"])
+    (tmp_path / "wrong.py").write_text("import nothing_of_the_kind\n")
+    with pytest.raises(ValueError, match="cannot be read: ModuleNotFoundError"):
+        own_nouns([tmp_path / "wrong.py"])
+    assert not any("wrong" in name for name in sys.modules)
+
+
+def test_a_constant_without_a_card_is_named_on_the_way_to_si():
+    from dataclasses import dataclass
+
+    @dataclass(frozen=True, kw_only=True)
+    class Bare(vt.Elastic):
+        extra: float = 1.0
+
+    groups = vt.Groups(3.0, Bare(rubbery_modulus=1.0, poisson_ratio=0.0), vt.AtDepth(1.0), 1.0)
+    scales = dict(radius=1e-3, contact_modulus=1e6, time_unit=1.0, poisson_ratio=0.5)
+    with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
+        groups.in_si(**scales, work_of_adhesion=0.05)
+
+
+def test_times_and_moduli_of_ones_own_go_to_si_by_their_cards():
+    solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=2.0, order=0.6, poisson_ratio=0.0)
+    groups = vt.Groups(3.0, solid, vt.AtDepth(1.0), 1.0)
+    scales = dict(radius=1e-3, contact_modulus=1e6, time_unit=0.5, poisson_ratio=0.5)
+    found = groups.in_si(**scales, work_of_adhesion=0.05).material
+    assert (found.tau0, found.glassy_modulus) == pytest.approx((1.0, 7.5e6), rel=1e-12)
+    assert found.order == 0.6
