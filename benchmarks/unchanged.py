@@ -8,6 +8,9 @@ is 1 where something did that should not. About a minute.
   bytes of the table where one is written.
 - Cases in SI, texts with units, must answer within a tenth of the error that they state themselves;
   inputs that are repeated within 1e-12; words, events and exit status as they were.
+- Cases that have been mended since are listed in `MENDED` with the reason; their outcome must be as
+  it was, and force and work within the error that is stated for them. The sentences of a `..._note`
+  may name another module.
 - The names of problems by content (`run_id`) must be kept: finished campaigns go by them.
 
 Another processor, NumPy or SciPy changes the last bits, and adaptive steps then some more. Where
@@ -60,6 +63,31 @@ MEASURED = (
 )
 WORDS = ("outcome", "events")
 SHARE, INPUTS = 0.1, 1e-12
+# What a case may have been mended by since the record: decisions that hung on round-off.
+MENDED = {
+    "of two points equally far from the minimum the earlier is taken": (
+        "sphere 035",
+        "sphere 055",
+        "sphere 057",
+        "sphere 072",
+        "sphere 084",
+    ),
+    "Newton goes on until the tractions are balanced as well": (
+        "sphere 003",
+        "sphere 012",
+        "sphere 048",
+        "sphere 076",
+        "sphere 093",
+        "punch 036",
+        "punch 040",
+        "punch 044",
+        "tip 002",
+        "tip 006",
+        "tip 032",
+        "tip 034",
+        "tip 043",
+    ),
+}
 LISTED = 12
 
 Answer = dict[str, Any]
@@ -226,19 +254,27 @@ def compare(old: Mapping[str, Answer], new: Mapping[str, Answer]) -> bool:
     """Print what changed; return whether nothing did that should not."""
     old_names, new_names = ([a.pop("run_id") for a in some.values()] for some in (old, new))
     changed: dict[str, list[str]] = {}
+    mended = {name for names in MENDED.values() for name in names}
     for case in cases():
         was, now = old[case["name"]], new[case["name"]]
         if "toml" in case:
             found = complaints(was, now, case["accuracy"])
+        elif case["name"] in mended:
+            found = mended_wrongly(was, now, case["accuracy"])
         else:
             found = first_changes(was, now)
         if found:
             changed[case["name"]] = found
     in_si = [case["name"] for case in cases() if "toml" in case]
-    pure = [name for name in old if name not in in_si]
+    pure = [name for name in old if name not in in_si and name not in mended]
     kept = sum(a == b for a, b in zip(old_names, new_names, strict=True))
     exact = sum(identical(old[name], new[name]) for name in in_si)
     print(f"dimensionless: {_good(pure, changed)} identical to the last bit")
+    for reason, names in MENDED.items():
+        same = sum(identical(old[name], new[name]) for name in names)
+        print(
+            f"mended: {_good(list(names), changed)} within their error, {same} identical: {reason}"
+        )
     print(f"SI: {_good(in_si, changed)} within a tenth of their stated error, {exact} identical")
     print(f"names of problems by content: {kept} of {len(old)} kept")
     print("largest relative difference, and the error that is stated there")
@@ -253,10 +289,23 @@ def _good(names: list[str], changed: Mapping[str, list[str]]) -> str:
     return f"{sum(name not in changed for name in names)} of {len(names)}"
 
 
+def mended_wrongly(old: Answer, new: Answer, accuracy: float) -> list[str]:
+    """Return where a case that was mended ended otherwise, or beyond the error of its numbers."""
+    was, now = old["values"], new["values"]
+    names = [n for n in ("exit",) if old[n] != new[n]]
+    names += [n for n in WORDS if was.get(n) != now.get(n)]
+    for name in ("pull_off_force", "pull_off_stress", "work_to_pull_off"):
+        if name in was:
+            allowed = stated_error(name, was, accuracy)
+            names += [name] if difference(was[name], now[name]) > allowed else []
+    return [f"{n}: {was.get(n)!r}, now {now.get(n)!r}" for n in names]
+
+
 def first_changes(old: Answer, new: Answer) -> list[str]:
     """Return what of an answer is not as it was, to the last bit."""
     was, now = (a | a["values"] for a in (old, new))
-    names = [n for n in {**was, **now} if n != "values" and not identical(was.get(n), now.get(n))]
+    names = [n for n in {**was, **now} if n != "values" and not n.endswith("_note")]
+    names = [n for n in names if not identical(was.get(n), now.get(n))]
     return [f"{n}: {was.get(n)!r}, now {now.get(n)!r}" for n in names]
 
 
