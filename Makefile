@@ -1,5 +1,6 @@
 # The first two commands of the README: `make demo` and `make test`.
 PYTHON ?= python3
+TABLE ?= rows.csv
 VENV := .venv
 BIN := $(VENV)/bin
 # One BLAS thread per process: the matrices are small, and campaigns use processes.
@@ -7,7 +8,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow lint types bench verification clean
+.PHONY: demo test test-slow test-outside lint types bench verification clean
 
 $(VENV)/.installed: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -19,7 +20,11 @@ demo: $(VENV)/.installed
 	$(BIN)/python examples/pdms_lens.py
 
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -m "not slow" -n 2 -q
+	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q
+
+# TABLE is the table of detachments that replication/README.md says where to get.
+test-outside: $(VENV)/.installed
+	$(BIN)/python -m pytest -m outside -q --table "$(TABLE)"
 
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 -q

@@ -1,7 +1,6 @@
 """The learned answer: inside its bounds, one with its curve, and as good as its file says."""
 
 import itertools
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -238,19 +237,6 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
         assert 0.88 < cells[what] < 0.93
     for one in scores["bands kept apart"]:
         assert one["r2"] > (0.99 if one["edge"] else 0.999)
-
-
-def test_the_published_rows_are_told():
-    from viscotack.surrogate.table import read_detachments
-
-    file = Path(__file__).parents[2] / "shared" / "data" / "sphere_bem_published" / "rows.csv"
-    if not file.exists():
-        pytest.skip("the published rows are in ../shared, which is not here")
-    rows = read_detachments(file)
-    groups = np.column_stack([getattr(rows, name) for name in INPUTS])
-    inside = shipped().inside(groups).all(axis=1)
-    said = shipped().evaluate(groups[inside]).pull_off_force
-    assert np.median(np.abs(said / rows.pull_off_force[inside] - 1)) < 5e-3
 
 
 # peer: the simulation

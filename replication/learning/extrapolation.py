@@ -10,14 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ..bem import solve
-from ..materials import RetardationPowerLaw
-from ..observables import pull_off
-from ..problem import Groups
-from ..protocol import AtDepth
+from viscotack import AtDepth, Groups, RetardationPowerLaw, pull_off, solve
+
+from ..table import Array, Detachments
 from .features import Descriptor, Target, crack_amplification, features, target
 from .learners import BOOSTING, FOREST, NETWORK, Learner, trained
-from .table import Array, Detachments
 
 Part = dict[str, Any]
 

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Array, Detachments
 from .features import Descriptor, Target, features, target
 from .learners import Learner, network
-from .study_published import STOPPED_AT, TRAINING_ROWS
-from .study_splits import random_split
-from .study_validation import Trial, score
-from .table import Array, Detachments
+from .splits import random_split
+from .thesis import STOPPED_AT, TRAINING_ROWS
+from .validation import Trial, score
 
 Part = dict[str, Any]
 

@@ -9,11 +9,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from .. import plot
+from viscotack import save_figure
+
+from .figures import figures
+from .sheet import Sheet
+from .sheets import sheets
 from .study import Study
-from .study_figures import figures
-from .study_sheet import Sheet
-from .study_sheets import sheets
 
 # Longer tables are a file only.
 _MOST_ROWS = 80
@@ -62,7 +63,7 @@ def write_study(study: Study, folder: str | os.PathLike[str], *, source: str) ->
     pictures = {}
     for name, figure in figures(study.numbers).items():
         pictures[name] = folder / "figures" / f"{name}.png"
-        plot.save_figure(figure, pictures[name])
+        save_figure(figure, pictures[name])
     written += [*pictures.values(), folder / "report.html"]
     written[-1].write_text(_page(study, read, pictures, source), encoding="utf-8")
     return written

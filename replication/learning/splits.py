@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ..table import Array, Detachments
 from .features import inputs
-from .table import Array, Detachments
 
 Rows = npt.NDArray[np.intp]
 

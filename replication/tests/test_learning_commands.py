@@ -1,4 +1,4 @@
-"""viscotack study surrogates: files, words, and the same numbers each time."""
+"""python -m replication.learning: files, words, and the same numbers each time."""
 
 import json
 import sys
@@ -8,20 +8,21 @@ from io import StringIO
 import numpy as np
 import pytest
 
-from test_study import made_rows, write_rows
+pytest.importorskip("sklearn", reason="comes with viscotack[replication]")
+pytest.importorskip("xgboost", reason="comes with viscotack[replication]")
 
-pytest.importorskip("sklearn")
-pytest.importorskip("xgboost")
+from replication.learning.__main__ import app  # noqa: E402
+from replication.learning.study import study  # noqa: E402
+from replication.learning.thesis import TABLES  # noqa: E402
+from replication.learning.validation import Trial, scores  # noqa: E402
+from replication.table import read_detachments  # noqa: E402
 
-from viscotack.cli import main  # noqa: E402
-from viscotack.surrogate.study import study  # noqa: E402
-from viscotack.surrogate.study_published import TABLES  # noqa: E402
-from viscotack.surrogate.study_validation import Trial, scores  # noqa: E402
+from .rows import made_rows, write_rows  # noqa: E402
 
 
 def run(*arguments):
     with pytest.raises(SystemExit) as stop:
-        main(["study", "surrogates", *map(str, arguments)])
+        app([*map(str, arguments)])
     return stop.value.code
 
 
@@ -30,7 +31,7 @@ def done(tmp_path_factory):
     folder = tmp_path_factory.mktemp("study")
     data = write_rows(folder / "rows.csv", made_rows(60, points=True, noise=0.01))
     with redirect_stdout(StringIO()) as said:
-        assert run("--data", data, "--out", folder / "out", "--quick", "--json") == 0
+        assert run("--table", data, "--out", folder / "out", "--quick", "--json") == 0
     (folder / "said.json").write_text(said.getvalue())
     return folder
 
@@ -79,8 +80,6 @@ def test_the_page_stands_alone_and_says_that_it_was_quick(done):
 
 @pytest.mark.slow
 def test_the_same_table_and_seed_give_the_same_bytes(done):
-    from viscotack.surrogate.table import read_detachments
-
     again = study(read_detachments(done / "rows.csv"), quick=True)
     text = json.dumps(again.numbers, indent=1, allow_nan=False) + "\n"
     assert text == (done / "out/numbers.json").read_text()
@@ -88,9 +87,9 @@ def test_the_same_table_and_seed_give_the_same_bytes(done):
 
 @pytest.mark.slow
 def test_two_processes_give_the_same_scores_as_one():
-    from viscotack.surrogate.features import Descriptor, Target
-    from viscotack.surrogate.learners import LEARNERS
-    from viscotack.surrogate.study_splits import random_split
+    from replication.learning.features import Descriptor, Target
+    from replication.learning.learners import LEARNERS
+    from replication.learning.splits import random_split
 
     rows = made_rows()
     split = random_split(len(rows), 1)
@@ -101,15 +100,15 @@ def test_two_processes_give_the_same_scores_as_one():
 
 
 def test_wrong_input_is_a_sentence(tmp_path, capsys):
-    assert run("--data", tmp_path / "none.csv", "--out", tmp_path / "out") == 2
+    assert run("--table", tmp_path / "none.csv", "--out", tmp_path / "out") == 2
     assert "there is no file" in capsys.readouterr().err
     data = write_rows(tmp_path / "rows.csv", made_rows(10))
-    assert run("--data", data, "--out", tmp_path / "out", "--quick") == 2
+    assert run("--table", data, "--out", tmp_path / "out", "--quick") == 2
     assert "at least 50 rows, got 10" in " ".join(capsys.readouterr().err.split())
 
 
 def test_a_missing_library_is_a_sentence_too(tmp_path, capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "xgboost", None)
     data = write_rows(tmp_path / "rows.csv", made_rows(60))
-    assert run("--data", data, "--out", tmp_path / "out", "--quick") == 2
-    assert "pip install 'viscotack[learn]'" in " ".join(capsys.readouterr().err.split())
+    assert run("--table", data, "--out", tmp_path / "out", "--quick") == 2
+    assert "pip install --editable '.[replication]'" in " ".join(capsys.readouterr().err.split())

@@ -1,7 +1,4 @@
-"""The learning study: what is read, learned from, held out and compared."""
-
-import csv
-from pathlib import Path
+"""The learning study: what is learned from, held out and compared."""
 
 import numpy as np
 import pytest
@@ -9,17 +6,17 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import gamma
 
-pytest.importorskip("sklearn")
-pytest.importorskip("xgboost")
+pytest.importorskip("sklearn", reason="comes with viscotack[replication]")
+pytest.importorskip("xgboost", reason="comes with viscotack[replication]")
 
-from viscotack.surrogate.features import (  # noqa: E402
+from replication.learning.features import (  # noqa: E402
     Descriptor,
     Target,
     crack_amplification,
     features,
     target,
 )
-from viscotack.surrogate.learners import (  # noqa: E402
+from replication.learning.learners import (  # noqa: E402
     BOOSTING,
     FOREST,
     LEARNERS,
@@ -28,9 +25,8 @@ from viscotack.surrogate.learners import (  # noqa: E402
     TREE,
     trained,
 )
-from viscotack.surrogate.study_noise import label_noise  # noqa: E402
-from viscotack.surrogate.study_published import STATISTICS, TABLES  # noqa: E402
-from viscotack.surrogate.study_splits import (  # noqa: E402
+from replication.learning.noise import label_noise  # noqa: E402
+from replication.learning.splits import (  # noqa: E402
     band_split,
     group_split,
     grouped_splits,
@@ -38,122 +34,12 @@ from viscotack.surrogate.study_splits import (  # noqa: E402
     same_input,
     value_split,
 )
-from viscotack.surrogate.study_trajectories import kept_sign, trajectories  # noqa: E402
-from viscotack.surrogate.study_validation import Trial, r_squared, score  # noqa: E402
-from viscotack.surrogate.table import (  # noqa: E402
-    KEY_POINTS,
-    Detachments,
-    read_detachments,
-)
+from replication.learning.thesis import STATISTICS, TABLES  # noqa: E402
+from replication.learning.trajectories import kept_sign, trajectories  # noqa: E402
+from replication.learning.validation import Trial, r_squared, score  # noqa: E402
+from replication.table import Detachments  # noqa: E402
 
-PUBLISHED = Path(__file__).resolve().parents[1].parent / "shared/data/sphere_bem_published/rows.csv"
-
-
-def made_rows(count=120, seed=0, *, noise=0.0, points=False):
-    """Return rows whose force follows the analytic crack and a power of the preload."""
-    rng = np.random.default_rng(seed)
-    columns = {
-        "tabor": rng.choice([1.0, 3.24], count),
-        "modulus_ratio": rng.choice([0.1, 0.3], count),
-        "exponent": rng.choice([0.6, 1.6], count),
-        "preload": 10 ** rng.uniform(-1, 2, count),
-        "rate": 10 ** rng.uniform(-1, 8, count),
-        "pull_off_force": np.ones(count),
-        "work_to_pull_off": np.ones(count),
-        "work_known": np.ones(count, dtype=bool),
-    }
-    rows = Detachments(**columns)
-    force = crack_amplification(rows, Descriptor.OWN_TABOR) * rows.preload**0.05
-    force = force * 10 ** rng.normal(0, noise, count)
-    columns |= {"pull_off_force": force, "work_to_pull_off": force * rows.tabor}
-    if points:
-        shares = np.array([0.2, 0.5, 0.8, 0.95, 1.0])
-        travel = rows.preload + force
-        columns["key_points"] = np.column_stack([travel, -force[:, None] * shares])
-    return Detachments(**columns)
-
-
-def write_rows(path, rows):
-    names = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
-    names += ("pull_off_force", "work_to_pull_off")
-    columns = {name: getattr(rows, name) for name in names}
-    if rows.key_points is not None:
-        columns |= dict(zip(KEY_POINTS, rows.key_points.T, strict=False))
-    columns["versions"] = ["viscotack, and what it stands on"] * len(rows)
-    with open(path, "w", newline="") as file:
-        lines = csv.writer(file)
-        lines.writerow(columns)
-        lines.writerows(zip(*columns.values(), strict=True))
-    return path
-
-
-@pytest.fixture(scope="module")
-def published():
-    if not PUBLISHED.exists():
-        pytest.skip("the table that the thesis's authors published is not beside the project")
-    return read_detachments(PUBLISHED)
-
-
-# reading
-
-
-def test_rows_come_back_from_a_file(tmp_path):
-    rows = made_rows(20, points=True)
-    found = read_detachments(write_rows(tmp_path / "rows.csv", rows))
-    for name in ("tabor", "rate", "work_to_pull_off", "key_points"):
-        np.testing.assert_array_equal(getattr(found, name), getattr(rows, name))
-    assert found.work_known.all()
-
-
-def test_parquet_and_csv_give_the_same_rows(tmp_path):
-    arrow = pytest.importorskip("pyarrow")
-    from pyarrow import csv as arrow_csv
-    from pyarrow import parquet
-
-    source = write_rows(tmp_path / "rows.csv", made_rows(20))
-    assert arrow
-    parquet.write_table(arrow_csv.read_csv(source), tmp_path / "rows.parquet")
-    found = read_detachments(tmp_path / "rows.parquet")
-    np.testing.assert_array_equal(found.rate, read_detachments(source).rate)
-    assert found.key_points is None
-
-
-def test_the_published_columns_are_brought_to_ours(tmp_path):
-    path = tmp_path / "rows.csv"
-    path.write_text(
-        "runload,alphaload,mu,k,n,outputAmplification,workofSepration\n"
-        "-100,73,3.24,0.1,0.6,5,30\n-10,73,3.24,0.1,0.6,4,0.01\n"
-    )
-    rows = read_detachments(path)
-    assert rows.rate.tolist() == [100, 10] and rows.preload[0] == 73
-    assert rows.work_to_pull_off[0] == pytest.approx(20, rel=1e-15)
-    assert rows.work_known.tolist() == [True, False]
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("tabor,rate\n1,2\n", "has no column modulus_ratio, exponent, preload"),
-        ("tabor,modulus_ratio,exponent,preload,rate,pull_off_force,work_to_pull_off\n", "no rows"),
-        (
-            "tabor,modulus_ratio,exponent,preload,rate,pull_off_force,work_to_pull_off\n"
-            "1,0.1,0.6,-2,10,2,3\n",
-            "preload must be positive and finite.*row 1 with '-2'",
-        ),
-        (
-            "tabor,modulus_ratio,exponent,preload,rate,pull_off_force,work_to_pull_off\n"
-            "1,0.1,0.6,,10,2,3\n",
-            "row 1: preload is '', not a number",
-        ),
-        ("tabor,rate\n1\n", "line 2: 1 values, expected 2"),
-    ],
-)
-def test_a_wrong_file_is_refused_with_its_fault(tmp_path, text, words):
-    path = tmp_path / "rows.csv"
-    path.write_text(text)
-    with pytest.raises(ValueError, match=words):
-        read_detachments(path)
-
+from .rows import made_rows  # noqa: E402
 
 # the descriptor
 
@@ -351,20 +237,31 @@ def test_the_published_columns_are_spread_as_table_a_1_says(published):
         assert np.std(values) == pytest.approx(deviation, rel=0.05)
 
 
-@pytest.mark.parametrize("learner", [LINEAR, BOOSTING], ids=lambda x: x.name)
-@pytest.mark.parametrize("table", TABLES, ids=lambda t: t.number)
-def test_entries_of_the_tables_are_met_within_their_spread(published, table, learner):
+def met(rows, table, learner):
+    """Hold the error and R2 of a learner to the entry of a table of the thesis."""
     trial = Trial(table.target, table.descriptor, learner)
-    found = score(published, trial, random_split(len(published), 42), seed=42)
+    found = score(rows, trial, random_split(len(rows), 42), seed=42)
     thesis = table.entries[learner.name]
     assert 1e3 * found.mse.mean() == pytest.approx(thesis.mse, abs=thesis.mse_spread)
     assert found.r2.mean() == pytest.approx(thesis.r2, abs=thesis.r2_spread)
 
 
-def test_a_modulus_ratio_that_is_new_is_not_predicted_by_trees(published):
-    split = value_split("k", published.modulus_ratio)
+@pytest.mark.parametrize("table", TABLES, ids=lambda t: t.number)
+def test_linear_entries_of_the_tables_are_met_within_their_spread(published, table):
+    met(published, table, LINEAR)
+
+
+@pytest.mark.outside
+@pytest.mark.parametrize("table", TABLES, ids=lambda t: t.number)
+def test_boosted_entries_of_the_tables_are_met_within_their_spread(whole, table):
+    met(whole, table, BOOSTING)
+
+
+@pytest.mark.outside
+def test_a_modulus_ratio_that_is_new_is_not_predicted_by_trees(whole):
+    split = value_split("k", whole.modulus_ratio)
     plain, augmented = (
-        score(published, Trial(Target.FORCE, descriptor, BOOSTING), split, seed=42)
+        score(whole, Trial(Target.FORCE, descriptor, BOOSTING), split, seed=42)
         for descriptor in (Descriptor.NONE, Descriptor.PUBLISHED)
     )
     assert plain.pooled_r2 < 0

@@ -2,7 +2,7 @@
 
 Trees, forest and boosting have the settings that scikit-learn and xgboost give when none are
 stated; inputs and target of the network are standardised. Nothing is learned by code of this
-package.
+project.
 """
 
 import warnings
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .table import Array
+from ..table import Array
 
 
 def check_installed() -> None:
@@ -21,7 +21,7 @@ def check_installed() -> None:
     except ImportError as error:
         raise ModuleNotFoundError(
             f"learning needs scikit-learn and xgboost, and {error.name} is missing; install them "
-            "with pip install 'viscotack[learn]'"
+            "with pip install --editable '.[replication]'"
         ) from None
     assert sklearn and xgboost
 

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Detachments
 from .features import Descriptor, Target
 from .learners import BOOSTING, FOREST, LEARNERS, TREE
-from .study_published import REDUCTION, TABLES, Table
-from .study_splits import (
+from .splits import (
     COMBINATION_FOLDS,
     FOLDS,
     RANDOM,
@@ -21,7 +21,8 @@ from .study_splits import (
     grouped_splits,
     random_split,
 )
-from .study_validation import (
+from .thesis import REDUCTION, TABLES, Table
+from .validation import (
     Score,
     Trial,
     r_squared,
@@ -29,7 +30,6 @@ from .study_validation import (
     scores,
     work_rows,
 )
-from .table import Detachments
 
 Part = dict[str, Any]
 

@@ -2,9 +2,8 @@
 
 from typing import Any
 
-from .study import Study
-from .study_sheet import Sheet
-from .study_sheets_beside import (
+from .sheet import Sheet
+from .sheets_beside import (
     architectures_sheet,
     extrapolation_sheet,
     grid_sheet,
@@ -13,6 +12,7 @@ from .study_sheets_beside import (
     statistics_sheet,
     trajectories_sheet,
 )
+from .study import Study
 
 Part = dict[str, Any]
 

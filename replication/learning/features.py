@@ -10,9 +10,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from ..materials import RetardationPowerLaw
-from ..theory import persson_brener, rate
-from .table import Array, Detachments
+from viscotack import RetardationPowerLaw
+from viscotack.theory import persson_brener, rate
+
+from ..table import Array, Detachments
 
 INPUTS = ("log10 preload", "tabor", "log10 rate", "log10 modulus ratio", "exponent")
 DESCRIPTOR = "descriptor"

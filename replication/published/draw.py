@@ -1,4 +1,4 @@
-"""The pictures of docs/published-data.md."""
+"""The pictures of the published table beside the simulation."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 # Differences in percent.
@@ -15,10 +14,12 @@ _TICKS = (-10, -2, -0.5, 0, 0.5, 2, 10)
 
 def draw(rows: Sequence[dict[str, Any]], folder: Path) -> None:
     """Write both pictures into a folder."""
+    import matplotlib.pyplot as plt
+
     force = np.array([row["force_difference"] for row in rows])
     work = np.array([row["work_difference"] for row in rows])
-    exponent, tabor = (np.array([row[name] for row in rows]) for name in ("n", "mu"))
-    rate = -np.array([row["runload"] for row in rows])
+    exponent, tabor = (np.array([row[name] for row in rows]) for name in ("exponent", "tabor"))
+    rate = np.array([row["rate"] for row in rows])
     with plt.style.context("viscotack.viscotack"):
         figure, axes = plt.subplots(1, 2, figsize=(8, 3), sharey=True)
         for axis, values, words in zip(axes, (force, work), ("force", "work"), strict=True):
@@ -30,7 +31,7 @@ def draw(rows: Sequence[dict[str, Any]], folder: Path) -> None:
             axis.set(xscale="log", xlim=(1e-5, 1), xlabel=f"|published / ours − 1|, {words}")
         axes[0].set_ylabel("share of the rows below")
         axes[0].legend()
-        figure.savefig(folder / "published_differences.png", dpi=110, bbox_inches="tight")
+        figure.savefig(folder / "differences.png", dpi=110, bbox_inches="tight")
         plt.close(figure)
 
         figure, axes = plt.subplots(1, 3, figsize=(13, 4.5), sharey=True)
@@ -42,5 +43,5 @@ def draw(rows: Sequence[dict[str, Any]], folder: Path) -> None:
             axis.set_yscale("symlog", linthresh=0.5)
             axis.set(ylim=(-30, 30), yticks=_TICKS, yticklabels=[f"{t:g}" for t in _TICKS])
         axes[0].set_ylabel("published / ours − 1 [%]")
-        figure.savefig(folder / "published_regions.png", dpi=110, bbox_inches="tight")
+        figure.savefig(folder / "regions.png", dpi=110, bbox_inches="tight")
         plt.close(figure)

@@ -1,4 +1,4 @@
-"""The page docs/published-data.md and its pictures, from rows that `published.compare` returns."""
+"""The page of the published table and its pictures, from rows that `compare` returns."""
 
 from __future__ import annotations
 
@@ -6,35 +6,34 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import Any
 
 import numpy as np
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+from .compare import Inputs, Row, inputs_of
+from .draw import draw
+
 # Rows that need an explanation of their own.
 FAR = 0.05
 
-Row = dict[str, Any]
-
 REGIONS: dict[str, Callable[[Row], bool]] = {
     "all": lambda row: True,
-    "mu up to 0.1": lambda row: row["mu"] <= 0.1,
-    "mu above 0.1 and up to 1": lambda row: 0.1 < row["mu"] <= 1,
-    "mu above 1": lambda row: row["mu"] > 1,
-    "n up to 0.3": lambda row: row["n"] <= 0.3,
-    "n above 0.3 and up to 0.8": lambda row: 0.3 < row["n"] <= 0.8,
-    "n above 0.8": lambda row: row["n"] > 0.8,
-    "k = 0.1": lambda row: row["k"] == 0.1,
-    "k below 0.1": lambda row: row["k"] < 0.1,
-    "k above 0.1": lambda row: row["k"] > 0.1,
-    "rate up to 1e2": lambda row: -row["runload"] <= 1e2,
-    "rate 1e2 to 1e4": lambda row: 1e2 < -row["runload"] <= 1e4,
-    "rate 1e4 to 1e6": lambda row: 1e4 < -row["runload"] <= 1e6,
-    "rate 1e6 to 1e10": lambda row: 1e6 < -row["runload"] <= 1e10,
-    "rate above 1e10": lambda row: -row["runload"] > 1e10,
-    "depth up to 1": lambda row: row["alphaload"] <= 1,
-    "depth above 1 and up to 20": lambda row: 1 < row["alphaload"] <= 20,
-    "depth above 20": lambda row: row["alphaload"] > 20,
+    "mu up to 0.1": lambda row: row["tabor"] <= 0.1,
+    "mu above 0.1 and up to 1": lambda row: 0.1 < row["tabor"] <= 1,
+    "mu above 1": lambda row: row["tabor"] > 1,
+    "n up to 0.3": lambda row: row["exponent"] <= 0.3,
+    "n above 0.3 and up to 0.8": lambda row: 0.3 < row["exponent"] <= 0.8,
+    "n above 0.8": lambda row: row["exponent"] > 0.8,
+    "k = 0.1": lambda row: row["modulus_ratio"] == 0.1,
+    "k below 0.1": lambda row: row["modulus_ratio"] < 0.1,
+    "k above 0.1": lambda row: row["modulus_ratio"] > 0.1,
+    "rate up to 1e2": lambda row: row["rate"] <= 1e2,
+    "rate 1e2 to 1e4": lambda row: 1e2 < row["rate"] <= 1e4,
+    "rate 1e4 to 1e6": lambda row: 1e4 < row["rate"] <= 1e6,
+    "rate 1e6 to 1e10": lambda row: 1e6 < row["rate"] <= 1e10,
+    "rate above 1e10": lambda row: row["rate"] > 1e10,
+    "depth up to 1": lambda row: row["preload"] <= 1,
+    "depth above 1 and up to 20": lambda row: 1 < row["preload"] <= 20,
+    "depth above 20": lambda row: row["preload"] > 20,
 }
 
 
@@ -67,10 +66,10 @@ def regions(rows: Sequence[Row]) -> list[str]:
 
 def decided(rows: Sequence[Row]) -> list[str]:
     """Return what converged runs say of the rows that are apart, and a line for each far one."""
-    apart = [row for row in rows if "published_error" in row]
+    apart = [row for row in rows if "table_error" in row]
     if not apart:
         return ["No row is off by more than 2 %."]
-    ours, theirs = (np.abs(column(apart, f"{who}_error")) for who in ("our", "published"))
+    ours, theirs = (np.abs(column(apart, f"{who}_error")) for who in ("our", "table"))
     lines = [
         f"{len(apart)} rows are off by more than 2 %, {percent(len(apart) / len(rows))} of the "
         "table. All were run again with an accuracy of 1e-4. "
@@ -78,7 +77,7 @@ def decided(rows: Sequence[Row]) -> list[str]:
         f"{percent(ours.max())} at most, the published value by {percent(np.median(theirs), 1)} "
         f"and {percent(theirs.max(), 1)}. In {np.sum(ours < theirs)} of the {len(apart)} rows the "
         "published value is the one that is off, "
-        f"in {np.sum(column(apart, 'published_error') > 0)} it is too high.",
+        f"in {np.sum(column(apart, 'table_error') > 0)} it is too high.",
         "",
         f"The {np.sum(theirs > FAR)} rows that are off by more than {percent(FAR, 0)}, "
         "each decided by its converged run:",
@@ -87,24 +86,24 @@ def decided(rows: Sequence[Row]) -> list[str]:
         "|---|---|---|---|---|---|---|---|",
     ]
     same = by_inputs(rows)
-    for row in sorted(apart, key=lambda row: -abs(row["published_error"])):
-        if abs(row["published_error"]) <= FAR and abs(row["force_difference"]) <= FAR:
+    for row in sorted(apart, key=lambda row: -abs(row["table_error"])):
+        if abs(row["table_error"]) <= FAR and abs(row["force_difference"]) <= FAR:
             continue
-        others = [other for other in same[row["name"]] if other is not row]
+        others = [other for other in same[inputs_of(row)] if other is not row]
         offs = ", ".join(f"{100 * other['force_difference']:+.1f} %" for other in others)
         lines.append(
-            f"| {row['mu']:g} | {row['k']:g} | {row['n']:g} | {row['alphaload']:.4g} | "
-            f"{-row['runload']:.3g} | {100 * row['published_error']:+.1f} % | "
+            f"| {row['tabor']:g} | {row['modulus_ratio']:g} | {row['exponent']:g} | "
+            f"{row['preload']:.4g} | {row['rate']:.3g} | {100 * row['table_error']:+.1f} % | "
             f"{100 * row['our_error']:+.2f} % | {offs or '-'} |"
         )
     return lines
 
 
-def by_inputs(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Return the rows by the name of their case."""
-    same: dict[str, list[Row]] = defaultdict(list)
+def by_inputs(rows: Sequence[Row]) -> dict[Inputs, list[Row]]:
+    """Return the rows of each case."""
+    same: dict[Inputs, list[Row]] = defaultdict(list)
     for row in rows:
-        same[row["name"]].append(row)
+        same[inputs_of(row)].append(row)
     return same
 
 
@@ -115,7 +114,7 @@ def repeated(rows: Sequence[Row]) -> str:
         return "No inputs are repeated in these rows."
     spread = []
     for group in groups:
-        values = [row["outputAmplification"] for row in group]
+        values = [row["force"] for row in group]
         spread.append(max(values) / min(values) - 1)
     nearest = [min(abs(row["force_difference"]) for row in group) for group in groups]
     return (
@@ -139,7 +138,7 @@ def work(rows: Sequence[Row]) -> list[str]:
             low, high = np.quantile(ratio, [0.05, 0.95])
             lines.append(
                 f"| {words} | {ratio.size:,} | {np.median(ratio):.3f} | {low:.3f} to {high:.3f} | "
-                f"{percent(np.mean(np.abs(ratio - 1) > 0.1), 1)} |"
+                f"{percent(float(np.mean(np.abs(ratio - 1) > 0.1)), 1)} |"
             )
     return lines
 
@@ -155,8 +154,8 @@ def page(rows: Sequence[Row]) -> str:
         "",
         f"{len(rows):,} rows of the table of detachments that the authors of the thesis published, "
         "each simulated here at the default accuracy of 2e-3. This page is written by "
-        "`python benchmarks/published.py --write`. Differences are published over ours, less one; "
-        "they are relative.",
+        "`python -m replication.published --table rows.csv --write replication/published`. "
+        "Differences are published over ours, less one; they are relative.",
         "",
         f"- The pull-off force differs by {percent(np.median(force))} in the median; 95 % of the "
         f"rows are below {percent(np.quantile(force, 0.95), 1)}, the largest is "
@@ -167,11 +166,11 @@ def page(rows: Sequence[Row]) -> str:
         "",
         "## By region",
         "",
-        "![Distribution of the differences](published_differences.png)",
+        "![Distribution of the differences](differences.png)",
         "",
         *regions(rows),
         "",
-        "![Where the differences are](published_regions.png)",
+        "![Where the differences are](regions.png)",
         "",
         "## Where the two are apart",
         "",
@@ -204,9 +203,8 @@ def by_first(rows: Sequence[Row]) -> list[Row]:
     return [group[0] for group in by_inputs(rows).values()]
 
 
-def write(rows: Sequence[Row]) -> None:
-    """Write the page and its pictures."""
-    from published_draw import draw
-
-    draw(rows, DOCS)
-    (DOCS / "published-data.md").write_text(page(rows), encoding="utf-8")
+def write(rows: Sequence[Row], folder: Path) -> None:
+    """Write the page and its pictures into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    draw(rows, folder)
+    (folder / "README.md").write_text(page(rows), encoding="utf-8")

@@ -246,7 +246,7 @@ def _dependence(numbers: Part) -> "Figure":
 
 def _trajectories(numbers: Part) -> "Figure":
     """Draw key points of retractions that were not learned (Fig. 5.13)."""
-    from .study_trajectories import SHARES
+    from .trajectories import SHARES
 
     shown = numbers["trajectories"]["shown"]
     figure, axes = _figure(2, -(-len(shown) // 2), height=3.2, width=4.2)

@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Array, Detachments
 from .learners import network, network_size
-from .study_splits import group_split
-from .study_tuning import architectures
-from .study_validation import r_squared
-from .table import Array, Detachments
+from .splits import group_split
+from .tuning import architectures
+from .validation import r_squared
 
 POINTS = (
     "travel to pull-off",

@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Array, Detachments
+from .extrapolation import extrapolation
 from .features import DESCRIPTOR, INPUTS, Descriptor, Target, crack_amplification, inputs, target
+from .insight import insight
 from .learners import BOOSTING, FOREST, LINEAR, NETWORK, TREE, check_installed
-from .study_extrapolation import extrapolation
-from .study_insight import insight
-from .study_noise import label_noise
-from .study_published import ROWS, STATISTICS
-from .study_tables import bands, repeated_reduction, tables
-from .study_trajectories import trajectories
-from .study_tuning import architectures, forest_curve, grid_search, rows_curve
-from .study_validation import Score, Trial, shared
-from .table import Array, Detachments
+from .noise import label_noise
+from .tables import bands, repeated_reduction, tables
+from .thesis import ROWS, STATISTICS
+from .trajectories import trajectories
+from .tuning import architectures, forest_curve, grid_search, rows_curve
+from .validation import Score, Trial, shared
 
 Part = dict[str, Any]
 
@@ -31,6 +31,7 @@ _DRAWN = (
     Trial(Target.FORCE, Descriptor.PUBLISHED, BOOSTING),
 )
 _MOST_POINTS = 2000
+_FEWEST_ROWS = 50
 # Parts of which there are several.
 _LISTS = ("grid", "forest", "rows", "insight")
 
@@ -50,6 +51,13 @@ class Study:
 
     numbers: Part
     times: dict[str, float]
+
+
+def check(rows: Detachments) -> None:
+    """Refuse a table that is too small, and a machine that lacks the learning libraries."""
+    check_installed()
+    if len(rows) < _FEWEST_ROWS:
+        raise ValueError(f"a study needs at least {_FEWEST_ROWS} rows, got {len(rows)}")
 
 
 def study(
@@ -83,9 +91,7 @@ def study(
     ValueError
         If the table is too small.
     """
-    check_installed()
-    if len(rows) < 50:
-        raise ValueError(f"a study needs at least 50 rows, got {len(rows)}")
+    check(rows)
     if jobs < 1:
         raise ValueError(f"jobs must be at least 1, got {jobs}")
     plain: dict[str, Any] = {"seed": seed, "quick": quick}

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Detachments
 from .features import Descriptor, Target, feature_names, features, target
 from .learners import Learner, trained
-from .study_splits import random_split
-from .table import Detachments
+from .splits import random_split
 
 _REPEATS, _SAMPLE, _POINTS = 10, 400, 24
 

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Array, Detachments
 from .features import Descriptor, Target, features, target
 from .learners import Learner, trained
-from .study_splits import Split
-from .table import Array, Detachments
+from .splits import Split
 
 
 @dataclass(frozen=True)

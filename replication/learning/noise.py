@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from ..table import Array, Detachments
 from .features import Target, target
-from .study_splits import same_input
-from .study_validation import work_rows
-from .table import Array, Detachments
+from .splits import same_input
+from .validation import work_rows
 
 
 def label_noise(rows: Detachments, which: Target) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from .study_sheet import Sheet
+from .sheet import Sheet
 
 Part = dict[str, Any]
 
