@@ -15,11 +15,11 @@ import numpy as np
 from cases import power_law
 
 from viscotack.surrogate import physics
-from viscotack.surrogate.__main__ import kept_apart
-from viscotack.surrogate.fitting import Fit, Task, fit
 from viscotack.surrogate.network import Networks
-from viscotack.surrogate.rows import LEARNED, Rows, read
 from viscotack.surrogate.store import SHIPPED, load
+from viscotack.surrogate.training.fitting import Fit, Task, fit
+from viscotack.surrogate.training.make import kept_apart
+from viscotack.surrogate.training.rows import LEARNED, Rows, read
 from viscotack.theory import persson_brener, rate
 
 _HOW = Fit(hidden=(32, 32, 32), steps=3000)

@@ -160,6 +160,17 @@ def test_no_modules_import_each_other_in_a_circle():
     assert cycles(graph(PACKAGE)) == []
 
 
+def test_what_answers_at_once_knows_nothing_of_how_it_was_made_or_is_handed_on():
+    rooms = ("surrogate.training", "surrogate.onnx")
+    links = {
+        name: {target for target in targets if target.startswith(rooms)}
+        for name, targets in graph(PACKAGE).items()
+        # the door by which it is trained
+        if not name.startswith((*rooms, "surrogate.__main__"))
+    }
+    assert {name: found for name, found in links.items() if found} == {}
+
+
 def test_the_check_itself_sees_an_upward_import_and_a_circle(tmp_path):
     (tmp_path / "theory").mkdir()
     (tmp_path / "theory/__init__.py").write_text("from . import jkr\n")

@@ -275,9 +275,9 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_the_kept_rows_are_as_the_file_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.__main__ import kept_apart
-    from viscotack.surrogate.rows import LEARNED, read
-    from viscotack.surrogate.scores import scores
+    from viscotack.surrogate.training.make import kept_apart
+    from viscotack.surrogate.training.rows import LEARNED, read
+    from viscotack.surrogate.training.scores import scores
 
     rows = read(*LEARNED)
     found = scores(shipped(), rows.chosen(kept_apart(len(rows))))

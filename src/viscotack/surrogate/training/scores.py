@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
-from ..trajectory import PRESSED
-from . import physics
+from ...trajectory import PRESSED
+from .. import physics
+from ..model import Answers, Surrogate
+from ..network import Networks, together
+from ..physics import Array
+from ..trust import REGIONS, region
 from .fitting import Fit
-from .model import Answers, Surrogate
-from .network import Networks, together
-from .physics import Array
+from .recipe import Limits, begin_forces
 from .rows import BANDED, BANDS, LEARNED, Rows, band
 from .shop import Shop
-from .training import Limits, begin_forces
-from .trust import REGIONS, region
 
 _CONFIDENCE = 0.9
 

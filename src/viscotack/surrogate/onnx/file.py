@@ -1,13 +1,10 @@
 """The surrogate as one ONNX file, for MATLAB, C++ and controllers.
 
-``python -m viscotack.surrogate.onnx_export FILE`` writes the one that comes with the package; it
-needs ``pip install 'viscotack[onnx]'``, reading the file needs neither this package nor Python. The
-file holds all that :class:`viscotack.surrogate.model.Surrogate` does, in double precision: limits,
-networks, curves and intervals. It does not refuse rows outside the ranges; ``inside`` says which
-they are.
+The file holds all that :class:`viscotack.surrogate.model.Surrogate` does, in double precision:
+limits, networks, curves and intervals. It does not refuse rows outside the ranges; ``inside`` says
+which they are.
 """
 
-import argparse
 import os
 from collections.abc import Mapping
 from dataclasses import replace
@@ -16,12 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from .. import __version__
-from ..outputs import SPHERE
-from ..trajectory import POINTS
-from .model import Surrogate
-from .onnx_graph import IR_VERSION, OPSET, Graph
-from .store import shipped
+from ... import __version__
+from ...outputs import SPHERE
+from ...trajectory import POINTS
+from ..model import Surrogate
+from .graph import IR_VERSION, OPSET, Graph
 
 CONFIDENCE = 0.9
 _FORCE, _WORK = (
@@ -136,19 +132,3 @@ def _onnx() -> Any:
             "the export needs onnx; install it with pip install 'viscotack[onnx]'"
         ) from None
     return onnx
-
-
-def main() -> None:
-    """Write the surrogate of the package."""
-    parser = argparse.ArgumentParser(
-        prog="python -m viscotack.surrogate.onnx_export",
-        description="Write the surrogate that comes with viscotack as one ONNX file.",
-    )
-    parser.add_argument("file", type=Path, metavar="FILE", help="where to, for example tack.onnx")
-    file = parser.parse_args().file
-    export(shipped(), file)
-    print(file)
-
-
-if __name__ == "__main__":
-    main()

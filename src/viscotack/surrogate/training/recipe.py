@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import line, physics
+from .. import line, physics
+from ..model import Scaled, Surrogate
+from ..network import Networks, together
+from ..physics import Array
+from ..trust import CONFIDENCES, REGIONS, Trust
 from .fitting import Fit, Task
-from .model import Scaled, Surrogate
-from .network import Networks, together
-from .physics import Array
 from .rows import Rows
 from .shop import Shop
-from .trust import CONFIDENCES, REGIONS, Trust
 
 # A shape's values that hardly vary are not worth all of the network's attention.
 _LEAST_SPREAD = 0.03

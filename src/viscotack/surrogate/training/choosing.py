@@ -1,6 +1,6 @@
 """Which cases to simulate next: those of which a surrogate is least sure.
 
-``python -m viscotack.surrogate.choosing --count 2000 --out cases.csv`` writes a list for
+``python -m viscotack.surrogate.training.choosing --count 2000 --out cases.csv`` writes a list for
 ``viscotack campaign run cases.csv``. The set `chosen` was made in this way, with four networks that
 had learned the first 10,000 rows of `broad` and `thesis`.
 """
@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from scipy.stats import qmc
 
-from . import physics
-from .model import Surrogate
-from .physics import INPUTS, Array
-from .store import SHIPPED, load
+from .. import physics
+from ..model import Surrogate
+from ..physics import INPUTS, Array
+from ..store import SHIPPED, load
 
 # Points to choose from: a Sobol fill, and a quarter as many on the faces of the range, where a
 # fill has few.
@@ -61,7 +61,7 @@ def choose(surrogate: Surrogate, count: int, *, seed: int = 0) -> Array:
 
 def main() -> None:
     """Choose and write."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.choosing")
+    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.choosing")
     parser.add_argument("--count", type=int, default=2000, help="cases")
     parser.add_argument("--out", type=Path, required=True, help="CSV file")
     parser.add_argument(

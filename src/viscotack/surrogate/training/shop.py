@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from . import physics
+from .. import physics
+from ..network import Networks, from_arrays
 from .fitting import Fit, Task, fit
-from .network import Networks, from_arrays
 
 
 @dataclass

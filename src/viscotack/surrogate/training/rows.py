@@ -7,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
-from .. import datasets
-from ..trajectory import POINTS, PRESSED, TENSILE
-from . import line, physics
+from ... import datasets
+from ...trajectory import POINTS, PRESSED, TENSILE
+from .. import line, physics
 
 Array = npt.NDArray[np.float64]
 

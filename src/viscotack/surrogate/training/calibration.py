@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .model import Surrogate
-from .physics import Array
+from ..model import Surrogate
+from ..physics import Array
+from ..trust import CONFIDENCES, REGIONS, Trust, region
 from .rows import Rows, cells
-from .trust import CONFIDENCES, REGIONS, Trust, region
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ import numpy.typing as npt
 from scipy.optimize import minimize
 from threadpoolctl import threadpool_limits
 
-from . import physics
-from .network import Networks
+from .. import physics
+from ..network import Networks
 
 Array = npt.NDArray[np.float64]
 # How many steps the curvature is remembered for.
