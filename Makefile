@@ -3,6 +3,7 @@ PYTHON ?= python3
 TABLE ?= rows.csv
 VENV := .venv
 BIN := $(VENV)/bin
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 # One BLAS thread per process: the matrices are small, and campaigns use processes.
 export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
@@ -10,13 +11,18 @@ export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside lint types bench verification clean
 
-$(VENV)/.installed: pyproject.toml
+# What the demo needs: the package and what it stands on.
+$(VENV)/.demo: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable ".[dev]"
+	$(INSTALL) --editable .
 	touch $@
 
-demo: $(VENV)/.installed
+# What tests, checks and benchmarks need beside it.
+$(VENV)/.installed: $(VENV)/.demo
+	$(INSTALL) --editable ".[dev]"
+	touch $@
+
+demo: $(VENV)/.demo
 	$(BIN)/python examples/pdms_lens.py
 
 test: $(VENV)/.installed

@@ -3,6 +3,7 @@
 import re
 import shlex
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -104,6 +105,14 @@ def test_make_targets_of_the_pages_exist(page):
 
 def test_first_two_commands_are_demo_and_test():
     assert commands(ROOT / "README.md")[:2] == ["make demo", "make test"]
+
+
+@pytest.mark.skipif(not shutil.which("make"), reason="make is not installed")
+def test_the_demo_installs_nothing_but_the_package_and_what_it_stands_on():
+    dry = ["make", "--dry-run", "--always-make", "demo"]
+    said = subprocess.run(dry, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    installs = [line.split()[-2:] for line in said.splitlines() if " install " in line]
+    assert installs == [["--editable", "."]]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
