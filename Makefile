@@ -3,7 +3,7 @@ PYTHON ?= python3
 TABLE ?= rows.csv
 VENV := .venv
 BIN := $(VENV)/bin
-INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 # One BLAS thread per process: the matrices are small, and campaigns use processes.
 export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
@@ -11,15 +11,18 @@ export MKL_NUM_THREADS = 1
 
 .PHONY: demo test test-slow test-outside lint types bench verification clean
 
-# What the demo needs: the package and what it stands on.
+# What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
+# is used; all of it would be half of the time of the install.
 $(VENV)/.demo: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(INSTALL) --editable .
 	touch $@
 
-# What tests, checks and benchmarks need beside it.
+# What tests, checks and benchmarks need beside it; compiled, for they start Python many times, and some
+# files that libraries bring for other Pythons cannot be.
 $(VENV)/.installed: $(VENV)/.demo
 	$(INSTALL) --editable ".[dev]"
+	$(BIN)/python -m compileall -qq -j 0 $(VENV)/lib || true
 	touch $@
 
 demo: $(VENV)/.demo
