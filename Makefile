@@ -33,7 +33,7 @@ test: $(VENV)/.installed
 
 # TABLE is the table of detachments that replication/README.md says where to get.
 test-outside: $(VENV)/.installed
-	$(BIN)/python -m pytest -m outside -q --table "$(TABLE)"
+	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)"
 
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 -q

@@ -20,7 +20,7 @@ def published(request):
     """Return rows of the published table."""
     path = request.config.getoption("--table")
     if not path.exists():
-        pytest.skip(f"there is no published table at {path}; give it with --table PATH")
+        pytest.skip(f"there is no published table at {path}; give it with --table=PATH")
     return read_detachments(path)
 
 
@@ -28,5 +28,5 @@ def published(request):
 def whole(published):
     """Return the published table where most of it is at hand: trees learn little from a sample."""
     if len(published) < MOST:
-        pytest.skip(f"needs {MOST} rows of the published table, has {len(published)}: --table PATH")
+        pytest.skip(f"needs {MOST} rows of the published table, has {len(published)}: --table=PATH")
     return published
