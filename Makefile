@@ -1,25 +1,39 @@
 # The first two commands of the README: `make demo` and `make test`.
 PYTHON ?= python3
+TABLE ?= rows.csv
 VENV := .venv
 BIN := $(VENV)/bin
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
 # One BLAS thread per process: the matrices are small, and campaigns use processes.
 export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-processors lint types bench verification clean
+.PHONY: demo test test-slow test-outside test-processors lint types bench verification clean
 
-$(VENV)/.installed: pyproject.toml
+# What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
+# is used; all of it would be half of the time of the install.
+$(VENV)/.demo: pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable ".[dev]"
+	$(INSTALL) --editable .
 	touch $@
 
-demo: $(VENV)/.installed
+# What tests, checks and benchmarks need beside it; compiled, for they start Python many times, and some
+# files that libraries bring for other Pythons cannot be.
+$(VENV)/.installed: $(VENV)/.demo
+	$(INSTALL) --editable ".[dev]"
+	$(BIN)/python -m compileall -qq -j 0 $(VENV)/lib || true
+	touch $@
+
+demo: $(VENV)/.demo
 	$(BIN)/python examples/pdms_lens.py
 
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -m "not slow" -n 2 -q
+	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q
+
+# TABLE is the table of detachments that replication/README.md says where to get.
+test-outside: $(VENV)/.installed
+	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)"
 
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 -q

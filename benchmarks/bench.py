@@ -10,7 +10,6 @@ HERE = Path(__file__).parent
 PARTS = [
     ("Speed beside the published algorithm", ["speed.py"]),
     ("Accuracy of the default setting", ["accuracy.py"]),
-    ("The published table", ["published.py", "--count", "1000"]),
     ("Random cases over the whole range", ["robust.py", "--count", "512", "--until", "detached"]),
     ("The flat punch on a layer", ["punch.py"]),
     ("Tests with a history, and other traction laws", ["histories.py"]),

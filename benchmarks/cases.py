@@ -88,7 +88,7 @@ def _table(path: str) -> Path:
         return Path(path)
     raise argparse.ArgumentTypeError(
         f"there is no file {path}; take the table that the authors of the thesis published, from "
-        "Data_Files of https://github.com/alimaghamii/ML4Adhesion, or the sample of it in "
+        "Data_Files of https://github.com/alimaghamii/ML4Adh, or the sample of it in "
         "tests/data/sphere_bem_published of this repository"
     )
 

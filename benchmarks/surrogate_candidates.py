@@ -12,15 +12,15 @@ from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
+from cases import power_law
 
 from viscotack.surrogate import physics
-from viscotack.surrogate.__main__ import kept_apart
-from viscotack.surrogate.features import Descriptor, crack_amplification
-from viscotack.surrogate.fitting import Fit, Task, fit
 from viscotack.surrogate.network import Networks
-from viscotack.surrogate.rows import LEARNED, Rows, read
 from viscotack.surrogate.store import SHIPPED, load
-from viscotack.surrogate.table import Detachments
+from viscotack.surrogate.training.fitting import Fit, Task, fit
+from viscotack.surrogate.training.make import kept_apart
+from viscotack.surrogate.training.rows import LEARNED, Rows, read
+from viscotack.theory import persson_brener, rate
 
 _HOW = Fit(hidden=(32, 32, 32), steps=3000)
 # A Gaussian process of more rows needs more memory and patience than the others together.
@@ -112,10 +112,16 @@ def _between(new: Rows, said: np.ndarray) -> np.ndarray:
 
 
 def _crack(rows: Rows) -> np.ndarray:
-    tabor, k, n, preload, rate = rows.groups.T
-    known = np.ones(len(rows), dtype=bool)
-    table = Detachments(tabor, k, n, preload, rate, rows.force, rows.work, known)
-    return np.log10(crack_amplification(table, Descriptor.OWN_TABOR))
+    # at the speed that Eq. 4.24 gives to the rate, with each row's own Tabor number
+    tabor, k, n, _, speed = rows.groups.T
+    fitted = rate.FITTED_TABOR
+    reduced = rate.rate_as_published(speed * fitted / tabor)
+    speeds = np.atleast_1d(rate.crack_speed(reduced, tabor=fitted)).tolist()
+    said = [
+        persson_brener.amplification(v, material=power_law(*solid))
+        for v, *solid in zip(speeds, k.tolist(), n.tolist(), strict=True)
+    ]
+    return np.log10(said)
 
 
 def main() -> None:

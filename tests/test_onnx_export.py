@@ -10,9 +10,11 @@ import pytest
 onnx = pytest.importorskip("onnx", reason="comes with viscotack[onnx]")
 runtime = pytest.importorskip("onnxruntime", reason="comes with viscotack[dev]")
 
-from viscotack.surrogate import line, model, onnx_export, physics  # noqa: E402
+from viscotack.surrogate import line, model, physics  # noqa: E402
 from viscotack.surrogate.network import Networks  # noqa: E402
-from viscotack.surrogate.onnx_graph import Graph  # noqa: E402
+from viscotack.surrogate.onnx import INPUTS, export  # noqa: E402
+from viscotack.surrogate.onnx import __main__ as command  # noqa: E402
+from viscotack.surrogate.onnx.graph import Graph  # noqa: E402
 from viscotack.surrogate.store import SHIPPED, shipped  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, REGIONS, Trust, region  # noqa: E402
 
@@ -56,7 +58,7 @@ def surrogate():
 
 
 def session(surrogate, folder):
-    onnx_export.export(surrogate, folder / "tack.onnx")
+    export(surrogate, folder / "tack.onnx")
     return runtime.InferenceSession(folder / "tack.onnx", providers=["CPUExecutionProvider"])
 
 
@@ -138,7 +140,7 @@ def test_one_row_is_a_batch_too(exported, surrogate):
 def test_another_program_reads_the_same(surrogate, tmp_path):
     from onnx.reference import ReferenceEvaluator
 
-    onnx_export.export(surrogate, tmp_path / "tack.onnx")
+    export(surrogate, tmp_path / "tack.onnx")
     groups = drawn(50)
     force, work, *_ = ReferenceEvaluator(str(tmp_path / "tack.onnx")).run(None, {"groups": groups})
     answers = surrogate.evaluate(groups)
@@ -148,12 +150,12 @@ def test_another_program_reads_the_same(surrogate, tmp_path):
 
 def test_two_exports_are_the_same_bytes(surrogate, tmp_path):
     for name in ("a", "b"):
-        onnx_export.export(surrogate, tmp_path / name)
+        export(surrogate, tmp_path / name)
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
 def test_file_says_what_its_numbers_are(surrogate, tmp_path):
-    onnx_export.export(surrogate, tmp_path / "tack.onnx")
+    export(surrogate, tmp_path / "tack.onnx")
     read = onnx.load(tmp_path / "tack.onnx")
     facts = {p.key: p.value for p in read.metadata_props}
     project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text())["project"]
@@ -161,14 +163,14 @@ def test_file_says_what_its_numbers_are(surrogate, tmp_path):
     assert facts["confidence"] == "0.9"
     assert facts["input.rate"] == "retraction speed [h0/tau0], 0.01 to 1e+10"
     assert facts["output.pull_off_force"] == "pull-off force [1.5 pi R dg0], positive"
-    assert list(onnx_export.INPUTS) == list(physics.INPUTS)
+    assert list(INPUTS) == list(physics.INPUTS)
     (groups,) = read.graph.input
     assert all(name in groups.doc_string for name in physics.INPUTS)
     assert all(output.doc_string in facts.values() for output in read.graph.output)
 
 
 def test_only_operators_of_the_standard_in_an_old_version(surrogate, tmp_path):
-    onnx_export.export(surrogate, tmp_path / "tack.onnx")
+    export(surrogate, tmp_path / "tack.onnx")
     read = onnx.load(tmp_path / "tack.onnx")
     assert [(o.domain, o.version) for o in read.opset_import] == [("", 13)]
     assert read.ir_version == 7 and not read.functions
@@ -181,7 +183,7 @@ def test_only_operators_of_the_standard_in_an_old_version(surrogate, tmp_path):
 def test_without_onnx_the_error_says_what_to_install(surrogate, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "onnx", None)
     with pytest.raises(ModuleNotFoundError, match=r"viscotack\[onnx\]"):
-        onnx_export.export(surrogate, tmp_path / "tack.onnx")
+        export(surrogate, tmp_path / "tack.onnx")
 
 
 def test_what_onnx_cannot_say_is_refused(surrogate):
@@ -204,9 +206,9 @@ def test_the_same_formula_is_written_down_once():
 
 def test_module_is_a_command(surrogate, tmp_path, monkeypatch, capsys):
     file = tmp_path / "tack.onnx"
-    monkeypatch.setattr(onnx_export, "shipped", lambda: surrogate)
-    monkeypatch.setattr(sys, "argv", ["onnx_export", str(file)])
-    onnx_export.main()
+    monkeypatch.setattr(command, "shipped", lambda: surrogate)
+    monkeypatch.setattr(sys, "argv", ["onnx", str(file)])
+    command.main()
     assert capsys.readouterr().out == f"{file}\n" and file.exists()
 
 

@@ -3,17 +3,29 @@
 import re
 import shlex
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+REPLICATION = sorted((ROOT / "replication").rglob("*.md"))
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+    *REPLICATION,
+]
 
 
-# A cluster, and the table of others that the study is about, are not at hand everywhere.
-NOT_AT_HAND = ("tcp://", "rows.csv")
+# A cluster is not at hand everywhere.
+NOT_AT_HAND = ("tcp://",)
+
+
+def name(page):
+    """Return the path of a page from the root."""
+    return str(page.relative_to(ROOT))
 
 
 def blocks(page, language):
@@ -30,7 +42,7 @@ def commands(page):
 def simulations():
     """Return every `viscotack simulate` and the `show` that may follow it, page by page."""
     found = {
-        page.name: [
+        name(page): [
             line
             for line in commands(page)
             if line.startswith("viscotack") and not any(word in line for word in NOT_AT_HAND)
@@ -61,7 +73,12 @@ def test_readme_has_one_example_of_ten_lines_or_so(anywhere, capsys):
     assert float(stated[2]) == pytest.approx(0.2356, abs=0.006)
 
 
-@pytest.mark.parametrize("page", [p for p in PAGES if p.name != "README.md"], ids=lambda p: p.name)
+@pytest.mark.parametrize(
+    "page",
+    # the learning study on bands of the broad set takes a minute and a half
+    [pytest.param(p, marks=[pytest.mark.slow] * (p in REPLICATION)) for p in PAGES[1:]],
+    ids=name,
+)
 def test_python_of_the_pages_runs(page, anywhere):
     for example in blocks(page, "python"):
         exec(compile(example, page.name, "exec"), {})
@@ -79,7 +96,7 @@ def test_commands_of_the_pages_run(page, anywhere):
         assert done.exit_code == 0, f"{line}\n{done.output}"
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+@pytest.mark.parametrize("page", PAGES, ids=name)
 def test_make_targets_of_the_pages_exist(page):
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
     words = [w for line in commands(page) if line.startswith("make ") for w in line.split()[1:]]
@@ -90,12 +107,20 @@ def test_first_two_commands_are_demo_and_test():
     assert commands(ROOT / "README.md")[:2] == ["make demo", "make test"]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.name)
+@pytest.mark.skipif(not shutil.which("make"), reason="make is not installed")
+def test_the_demo_installs_nothing_but_the_package_and_what_it_stands_on():
+    dry = ["make", "--dry-run", "--always-make", "demo"]
+    said = subprocess.run(dry, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    installs = [line.split()[-2:] for line in said.splitlines() if " install " in line]
+    assert installs == [["--editable", "."]]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
 def test_links_lead_somewhere(page):
     for target in re.findall(r"\]\(([^)#]+)", page.read_text()):
         if not target.startswith("http"):
             path = (page.parent / target).resolve()
-            assert path.exists(), f"{page.name}: {target}"
+            assert path.exists(), f"{name(page)}: {target}"
 
 
 def test_picture_of_the_readme_is_small():

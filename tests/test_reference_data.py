@@ -72,4 +72,4 @@ def test_a_published_table_that_is_not_there_is_an_error_that_says_where_to_get_
     assert stop.value.code == 2
     said = " ".join(capsys.readouterr().err.split())
     assert "there is no file nowhere.csv" in said
-    assert "github.com/alimaghamii/ML4Adhesion" in said and "tests/data" in said
+    assert "github.com/alimaghamii/ML4Adh" in said and "tests/data" in said

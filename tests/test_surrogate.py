@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from reference_data import DETACHMENTS
 from viscotack import solve
 from viscotack.campaign.columns import KINDS
 from viscotack.result import trajectory
@@ -241,16 +240,6 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
         assert one["r2"] > (0.99 if one["edge"] else 0.999)
 
 
-def test_the_published_rows_are_told():
-    from viscotack.surrogate.table import read_detachments
-
-    rows = read_detachments(DETACHMENTS)
-    groups = np.column_stack([getattr(rows, name) for name in INPUTS])
-    inside = shipped().inside(groups).all(axis=1)
-    said = shipped().evaluate(groups[inside]).pull_off_force
-    assert np.median(np.abs(said / rows.pull_off_force[inside] - 1)) < 5e-3
-
-
 # peer: the simulation
 
 
@@ -287,9 +276,9 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_the_kept_rows_are_as_the_file_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.__main__ import kept_apart
-    from viscotack.surrogate.rows import LEARNED, read
-    from viscotack.surrogate.scores import scores
+    from viscotack.surrogate.training.make import kept_apart
+    from viscotack.surrogate.training.rows import LEARNED, read
+    from viscotack.surrogate.training.scores import scores
 
     rows = read(*LEARNED)
     found = scores(shipped(), rows.chosen(kept_apart(len(rows))))

@@ -7,10 +7,10 @@ pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import line, physics  # noqa: E402
-from viscotack.surrogate.choosing import choose  # noqa: E402
-from viscotack.surrogate.fitting import Fit, Task, fit  # noqa: E402
-from viscotack.surrogate.rows import BANDED, BANDS, band, cells, read  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
+from viscotack.surrogate.training.choosing import choose  # noqa: E402
+from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
+from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, REGIONS, region  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
@@ -113,7 +113,7 @@ def test_rows_without_weight_do_not_count():
 
 def test_a_shop_does_not_fit_twice(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from viscotack.surrogate.shop import Shop
+    from viscotack.surrogate.training.shop import Shop
 
     x = np.linspace(-1, 1, 50)[:, None]
     task = Task(x, x**2, np.ones_like(x))
@@ -130,7 +130,7 @@ def test_a_shop_does_not_fit_twice(tmp_path):
 
 def test_intervals_hold_the_share_that_they_promise():
     pytest.importorskip("crepes", reason="intervals are measured with crepes")
-    from viscotack.surrogate.calibration import Apart, trusted
+    from viscotack.surrogate.training.calibration import Apart, trusted
 
     random = np.random.default_rng(0)
 
@@ -155,7 +155,7 @@ def test_intervals_hold_the_share_that_they_promise():
 
 def test_cells_are_kept_whole(rows):
     pytest.importorskip("crepes", reason="intervals are measured with crepes")
-    from viscotack.surrogate.calibration import kept_cells
+    from viscotack.surrogate.training.calibration import kept_cells
 
     cell, kept = cells(rows), kept_cells(rows, seed=0)
     assert all(len(np.unique(kept[cell == one])) == 1 for one in np.unique(cell))
@@ -179,7 +179,7 @@ def test_the_whole_training_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
     pytest.importorskip("crepes", reason="intervals are measured with crepes")
     from viscotack.surrogate import store
-    from viscotack.surrogate.__main__ import make
+    from viscotack.surrogate.training.make import make
 
     found = make(tmp_path, workers=2, quick=True)
     assert len(found["bands kept apart"]) == 3 * BANDS

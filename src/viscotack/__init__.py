@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .bem import SimulationError as SimulationError
     from .bem import solve as solve
     from .cards import Quantity as Quantity
+    from .errors import InputError as InputError
     from .forecast import Advice as Advice
     from .forecast import Estimate as Estimate
     from .forecast import OutOfRange as OutOfRange
@@ -99,6 +100,7 @@ if TYPE_CHECKING:
 # Room -> the public names it has, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
+    "errors": ("InputError",),
     "cards": ("Quantity",),
     "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
     "geometry": (

@@ -2,7 +2,7 @@ r"""How wide an interval is: conformal, from cases that the networks had not lea
 
 The scores of such cases, :math:`|\Delta \log_{10}| / (\sigma + \sigma_0)` with the spread
 :math:`\sigma` of the networks, were sorted within regions; an interval is as many times as wide as
-holds the wanted share of them (:mod:`viscotack.surrogate.calibration`).
+holds the wanted share of them (:mod:`viscotack.surrogate.training.calibration`).
 """
 
 from __future__ import annotations

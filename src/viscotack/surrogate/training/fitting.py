@@ -1,0 +1,148 @@
+"""Networks fitted to rows: gradients by JAX, quasi-Newton steps by SciPy, the same on every run."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize
+from threadpoolctl import threadpool_limits
+
+from viscotack.errors import InputError
+
+from .. import physics
+from ..network import Networks
+
+Array = npt.NDArray[np.float64]
+# How many steps the curvature is remembered for.
+_MEMORY = 40
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How a network is fitted.
+
+    Attributes
+    ----------
+    hidden : tuple of int
+        Widths of its hidden layers.
+    steps : int
+        Of the quasi-Newton method.
+    penalty : float
+        On the sum of the squared weights, beside the mean squared error in units of ``scale``.
+    scale : float
+        Error that counts as one.
+    """
+
+    hidden: tuple[int, ...] = (40, 40, 40)
+    steps: int = 10_000
+    penalty: float = 1e-8
+    scale: float = 0.3
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What a network is to learn; arrays, so that it can be sent to a process.
+
+    Attributes
+    ----------
+    inputs : ndarray, shape (n, inputs)
+    target : ndarray, shape (n, outputs)
+    weight : ndarray, shape (n, outputs)
+        Of the squared errors.
+    between : tuple of two ndarrays of shape (n,), or None
+        Limits between which the single target lies, see ``physics.between``; None for outputs that
+        are the target.
+    """
+
+    inputs: Array
+    target: Array
+    weight: Array
+    between: tuple[Array, Array] | None = None
+
+
+def fit(task: Task, how: Fit, *, seed: int) -> Networks:
+    """Return one network that has learned a task.
+
+    Raises
+    ------
+    ModuleNotFoundError
+        Without JAX.
+    """
+    jax = _jax()
+    jnp = jax.numpy
+    sizes = (task.inputs.shape[1], *how.hidden, task.target.shape[1])
+    shapes = [s for a, b in zip(sizes[:-1], sizes[1:], strict=True) for s in ((a, b), (b,))]
+    ends = np.cumsum([int(np.prod(shape)) for shape in shapes])[:-1]
+    x, target, weight = (jnp.asarray(a) for a in (task.inputs, task.target, task.weight))
+    total = float(task.weight.sum())
+
+    def parts(v: Any) -> list[Any]:
+        return [a.reshape(shape) for a, shape in zip(jnp.split(v, ends), shapes, strict=True)]
+
+    def answer(layers: list[Any]) -> Any:
+        h = x
+        for weights, bias in zip(layers[:-2:2], layers[1:-2:2], strict=True):
+            h = jnp.tanh(h @ weights + bias)
+        out = h @ layers[-2] + layers[-1]
+        if task.between is None:
+            return out
+        low, high = (jnp.asarray(a)[:, None] for a in task.between)
+        # physics.between, in the words of JAX
+        way = jnp.maximum(high - low, physics.LEAST_WAY)
+        return low + way * jax.nn.sigmoid(physics.STEEP * out)
+
+    def loss(v: Any) -> Any:
+        layers = parts(v)
+        error = jnp.sum(weight * ((answer(layers) - target) / how.scale) ** 2) / total
+        return error + how.penalty * sum(jnp.sum(w**2) for w in layers[::2])
+
+    value_and_slope = jax.jit(jax.value_and_grad(loss))
+
+    def evaluate(v: Array) -> tuple[float, Array]:
+        value, slope = value_and_slope(v)
+        return float(value), np.asarray(slope, dtype=float)
+
+    limits = {
+        "maxiter": how.steps,
+        "maxfun": 2 * how.steps,
+        "maxcor": _MEMORY,
+        "ftol": 0,
+        "gtol": 0,
+    }
+    # sums of several threads come in another order, and steps go another way
+    with threadpool_limits(1):
+        first = _first(sizes, seed)
+        found = minimize(evaluate, first, jac=True, method="L-BFGS-B", options=limits)
+    if not np.isfinite(found.fun):
+        raise InputError(
+            "what is to be learned is not finite everywhere; look for gaps in the rows"
+        )
+    layers = [np.asarray(a)[None] for a in parts(found.x)]
+    return Networks(tuple(layers[::2]), tuple(bias[:, None] for bias in layers[1::2]))
+
+
+def _first(sizes: tuple[int, ...], seed: int) -> Array:
+    """Return random weights to begin with, of the size that keeps signals of order one."""
+    random = np.random.default_rng(seed)
+    values = []
+    for a, b in zip(sizes[:-1], sizes[1:], strict=True):
+        values += [random.normal(size=a * b) / np.sqrt(a), random.uniform(-0.5, 0.5, size=b)]
+    return np.concatenate(values)
+
+
+def _jax() -> Any:
+    # One thread: sums in one order, and one process a network. XLA reads it when it is imported.
+    os.environ.setdefault("NPROC", "1")
+    try:
+        import jax
+    except ImportError:
+        raise ModuleNotFoundError(
+            "training needs JAX; install it with pip install 'viscotack[train]'"
+        ) from None
+    jax.config.update("jax_enable_x64", True)
+    jax.config.update("jax_platforms", "cpu")
+    return jax

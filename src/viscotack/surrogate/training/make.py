@@ -1,0 +1,119 @@
+"""The surrogate that is shipped, from its datasets to its file and its scores.
+
+``python -m viscotack.surrogate --out DIR [--workers N]``. Fitted networks are kept in the folder,
+so that a run that was stopped goes on. On the same machine and libraries the result is the same to
+the last digit.
+"""
+
+import argparse
+import json
+import platform
+import sys
+from dataclasses import asdict
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from threadpoolctl import threadpool_limits
+
+from viscotack.files.whole import write_whole
+
+from ... import __version__, datasets
+from .. import store
+from . import rows, scores
+from .calibration import covers, judged, kept_cells, trusted
+from .recipe import BANDED, QUICK, Recipe, learn, learn_limits
+from .rows import FAST, LEARNED
+from .shop import Shop
+
+# Rows drawn at random that no network learns from.
+_KEPT, _SEED = 0.06, 2026
+# Every so many rows where all is only tried.
+_THINNED = 4
+
+
+def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
+    """Train, measure, write ``surrogate.npz`` and ``scores.json`` in the folder; return the scores.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the networks are kept too.
+    workers : int
+        Processes; four take about half an hour.
+    quick : bool
+        Few rows and small networks, to see that it runs.
+    """
+    began = perf_counter()
+    all_rows, fast = rows.read(*LEARNED), rows.read(FAST)
+    if quick:
+        all_rows, fast = (r.chosen(slice(None, None, _THINNED)) for r in (all_rows, fast))
+    kept = kept_apart(len(all_rows))
+    learned, test = all_rows.chosen(~kept), all_rows.chosen(kept)
+    recipe, banded = (QUICK, QUICK.force) if quick else (Recipe(), BANDED)
+    with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
+        limits = learn_limits(learned, fast, recipe, shop)
+        _say(began, "limits")
+        whole = learn(learned, limits, recipe, shop)
+        held = kept_cells(learned, seed=_SEED)
+        sister = learn(learned.chosen(~held), limits, recipe, shop, curves=QUICK)
+        bands = scores.begin_bands(learned, limits, banded, shop)
+        surrogate = whole.surrogate()
+        _say(began, "networks")
+        apart = judged(sister.surrogate(), learned.chosen(held))
+        _say(began, "networks without some cells")
+        surrogate = trusted(surrogate, apart)
+        found: dict[str, Any] = {
+            "kept apart at random": scores.scores(surrogate, test),
+            "cells kept apart": covers(apart, rows.cells(learned.chosen(held))),
+        }
+        facts = _facts(len(learned), len(test), recipe)
+        store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
+        print(json.dumps(found, indent=1), file=sys.stderr, flush=True)
+        found["bands kept apart"] = []
+        for one in bands:
+            found["bands kept apart"].append(scores.score_band(one, limits))
+            _say(began, json.dumps(found["bands kept apart"][-1]))
+    store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
+    write_whole(folder / "scores.json", (json.dumps(found, indent=1) + "\n").encode())
+    return found
+
+
+def kept_apart(count: int) -> npt.NDArray[np.bool_]:
+    """Return which of the rows no network learns from: the same in every run."""
+    return np.random.default_rng(_SEED).random(count) < _KEPT
+
+
+def _facts(learned: int, test: int, recipe: Recipe) -> dict[str, Any]:
+    names = ("numpy", "scipy", "jax", "jaxlib", "crepes")
+    return {
+        "viscotack": __version__,
+        "made": datetime.now(UTC).date().isoformat(),
+        "machine": platform.machine(),
+        "libraries": {name: version(name) for name in names},
+        "sets": {
+            name: datasets.files.checksum(datasets.path(name).read_bytes())
+            for name in (*LEARNED, FAST)
+        },
+        "rows": {"learned from": learned, "kept apart": test},
+        "recipe": asdict(recipe),
+    }
+
+
+def _say(began: float, what: str) -> None:
+    print(f"{perf_counter() - began:6.0f} s  {what}", file=sys.stderr, flush=True)
+
+
+def main() -> None:
+    """Train and say where the file is."""
+    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate", description=__doc__)
+    parser.add_argument("--out", type=Path, required=True, help="folder of the networks and files")
+    parser.add_argument("--workers", type=int, default=1, help="processes")
+    parser.add_argument("--quick", action="store_true", help="few rows, to see that it runs")
+    given = parser.parse_args()
+    make(given.out, workers=given.workers, quick=given.quick)
+    print(given.out / "surrogate.npz")

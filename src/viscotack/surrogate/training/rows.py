@@ -1,0 +1,140 @@
+"""Rows to learn from: what the datasets say, as inputs and targets of the networks."""
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
+
+from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
+
+from ... import datasets
+from .. import line, physics
+
+Array = npt.NDArray[np.float64]
+
+# Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
+LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"
+# Bands of Tabor number, modulus ratio and exponent, even in their logarithms.
+BANDED, BANDS = (physics.TABOR, physics.MODULUS_RATIO, physics.EXPONENT), 6
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Simulated detachments, a row each.
+
+    Attributes
+    ----------
+    groups : ndarray, shape (n, 5)
+        Inputs, in the order of ``physics.INPUTS``.
+    force, work : ndarray, shape (n,)
+        Pull-off force and work to it.
+    start_force, start_radius : ndarray, shape (n,)
+        Of the relaxed start.
+    line, known : ndarray, shape (n, line.OUTPUTS)
+        What a network should say of the curve; 1.0 where the row has it, 0.0 where not.
+    give : ndarray, shape (n,)
+        Travel to zero force times radius over force of the start; 1.0 where that is in tension.
+    trajectory_force, trajectory_left : ndarray, shape (n, 24)
+        As in the dataset, to judge by.
+    origin : ndarray of int, shape (n,)
+        Which set the row is of.
+    """
+
+    groups: Array
+    force: Array
+    work: Array
+    start_force: Array
+    start_radius: Array
+    line: Array
+    known: Array
+    give: Array
+    trajectory_force: Array
+    trajectory_left: Array
+    origin: npt.NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.force)
+
+    def chosen(self, which: Any) -> "Rows":
+        """Return the rows of a mask or an index."""
+        return Rows(**{f.name: getattr(self, f.name)[which] for f in fields(self)})
+
+
+def read(*names: str) -> Rows:
+    """Return the rows of some sets, one after the other."""
+    parts = [_of_set(name, number) for number, name in enumerate(names)]
+    joined = {
+        f.name: np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Rows)
+    }
+    return Rows(**joined)
+
+
+def cells(rows: Rows) -> npt.NDArray[np.intp]:
+    """Return the cell of (Tabor number, modulus ratio, exponent) that each row lies in."""
+    bands = [band(rows, column) for column in BANDED]
+    return np.ravel_multi_index(tuple(bands), (BANDS,) * len(BANDED))
+
+
+def band(rows: Rows, column: int) -> npt.NDArray[np.intp]:
+    """Return the band of one input that each row lies in, from 0 to BANDS - 1."""
+    place = (physics.scaled(rows.groups)[:, column] + 1) / 2 * BANDS
+    return np.clip(np.floor(place).astype(np.intp), 0, BANDS - 1)
+
+
+def _of_set(name: str, number: int) -> Rows:
+    table = datasets.load(name)
+
+    def column(key: str) -> Array:
+        return np.array(table.column(key).to_pylist(), dtype=float)
+
+    groups = np.column_stack([column(key) for key in physics.INPUTS])
+    force, left = column("trajectory_force"), column("trajectory_travel_left")
+    radius = column("trajectory_contact_radius")
+    peak = column("pull_off_force")
+    said, known = _curves(force, radius)
+    travel = left[:, 0] - left[:, PRESSED]
+    return Rows(
+        groups=groups,
+        force=peak,
+        work=column("work_to_pull_off"),
+        start_force=force[:, 0],
+        start_radius=radius[:, 0],
+        line=said,
+        known=known,
+        give=np.where(force[:, 0] > 0, travel * radius[:, 0] / np.abs(force[:, 0]), 1.0),
+        trajectory_force=force,
+        trajectory_left=left,
+        origin=np.full(len(peak), number),
+    )
+
+
+def _curves(force: Array, radius: Array) -> tuple[Array, Array]:
+    """Return what a network should say of stored curves, and where the curves say it."""
+    start, peak = force[:, :1], -force[:, -1:]
+    p = start[:, 0] > 0
+    n = len(force)
+    said, known = np.zeros((n, line.OUTPUTS)), np.zeros((n, line.OUTPUTS))
+    shape = np.empty((n, TENSILE))
+    radii = radius / radius[:, :1]
+    shape[p] = force[p, PRESSED:] / -peak[p]
+    shape[~p], tense_radii = (
+        _coarser(values[~p]) for values in ((start - force) / (peak + start), radii)
+    )
+    said[:, line.SHAPE], known[:, line.SHAPE] = shape[:, 1:-1], 1.0
+    said[p, line.PRESSING], known[p, line.PRESSING] = (force / start)[p, 1:PRESSED], 1.0
+    said[p, line.RADII], known[p, line.RADII] = radii[p, 1:], 1.0
+    # a start in tension has the radii of the second part only
+    second = slice(line.RADII.stop - TENSILE + 1, line.RADII.stop)
+    said[~p, second], known[~p, second] = tense_radii[:, 1:], 1.0
+    # where the surfaces are apart, or nearly, there is no radius
+    absent = ~np.isfinite(said)
+    said[absent], known[absent] = 0.0, 0.0
+    return said, known
+
+
+def _coarser(values: Array) -> Array:
+    """Return values at 16 even steps of those at 24."""
+    old, new = (np.linspace(0.0, 1.0, count) for count in (POINTS, TENSILE))
+    return PchipInterpolator(old, values, axis=1)(new)

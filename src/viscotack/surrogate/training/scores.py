@@ -1,0 +1,125 @@
+"""What a surrogate is worth, on rows that it has not learned from."""
+
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from viscotack.result.trajectory import PRESSED
+
+from .. import physics
+from ..model import Answers, Surrogate
+from ..network import Networks, together
+from ..physics import Array
+from ..trust import REGIONS, region
+from .fitting import Fit
+from .recipe import Limits, begin_forces
+from .rows import BANDED, BANDS, LEARNED, Rows, band
+from .shop import Shop
+
+_CONFIDENCE = 0.9
+
+
+def scores(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
+    """Return errors, covers and errors of the curves by set, ready for JSON."""
+    sets = {name: rows.chosen(rows.origin == i) for i, name in enumerate(LEARNED)}
+    return {name: _of(surrogate, some) for name, some in {"all": rows, **sets}.items() if len(some)}
+
+
+def _of(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
+    said = surrogate.evaluate(rows.groups)
+    between = surrogate.intervals(rows.groups, said, confidence=_CONFIDENCE)
+    where = region(rows.groups)
+    answer: dict[str, Any] = {"rows": len(rows)}
+    for name, found, ends, true in (
+        ("force", said.pull_off_force, between.pull_off_force, rows.force),
+        ("work", said.work_to_pull_off, between.work_to_pull_off, rows.work),
+    ):
+        error = np.log10(found / true)
+        held = (ends[:, 0] <= true) & (true <= ends[:, 1])
+        answer[name] = {
+            "mse_log10": float(np.mean(error**2)),
+            "median": float(np.median(np.abs(found / true - 1))),
+            "95 %": float(np.quantile(np.abs(found / true - 1), 0.95)),
+            "largest": float(np.max(np.abs(found / true - 1))),
+            "cover": float(held.mean()),
+            "cover by region": [
+                float(held[where == r].mean()) if np.any(where == r) else None
+                for r in range(REGIONS)
+            ],
+            "half width": float(np.median(ends[:, 1] / ends[:, 0]) ** 0.5 - 1),
+        }
+    return answer | {"curve": _curve(surrogate, rows, said)}
+
+
+def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
+    """Return how far predicted curves are off at the depths of the stored points.
+
+    The part in tension is compared with the pull-off force, root mean square over its points.
+    """
+    found = surrogate.curves(rows.groups, said)
+    depth = rows.groups[:, physics.PRELOAD, None] - (
+        rows.trajectory_left[:, :1] - rows.trajectory_left
+    )
+    error = np.empty(len(rows))
+    for i in range(len(rows)):
+        first = PRESSED if rows.start_force[i] > 0 else 0
+        force = _at(depth[i, first:], found.depth[i], found.force[i])
+        off = (force - rows.trajectory_force[i, first:]) / rows.force[i]
+        error[i] = np.sqrt(np.mean(off**2))
+    return {
+        "median": float(np.median(error)),
+        "90 %": float(np.quantile(error, 0.9)),
+        "99 %": float(np.quantile(error, 0.99)),
+    }
+
+
+def _at(depth: Array, known: Array, force: Array) -> Array:
+    """Return forces at depths; beyond the last known depth the last force."""
+    kept = np.append(np.diff(known) < 0, True)
+    curve = PchipInterpolator(known[kept][::-1], force[kept][::-1])
+    return curve(np.clip(depth, known[-1], known[0]))
+
+
+@dataclass(frozen=True, eq=False)
+class Band:
+    """A band of one input, and networks for the force that learn from the other bands."""
+
+    column: int
+    number: int
+    held: Rows
+    forces: list[Future[Networks]]
+
+
+def begin_bands(rows: Rows, limits: Limits, how: Fit, shop: Shop) -> list[Band]:
+    """Begin to learn the force without each band of Tabor number, modulus ratio and exponent."""
+    found = []
+    for column in BANDED:
+        of_row = band(rows, column)
+        for number in range(BANDS):
+            held = of_row == number
+            forces = begin_forces(rows.chosen(~held), limits, how, shop)
+            found.append(Band(column, number, rows.chosen(held), forces))
+    return found
+
+
+def score_band(one: Band, limits: Limits) -> dict[str, Any]:
+    """Return how well the force of a band is told from the other bands, ready for JSON."""
+    groups, true = one.held.groups, np.log10(one.held.force)
+    networks = together([future.result() for future in one.forces])
+    said = physics.between(
+        *physics.way(groups, limits.fast), networks(physics.scaled(groups))[..., 0]
+    )
+    error = said.mean(axis=0) - true
+    values = groups[:, one.column]
+    return {
+        "input": physics.INPUTS[one.column],
+        "from": float(values.min()),
+        "to": float(values.max()),
+        "edge": one.number in (0, BANDS - 1),
+        "rows": len(one.held),
+        "r2": float(1 - np.mean(error**2) / np.var(true)),
+        "mse_log10": float(np.mean(error**2)),
+    }
