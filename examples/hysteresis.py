@@ -35,7 +35,7 @@ def loop(speed: float) -> vt.Problem:
 def lost_work(result: vt.Result) -> dict[str, float]:
     """Return where the work of the loop went [nJ]."""
     unit = result.problem.scales().work * 1e9
-    return {name: float(result.energy[name][-1]) * unit for name in ("jumps", "heat")}
+    return {name: float(getattr(result.energy, name)[-1]) * unit for name in ("jumps", "heat")}
 
 
 def draw(results: list[vt.Result], path: Path) -> None:

@@ -7,6 +7,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from time import sleep
 
+from viscotack import InputError
 from viscotack.campaign import read_plan
 from viscotack.campaign.crew import Lost
 
@@ -43,7 +44,7 @@ def slow(problem, settings):
 def picky(problem, settings):
     """Refuse every fifth rate."""
     if problem.rate % 5 == 0:
-        raise ValueError(f"no contact at a rate of {problem.rate:g}")
+        raise InputError(f"no contact at a rate of {problem.rate:g}")
     return stand_in(problem, settings)
 
 

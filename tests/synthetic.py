@@ -1,12 +1,14 @@
 """Results made from closed forms, with exact observables, to test what reads results."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from viscotack.geometry import Sphere
 from viscotack.materials import StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, Retraction
-from viscotack.result import Event, Result
+from viscotack.result import Energies, Event, Result
 from viscotack.traction import LennardJones
 
 TABOR, RATE = 3.24, 7.0
@@ -97,9 +99,18 @@ def jkr_detachment(*, steps=200, far=40.0, until_jump=False, **changes):
         status=f"jumped at depth {edge:.4g} h0",
         events=(jump,),
         statistics=first.statistics,
-        energy={"interface": np.concatenate([np.full(len(first.depth), -20.0), -(16 / 9) / d])},
+        energy=energies(
+            interface=np.concatenate([np.full(len(first.depth), -20.0), -(16 / 9) / d])
+        ),
     )
     return Result(**(parts | changes))
+
+
+def energies(**known):
+    """Return the books of a run of which only some are known; the others are zero."""
+    steps = max(len(values) for values in known.values())
+    books = {field.name: np.zeros(steps) for field in fields(Energies)}
+    return Energies(**(books | known))
 
 
 def work_of_separation(jump_depth):

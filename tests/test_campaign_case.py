@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import synthetic
-from viscotack import pull_off, pull_off_force, run_id, solve, to_dict
+from viscotack import InputError, pull_off, pull_off_force, run_id, solve, to_dict
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
     KEY_SHARES,
@@ -101,7 +101,9 @@ def test_an_answer_has_a_row_or_a_reason():
         assert answer.row is None
         return answer.failure, answer.reason
 
-    assert fails(ValueError("no contact")) == ("refused", "no contact")
+    assert fails(InputError("no contact")) == ("refused", "no contact")
+    # what nobody raised on purpose is a defect, and no answer of the physics
+    assert fails(ValueError("a defect")) == ("crashed", "ValueError: a defect")
     assert fails(Unsolved("stopped because")) == ("stopped", "stopped because")
     assert fails(KeyError("x")) == ("crashed", "KeyError: 'x'")
     assert fails(MemoryError("no room"))[0] == "memory limit"
@@ -179,7 +181,7 @@ def test_a_limit_that_is_met_in_the_last_moment_does_not_come_late():
     ("changed", "words"),
     [
         ({"until": "later"}, "until must be"),
-        ({"accuracy": 0.5}, "accuracy must be between"),
+        ({"accuracy": 0.5}, "accuracy must lie between"),
         ({"time_limit": 0.0}, "time_limit must be positive"),
         ({"memory_limit": -1.0}, "memory_limit must be positive"),
     ],

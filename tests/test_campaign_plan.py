@@ -207,7 +207,7 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ),
         ("p.toml", f"[settings]\nuntl = 1\n[[grid]]\n{CASE}", r"\[settings\]: may have accuracy"),
         ("p.toml", f'[settings]\ntime_limit = "5 m"\n[[grid]]\n{CASE}', "time_limit"),
-        ("p.toml", f"[settings]\naccuracy = 1\n[[grid]]\n{CASE}", "accuracy must be between"),
+        ("p.toml", f"[settings]\naccuracy = 1\n[[grid]]\n{CASE}", "accuracy must lie between"),
         ("p.toml", f"[[grid]]\n{CASE}rat = 1\n", r"block 1 \(\[\[grid\]\]\): .* got .*rat"),
         ("p.toml", f"[[grid]]\n{CASE}preload_force = 1\n", "exactly one of preload,"),
         ("p.toml", f"[[grid]]\n{CASE.replace('10', '-10')}", "rate must be"),

@@ -171,7 +171,7 @@ def test_work_of_separation_goes_past_the_jump_to_infinity():
 
 def test_work_of_separation_without_energies_ends_with_the_run():
     whole = work_of_separation(jkr_detachment())
-    for energy in (None, {"interface": np.array([0.0, 5.0])}):
+    for energy in (None, synthetic.energies(interface=np.array([0.0, 5.0]))):
         rest = whole - work_of_separation(jkr_detachment(energy=energy))
         last_gap = 1 - jkr_detachment().depth[-1]
         assert rest == pytest.approx((16 / 9) / last_gap, rel=1e-9)

@@ -32,7 +32,7 @@ def test_a_start_that_does_not_exist_is_refused(start, words):
 
 @pytest.mark.parametrize("accuracy", [0.0, -1.0, 0.5, float("nan"), 1e-9])
 def test_an_impossible_accuracy_is_refused(accuracy):
-    with pytest.raises(ValueError, match="accuracy must be between 1e-6 and 0.02"):
+    with pytest.raises(ValueError, match="accuracy must (lie between 1e-06 and 0.02|be finite)"):
         solve(case(), accuracy=accuracy)
 
 
@@ -112,8 +112,8 @@ def test_an_elastic_jump_is_found_and_booked():
     out = [event for event in result.events if event.kind == "jump out of contact"]
     assert len(out) == 1
     # 0.3666 from runs refined in mesh and steps
-    assert result.energy["jumps"][-1] == pytest.approx(0.3666, rel=0.02, abs=0)
-    assert result.energy["heat"][-1] == 0.0
+    assert result.energy.jumps[-1] == pytest.approx(0.3666, rel=0.02, abs=0)
+    assert result.energy.heat[-1] == 0.0
 
 
 def test_plain_twin_starts_by_depth_only_and_says_when_newton_fails():

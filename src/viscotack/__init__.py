@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     from .protocol import MoveTo as MoveTo
     from .protocol import Retract as Retract
     from .protocol import Retraction as Retraction
+    from .result import Energies as Energies
     from .result import Event as Event
     from .result import Outcome as Outcome
     from .result import Result as Result
@@ -130,7 +131,7 @@ _NAMES = {
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),
     "bem": ("solve", "SimulationError"),
-    "result": ("Result", "Event", "Outcome", "save", "load", "columns", "write_csv"),
+    "result": ("Result", "Energies", "Event", "Outcome", "save", "load", "columns", "write_csv"),
     "result.observables": (
         "Observable",
         "PullOff",

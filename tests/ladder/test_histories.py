@@ -263,11 +263,11 @@ def test_an_approaching_sphere_jumps_into_contact(tabor):
     assert jump_in.depth > jump_out.depth
     assert jump_in.energy > 0 and jump_out.energy > 0
     assert result.energy is not None
-    booked = float(result.energy["jumps"][-1])
+    booked = float(result.energy.jumps[-1])
     # what the loop has cost an elastic solid is what the jumps lost, less the interface left
     assert booked == pytest.approx(jump_in.energy + jump_out.energy, rel=0.02, abs=0)
-    spent = float(result.energy["drive"][-1])
-    left = result.energy["interface"][-1] - result.energy["interface"][0]
+    spent = float(result.energy.drive[-1])
+    left = result.energy.interface[-1] - result.energy.interface[0]
     assert spent == pytest.approx(booked + left, rel=0.05, abs=0.05)
 
 

@@ -61,12 +61,12 @@ def test_energy_audit_of_a_punch_closes_with_every_term_at_work():
     result = run(until="detached", thickness=32.42, rate=10.0)
     energy = result.energy
     assert energy is not None
-    stored = energy["elastic"] + energy["interface"]
-    balance = energy["drive"] - (stored - stored[0]) - energy["heat"]
-    balance -= energy["jumps"] + energy["transfer"]
-    assert np.max(np.abs(balance)) < 1e-3 * np.max(np.abs(energy["drive"]))
+    stored = energy.elastic + energy.interface
+    balance = energy.drive - (stored - stored[0]) - energy.heat
+    balance -= energy.jumps + energy.transfer
+    assert np.max(np.abs(balance)) < 1e-3 * np.max(np.abs(energy.drive))
     assert result.energy_residual is not None and result.energy_residual < 1e-3
-    assert energy["heat"][-1] > 1 and energy["jumps"][-1] > 0
+    assert energy.heat[-1] > 1 and energy.jumps[-1] > 0
 
 
 def test_work_of_a_punch_is_its_curve_in_units_of_the_work_of_adhesion():

@@ -113,13 +113,13 @@ def test_energy_audit_closes_with_every_term_at_work():
     energy = result.energy
     assert energy is not None and result.energy_residual is not None
     assert result.energy_residual < 1e-3
-    stored = energy["elastic"] + energy["interface"]
-    balance = energy["drive"] - (stored - stored[0]) - energy["heat"]
-    balance -= energy["jumps"] + energy["transfer"]
-    assert np.max(np.abs(balance)) < 1e-3 * np.max(np.abs(energy["elastic"]))
-    assert np.all(np.diff(energy["heat"]) > 0)
-    assert energy["heat"][-1] == pytest.approx(energy["mode_heat"].sum(), rel=1e-12, abs=0)
-    assert energy["heat"][-1] > 1.0
+    stored = energy.elastic + energy.interface
+    balance = energy.drive - (stored - stored[0]) - energy.heat
+    balance -= energy.jumps + energy.transfer
+    assert np.max(np.abs(balance)) < 1e-3 * np.max(np.abs(energy.elastic))
+    assert np.all(np.diff(energy.heat) > 0)
+    assert energy.heat[-1] == pytest.approx(energy.mode_heat.sum(), rel=1e-12, abs=0)
+    assert energy.heat[-1] > 1.0
 
 
 def test_the_answer_does_not_depend_on_the_units():
@@ -324,8 +324,8 @@ def test_moving_the_mesh_changes_next_to_nothing():
     assert pull_off_force(moving) == pytest.approx(pull_off_force(still), rel=1e-3, abs=0)
     energy = moving.energy
     assert energy is not None
-    lost = np.abs(np.diff(energy["transfer"])).sum()
-    assert lost < 2e-3 * np.max(np.abs(energy["elastic"]))
+    lost = np.abs(np.diff(energy.transfer)).sum()
+    assert lost < 2e-3 * np.max(np.abs(energy.elastic))
 
 
 # --- the plain twin and other programs ------------------------------------------------------

@@ -134,20 +134,20 @@ class Door:
             for word, words in _MATERIALS.items()
         )
         asked = [
-            *(Question(name, _sentence(card, "")) for name, card in self.numbers.items()),
+            *(Question(name, question_of(card, "")) for name, card in self.numbers.items()),
             *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
-            Question("modulus-ratio", _sentence(card_of(ModulusRatio), "")),
-            Question("exponent", _sentence(_SOLID["exponent"].card, "")),
+            Question("modulus-ratio", question_of(card_of(ModulusRatio), "")),
+            Question("exponent", question_of(_SOLID["exponent"].card, "")),
         ]
         for number, name in enumerate(self.starts):
             (field,) = cards(STARTS[name]).values()
-            words = _sentence(field.card, self.units[field.card.measure])
+            words = question_of(field.card, self.units[field.card.measure])
             asked.append(Question(name, f"Or: {words[0].lower()}{words[1:]}" if number else words))
         test = cards(Groups)
         asked += [
             Question("move", _MOVES, text=True, many=True),
-            Question("stiffness", _sentence(test["stiffness"].card, self.units["stiffness"])),
+            Question("stiffness", question_of(test["stiffness"].card, self.units["stiffness"])),
             Question(
                 "rate",
                 f"Retraction speed, in {self.units['speed']} (prony: h0 per unit of time); with "
@@ -157,17 +157,18 @@ class Door:
         ]
         if self.in_si:
             asked += [
-                Question(name, f"For answers in SI as well: {_sentence(card, '')}", text=True)
+                Question(name, f"For answers in SI as well: {question_of(card, '')}", text=True)
                 for name, card in SCALES.items()
             ]
         return tuple(asked)
 
 
-def _sentence(card: Quantity, unit: str) -> str:
+def question_of(card: Quantity, unit: str = "") -> str:
     """Return what a card asks, its unit, its range and an example."""
     head, comma, rest = card.words.partition(",")
     words = f"{head[0].upper()}{head[1:]}" + (f", in {unit}" if unit else "") + comma + rest
-    words += f" ({card.symbol}); must {card.range}" if card.bounded and not unit else ""
+    symbol = f" ({card.symbol})" if card.symbol else ""
+    words += f"{symbol}; must {card.range}" if card.bounded and not unit else ""
     return words + (f', for example "{card.example}"' if card.example and not unit else "") + "."
 
 

@@ -1,6 +1,6 @@
 """Simulation: boundary elements in space, retardation modes in time, tractions across the gap."""
 
-from viscotack.bem.settings import Settings
+from viscotack.bem.settings import DEFAULT_ACCURACY, Accuracy, Settings
 from viscotack.bem.solver import SimulationError, has_start, solve
 
-__all__ = ["Settings", "SimulationError", "has_start", "solve"]
+__all__ = ["DEFAULT_ACCURACY", "Accuracy", "Settings", "SimulationError", "has_start", "solve"]

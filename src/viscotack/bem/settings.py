@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 
 from viscotack.bem.mesh import Grading
-from viscotack.errors import InputError
+from viscotack.cards import Quantity, card_of
 from viscotack.traction import LennardJones, Traction, softening
 
 # The accuracy at which the numbers of Settings.for_accuracy are stated.
@@ -19,6 +20,19 @@ _FEWEST_NODES = 2.5
 _SOFTENING = softening(LennardJones(1.0, 1.0))
 # Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
 _SCAR_ZONES = 2.0
+
+
+Accuracy = Annotated[
+    float,
+    Quantity(
+        "1",
+        "",
+        "accuracy wanted of the pull-off force, relative",
+        least=1e-6,
+        most=LOOSEST_ACCURACY,
+        example="2e-3",
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -72,11 +86,7 @@ class Settings:
     @classmethod
     def for_accuracy(cls, accuracy: float) -> Settings:
         """Return the settings that keep the pull-off force within this relative error."""
-        if not 1e-6 <= accuracy <= LOOSEST_ACCURACY:
-            raise InputError(
-                f"accuracy must be between 1e-6 and {LOOSEST_ACCURACY} (relative, on the pull-off "
-                f"force), got {accuracy}"
-            )
+        accuracy = card_of(Accuracy).checked("accuracy", accuracy)
         s = float(np.sqrt(accuracy / DEFAULT_ACCURACY))
         return cls(
             accuracy=accuracy,

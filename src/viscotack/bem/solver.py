@@ -23,7 +23,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
-from viscotack.result import Outcome, Result, receding_speed
+from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 
 _UNTIL = ("pull-off", "detached")
@@ -150,7 +150,7 @@ def has_start(problem: Case) -> bool:
         try:
             groups = problem.groups()
             contact_of(groups).relaxed(groups.start, Settings.for_accuracy(LOOSEST_ACCURACY))
-        except ValueError:
+        except InputError:
             return False
     return True
 
@@ -245,17 +245,17 @@ def _result(
             "nodes": history.nodes,
             "modes": len(modes.weights),
         },
-        energy={
-            "drive": np.array([b.drive for b in books]),
-            "elastic": np.array([s.elastic for s in states]),
-            "interface": np.array([s.interface for s in states]),
-            "spring": np.array([s.spring for s in states]),
-            "heat": heat.sum(axis=1),
-            "jumps": np.array([b.jumps for b in books]),
-            "transfer": np.array([b.transfer for b in books]),
-            "mode_time": np.array(modes.times),
-            "mode_heat": heat[-1],
-        },
+        energy=Energies(
+            drive=np.array([b.drive for b in books]),
+            elastic=np.array([s.elastic for s in states]),
+            interface=np.array([s.interface for s in states]),
+            spring=np.array([s.spring for s in states]),
+            heat=heat.sum(axis=1),
+            jumps=np.array([b.jumps for b in books]),
+            transfer=np.array([b.transfer for b in books]),
+            mode_time=np.array(modes.times),
+            mode_heat=heat[-1],
+        ),
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
     ).posed(groups)

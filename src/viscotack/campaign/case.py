@@ -8,20 +8,21 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any, cast
+from typing import Annotated, Any, cast
 
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from viscotack.bem import DEFAULT_ACCURACY, Accuracy, solve
+from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 
-from ..bem import solve
 from ..result import Outcome, Result
 from .limits import LimitExceeded, Watch, peak_memory
 
@@ -53,21 +54,23 @@ class CaseSettings:
         Python files with laws, materials, shapes and observables of the user's own.
     """
 
-    accuracy: float = 2e-3
+    accuracy: Accuracy = DEFAULT_ACCURACY
     until: str = "pull-off"
-    time_limit: float = 600.0
-    memory_limit: float = 400e6
+    time_limit: Annotated[
+        float,
+        Quantity("s", "t", "longest time of a case", above=0, example="10 min"),
+    ] = 600.0
+    memory_limit: Annotated[
+        float,
+        Quantity("byte", "M", "most memory of a case beside its worker", above=0, example="400 MB"),
+    ] = 400e6
     own: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.until not in ("detached", "pull-off"):
             raise InputError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
-        if not 1e-6 <= self.accuracy <= 0.02:
-            raise InputError(f"accuracy must be between 1e-6 and 0.02, got {self.accuracy!r}")
+        conform(self)
         object.__setattr__(self, "own", tuple(str(path) for path in self.own))
-        for name, unit in (("time_limit", "s"), ("memory_limit", "bytes")):
-            if not getattr(self, name) > 0:
-                raise InputError(f"{name} must be positive, got {getattr(self, name)!r} {unit}")
 
 
 Work = Callable[[Any, CaseSettings], dict[str, Any]]
@@ -124,7 +127,7 @@ def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
         failure, reason = "memory limit", f"the machine has no more memory: {error}"
     except Unsolved as error:
         failure, reason = "stopped", str(error)
-    except ValueError as error:
+    except InputError as error:
         failure, reason = "refused", str(error)
     except Exception as error:
         failure, reason = "crashed", f"{type(error).__name__}: {error}"

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
@@ -16,7 +17,7 @@ from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import own_nouns
 from viscotack.problem.record import from_dict, run_id, to_dict
 
-from ..units import parse, positive
+from ..units import parse
 from .case import CaseSettings
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import accepted, fill, grid
@@ -298,13 +299,12 @@ def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSetting
     names = [field.name for field in fields(CaseSettings) if field.name != "own"]
     if not isinstance(given, dict) or given.keys() - set(names):
         raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
-    units = {"accuracy": "1", "time_limit": "s", "memory_limit": "byte"}
     values = dict(given) | dict(changed)
-    for name, unit in units.items():
+    for name, field in cards(CaseSettings).items():
         if name in values:
             try:
-                values[name] = positive(name, parse(values[name], unit), unit)
-            except ValueError as error:
+                values[name] = parse(values[name], field.card.unit)
+            except InputError as error:
                 raise InputError(f"{path}, [settings] {name}: {error}") from None
     try:
         return CaseSettings(**values)

@@ -84,11 +84,10 @@ def draw_energy(result: Result) -> "Figure":
     with _style():
         figure = _figure(figsize=(13.0, 5.2))
         left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
-        left.plot(depth, energy["drive"] * factor, color="k", label="work of the drive")
+        left.plot(depth, energy.drive * factor, color="k", label="work of the drive")
         for name, words in _ENERGIES.items():
-            if name not in energy:
-                continue
-            series = (energy[name] - energy[name][0]) * factor
+            values = getattr(energy, name)
+            series = (values - values[0]) * factor
             if np.any(series != 0):
                 left.plot(depth, series, label=words)
         left.invert_xaxis()  # time goes to the right
@@ -97,7 +96,7 @@ def draw_energy(result: Result) -> "Figure":
         left.legend()
         scales = result.scales
         factor_time, unit_time = (1.0, "/ time unit") if scales is None else (scales.time, "[s]")
-        times, heat = energy["mode_time"] * factor_time, energy["mode_heat"] * factor
+        times, heat = energy.mode_time * factor_time, energy.mode_heat * factor
         right.vlines(times, 0, heat, color="C2", lw=6)
         right.set_xscale("log")
         right.set_ylim(bottom=0)
@@ -266,7 +265,7 @@ def _mark_pull_off(
 def _work_unit(result: Result) -> tuple[float, str]:
     """Return the factor and the unit in which energies are drawn."""
     kind = result.problem.outputs
-    work = (result.energy or {})["drive"]
+    work = np.zeros(1) if result.energy is None else result.energy.drive
     factor = kind.energy_factor(result.groups)
     return _drawn(result, work, factor, kind.energy)
 

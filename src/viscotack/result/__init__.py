@@ -1,5 +1,16 @@
 """What a simulation returns, its numbers, and how it is kept."""
 
+from .energies import Energies
 from .result import Event, Outcome, Result, columns, load, receding_speed, save, write_csv
 
-__all__ = ["Event", "Outcome", "Result", "columns", "load", "receding_speed", "save", "write_csv"]
+__all__ = [
+    "Energies",
+    "Event",
+    "Outcome",
+    "Result",
+    "columns",
+    "load",
+    "receding_speed",
+    "save",
+    "write_csv",
+]

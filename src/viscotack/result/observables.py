@@ -150,7 +150,7 @@ def work_of_separation(result: Result) -> float:
             f"the surfaces have not separated, the run ended: {result.status}; "
             "solve with until='detached'"
         )
-    interface = (result.energy or {}).get("interface", np.zeros(1))
+    interface = np.zeros(1) if result.energy is None else result.energy.interface
     left = -float(interface[-1]) if interface[0] < 0 else 0.0
     return _given(result, _work(result, pull_off(result), until=-float(result.depth[-1])) + left)
 

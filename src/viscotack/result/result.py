@@ -31,6 +31,7 @@ from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
 from viscotack.problem.record import UnknownNoun, from_dict, to_dict
+from viscotack.result.energies import Energies
 from viscotack.units import finite
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
@@ -119,9 +120,8 @@ class Result:
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
     error_estimate : dict or None
         Relative error of ``force`` and ``work`` at pull-off; None while there is no estimate.
-    energy : dict of ndarray, or None
-        Energies over the run in work units, such as drive, elastic, interface, heat, jumps.
-        The interface energy is negative in contact and 0 far apart.
+    energy : Energies or None
+        Where the work of the drive has gone, at every step.
     energy_residual : float or None
         Largest imbalance of the energies over the largest term so far.
     fields : dict of ndarray, or None
@@ -140,7 +140,7 @@ class Result:
     events: tuple[Event, ...] = ()
     statistics: Mapping[str, float] = field(default_factory=dict)
     error_estimate: Mapping[str, float] | None = None
-    energy: Mapping[str, npt.NDArray[np.float64]] | None = None
+    energy: Energies | None = None
     energy_residual: float | None = None
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
     versions: Mapping[str, str] = field(default_factory=_versions)
@@ -148,10 +148,9 @@ class Result:
     def __post_init__(self) -> None:
         for name in _SERIES:
             object.__setattr__(self, name, _frozen(getattr(self, name)))
-        for name in ("energy", "fields"):
-            if getattr(self, name) is not None:
-                arrays = {k: _frozen(v) for k, v in getattr(self, name).items()}
-                object.__setattr__(self, name, arrays)
+        if self.fields is not None:
+            arrays = {k: _frozen(v) for k, v in self.fields.items()}
+            object.__setattr__(self, "fields", arrays)
         object.__setattr__(self, "events", tuple(self.events))
         self._check()
 
@@ -277,8 +276,9 @@ def save(result: Result, path: Target) -> None:
         "fields": result.fields is not None,
     }
     arrays = {name: getattr(result, name) for name in _SERIES}
-    for group in ("energy", "fields"):
-        arrays |= {f"{group}/{k}": v for k, v in (getattr(result, group) or {}).items()}
+    if result.energy is not None:
+        arrays |= {f"energy/{k}": v for k, v in vars(result.energy).items()}
+    arrays |= {f"fields/{k}": v for k, v in (result.fields or {}).items()}
     text = np.array(json.dumps(header))
     content = io.BytesIO()
     np.savez_compressed(content, allow_pickle=False, header=text, **arrays)
@@ -344,7 +344,7 @@ def _from_parts(
         events=tuple(Event(**event) for event in header["events"]),
         statistics=header["statistics"],
         error_estimate=header["error_estimate"],
-        energy=group("energy"),
+        energy=None if (found := group("energy")) is None else Energies(**found),
         energy_residual=header["energy_residual"],
         fields=group("fields"),
         versions=header["versions"],

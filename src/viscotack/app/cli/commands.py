@@ -19,7 +19,9 @@ from typer import Argument, Context, Option
 
 from viscotack import __version__
 from viscotack.app.cli.asking import answers, asking
-from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, stated
+from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, question_of, stated
+from viscotack.bem import settings
+from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone
 from viscotack.pictures import plot
@@ -89,9 +91,8 @@ HowFar = Annotated[
     Until,
     Option("--until", help="Stop just past the force minimum, or when the surfaces are apart."),
 ]
-Accuracy = Annotated[
-    float, Option("--accuracy", metavar="RELATIVE", help="Accuracy wanted of the pull-off force.")
-]
+_ACCURACY = question_of(card_of(settings.Accuracy))
+Accuracy = Annotated[float, Option("--accuracy", metavar="RELATIVE", help=_ACCURACY)]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
 ]

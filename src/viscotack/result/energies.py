@@ -1,0 +1,45 @@
+"""The books of a run: where the work of the drive has gone, at every step."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Energies:
+    """Energies over a run, in the unit of work [1.5 pi R Delta-gamma_0 h_0; a punch sigma_0 h_0].
+
+    Drive work = change of spring, elastic and interface energy + heat + jumps + transfer.
+
+    Attributes
+    ----------
+    drive : ndarray, shape (n,)
+        Work of the drive so far.
+    elastic, interface, spring : ndarray, shape (n,)
+        Stored in the solid, across the gap (negative in contact, 0 far apart), in the machine.
+    heat : ndarray, shape (n,)
+        Made in the solid so far, summed from its modes.
+    jumps, transfer : ndarray, shape (n,)
+        Lost so far in jumps, and in moving from mesh to mesh.
+    mode_time, mode_heat : ndarray, shape (m,)
+        Retardation time of each mode [time unit], and the heat it made in all.
+    """
+
+    drive: Array
+    elastic: Array
+    interface: Array
+    spring: Array
+    heat: Array
+    jumps: Array
+    transfer: Array
+    mode_time: Array
+    mode_heat: Array
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            values = np.array(getattr(self, field.name), dtype=float)
+            values.setflags(write=False)
+            object.__setattr__(self, field.name, values)
