@@ -1,15 +1,14 @@
 """Round-off decides nothing: a march under noise has the outcome and the events of one without."""
 
 import pytest
-from viscotack.observables import pull_off_force
-from viscotack.profile_problem import ProfileGroups
-from viscotack.punch_problem import PunchGroups
 
 from noise import noise
 from viscotack.bem import march, solve
+from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
-from viscotack.problem import Groups
+from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.result.observables import pull_off_force
 from viscotack.traction import Dugdale
 
 pytestmark = pytest.mark.march
@@ -49,9 +48,8 @@ def punch(start, *moves, rate=None, thickness=3.24, material=SOLID, **options):
 
 
 def cone(rate, material=SOLID, exponent=1.0):
-    return ProfileGroups(
-        tabor=2.0, material=material, start=AtDepth(5.0), rate=rate, profile_exponent=exponent
-    )
+    profile = PowerLawProfile(1 / exponent, exponent)
+    return Groups(tabor=2.0, material=material, start=AtDepth(5.0), rate=rate, geometry=profile)
 
 
 def behind_spring(stiffness, make=sphere, load=1.0, rate=1.0, **options):
