@@ -42,9 +42,13 @@ from typing import Any  # noqa: E402
 import numpy  # noqa: E402
 import scipy  # noqa: E402
 from threadpoolctl import threadpool_info  # noqa: E402
-from viscotack.cli import main as command_line  # noqa: E402
 
 import viscotack  # noqa: E402
+
+try:
+    from viscotack.app.cli import main as command_line
+except ImportError:  # what an old commit calls it
+    from viscotack.cli import main as command_line
 
 HERE = Path(__file__).parent / "unchanged"
 ANSWERS = HERE / "answers.json"
