@@ -71,7 +71,7 @@ def clipped(run: Run, at: Place) -> Place:
             dt = min(dt, at.ahead / abs(leg.rate))
     if dt > 0.999 * at.left > 0:
         dt = at.left
-    return replace(at, dt=dt)
+    return at if dt == at.dt else replace(at, dt=dt)
 
 
 def instant(run: Run, s: Step) -> bool:
