@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
 from viscotack.bem.books import Snapshot
-from viscotack.bem.contact import Contact, Relaxed
+from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step

@@ -15,7 +15,7 @@ import numpy as np
 
 from viscotack.bem.body import Body
 from viscotack.bem.books import Books, History, Lowest
-from viscotack.bem.contact import Contact, Relaxed
+from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
 from viscotack.bem.machine import Leg
 from viscotack.bem.memory import step

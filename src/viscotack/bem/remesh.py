@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.bem.body import Body, State
-from viscotack.bem.contact import Contact
+from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.equilibrium import Balance
 from viscotack.bem.place import Place
 
