@@ -14,7 +14,7 @@ import numpy as np
 from cases import spread, spread_out, words
 
 from viscotack import AtDepth, Groups, pull_off_depth, pull_off_force, solve, work_to_pull_off
-from viscotack.bem.plain import plain_solve
+from viscotack.bem.twins.plain import plain_solve
 
 CONVERGED = 1e-4
 # The plain twin is at hand where its equal nodes and steps resolve the case.

@@ -38,7 +38,7 @@ from viscotack import (
     solve,
     work_of_separation,
 )
-from viscotack.bem.plain_punch import plain_solve
+from viscotack.bem.twins.plain_punch import plain_solve
 from viscotack.theory.punch import Pad, regime_map
 from viscotack.theory.punch import crossover as exact_curve
 

@@ -49,6 +49,11 @@ from threadpoolctl import threadpool_info  # noqa: E402
 import viscotack  # noqa: E402
 from viscotack.__main__ import main as command_line  # noqa: E402
 
+try:
+    from viscotack.app.cli import main as command_line
+except ImportError:  # what an old commit calls it
+    from viscotack.cli import main as command_line
+
 HERE = Path(__file__).parent / "unchanged"
 ANSWERS = HERE / "answers.json"
 # Differs between two runs of one package, or names it.

@@ -9,7 +9,9 @@ from unittest.mock import patch
 
 import numpy as np
 
-from viscotack.bem import equilibrium, halfspace, punch
+from viscotack.bem import equilibrium
+from viscotack.bem.bodies import halfspace
+from viscotack.bem.contacts import punch
 
 
 @contextmanager

@@ -161,6 +161,13 @@ def test_no_theory_imports_from_a_later_wing_or_from_the_door_of_them_all():
     assert [name for name in behind if name.startswith("theory.")] == []
 
 
+def test_the_twins_of_the_solver_share_nothing_with_it():
+    solver = within(graph(PACKAGE), "bem")
+    twins = {name for name in solver if name.split(".")[0] == "twins"}
+    assert twins == {"twins", "twins.plain", "twins.plain_punch"}
+    assert set().union(*(solver[name] for name in twins)) & solver.keys() <= twins
+
+
 def test_no_public_name_of_a_room_hides_a_module_of_it():
     # `import viscotack.bem.solve as s` once gave a function
     for path in PACKAGE.rglob("__init__.py"):

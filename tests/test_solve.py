@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
-from viscotack.bem.plain import plain_solve
+from viscotack.bem.twins.plain import plain_solve
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius

@@ -7,7 +7,7 @@ import pytest
 from scipy.special import sici, xlogy
 
 from reference_data import VALUES
-from viscotack.bem.layer import layer_influence, nodal_lengths
+from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.theory.punch import crossover
 

@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import quad
 
 from viscotack.bem import Settings, solve
-from viscotack.bem.profile import ProfileContact
-from viscotack.bem.sphere import SphereContact
+from viscotack.bem.contacts.profile import ProfileContact
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups

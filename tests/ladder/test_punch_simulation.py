@@ -9,9 +9,9 @@ from threadpoolctl import threadpool_limits
 
 from reference_data import VALUES
 from viscotack.bem import Settings, solve
-from viscotack.bem.layer import layer_influence
-from viscotack.bem.plain_punch import plain_solve, triangle_matrix
-from viscotack.bem.punch import PunchContact
+from viscotack.bem.bodies.layer import layer_influence
+from viscotack.bem.contacts.punch import PunchContact
+from viscotack.bem.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Problem, PunchGroups

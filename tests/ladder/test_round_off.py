@@ -3,7 +3,7 @@
 import pytest
 
 from noise import noise
-from viscotack.bem import march, solve
+from viscotack.bem import jumps, solve
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
@@ -48,13 +48,8 @@ def punch(start, *moves, rate=None, thickness=3.24, material=SOLID, **options):
 
 
 def cone(rate, material=SOLID, exponent=1.0):
-    return Groups(
-        tabor=2.0,
-        material=material,
-        start=AtDepth(5.0),
-        rate=rate,
-        geometry=PowerLawProfile(1 / exponent, exponent),
-    )
+    profile = PowerLawProfile(1 / exponent, exponent)
+    return Groups(tabor=2.0, material=material, start=AtDepth(5.0), rate=rate, geometry=profile)
 
 
 def behind_spring(stiffness, make=sphere, load=1.0, rate=1.0, **options):
@@ -170,7 +165,7 @@ def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
     # just past the end of its branch this one takes more than 40 iterations, hundreds if need be
     case = behind_spring(1e-3, material=ELASTIC)
     patient = solve(case, accuracy=5e-3, estimate_error=False)
-    monkeypatch.setattr(march, "_PATIENCE", 40)
+    monkeypatch.setattr(jumps, "_PATIENCE", 40)
     hasty = solve(case, accuracy=5e-3, estimate_error=False)
     assert hasty.statistics["newton_iterations"] > patient.statistics["newton_iterations"]
     assert [e.kind for e in hasty.events] == ["jump out of contact"]

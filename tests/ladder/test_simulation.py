@@ -7,11 +7,11 @@ import pytest
 
 from reference_data import VALUES
 from viscotack.bem import Settings, solve
-from viscotack.bem.halfspace import half_space, influence, nodal_areas
-from viscotack.bem.layer import layer_influence, nodal_lengths
+from viscotack.bem.bodies.halfspace import half_space, influence, nodal_areas
+from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.memory import Memory, step
-from viscotack.bem.plain import hat_matrix, mean_compliance, plain_solve
 from viscotack.bem.surface import stiffness
+from viscotack.bem.twins.plain import hat_matrix, mean_compliance, plain_solve
 from viscotack.geometry import Frictionless
 from viscotack.materials import Elastic, Modes, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem import Settings, solve
-from viscotack.bem.sphere import SphereContact
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.materials import Elastic
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth

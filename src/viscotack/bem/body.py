@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
 from viscotack.bem.books import Snapshot
-from viscotack.bem.contact import Contact, Relaxed
+from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
@@ -25,11 +25,15 @@ _LEAST_GAP = 0.8
 
 @dataclass(frozen=True, eq=False)
 class Rates:
-    """Rates of change over the last step; they only serve to predict the next."""
+    """Rates of change over the last step; they only serve to predict the next.
+
+    At rest they are zero and not known: no step is judged by them.
+    """
 
     relaxed: npt.NDArray
     edge: float
     gap: npt.NDArray  # in the frame of the moving edge
+    known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +53,8 @@ class State:
 class Trial:
     """A step that was tried: the state after it, and how good it is.
 
-    The error is that of a pressure linear in time, as a displacement [h0]; infinite where no stable
-    equilibrium was found.
+    The error is that of a pressure linear in time, as a displacement [h0]; zero where the rates
+    before the step are not known, infinite where no stable equilibrium was found.
     """
 
     after: State
@@ -103,7 +107,7 @@ class Body:
         moved = surface.edge(gap, law.edge_gap) - state.seen.edge
         moved = 0.0 if np.isnan(moved) else moved
         change = e - state.relaxed
-        error = s.curvature * float(np.max(np.abs(change - s.length * state.rates.relaxed)))
+        bend = float(np.max(np.abs(change - s.length * state.rates.relaxed)))
         rates = Rates(
             relaxed=change / s.length,
             edge=moved / s.length,
@@ -112,7 +116,7 @@ class Body:
         memory = state.memory.advanced(s, state.relaxed, e, state.nodal, nodal)
         time = state.seen.time + s.length
         after = self._state(time, balance, hold, surface, e, memory, rates)
-        error = error if balance.stable else np.inf
+        error = (s.curvature * bend if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released)
 
     def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | Balance:
@@ -135,8 +139,8 @@ class Body:
         if not balance.stable:
             return balance
         e = (balance.gap - free + balance.depth) / c
-        old_rates = state.rates
-        rates = Rates(carried(old_rates.relaxed), old_rates.edge, carried(old_rates.gap))
+        rates = state.rates
+        rates = replace(rates, relaxed=carried(rates.relaxed), gap=carried(rates.gap))
         return self._state(state.seen.time, balance, hold, surface, e, memory, rates)
 
     def stopped(self, state: State, hold: Hold) -> State:
@@ -195,7 +199,7 @@ def _machine(hold: Hold, unit: float, depth: float, force: float) -> tuple[float
 
 def _at_rest(gap: npt.NDArray) -> Rates:
     zero = np.zeros_like(gap)
-    return Rates(zero, 0.0, zero)
+    return Rates(zero, 0.0, zero, known=False)
 
 
 def _shifted(state: State, distance: float) -> npt.NDArray:

@@ -1,8 +1,8 @@
-"""What a run keeps of each step: where it was, and where the work of the drive went."""
+"""What a march keeps of each step: where it was, and where the work of the drive went."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,9 @@ from viscotack.result import Event
 # The imbalance of the energies is measured by their largest term, but by no less than this: at the
 # start all of them are zero [output force times h0].
 SMALLEST_ENERGY = 0.1
+# Pull-off is behind when the force has risen again by this part of its minimum and of the unit of
+# force: a force that has just become tensile is as large as what nodes add to it.
+_RISEN = 0.03
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,11 @@ class Books:
     jumps: float = 0.0
     transfer: float = 0.0
 
+    def entered(self, before: Snapshot, after: Snapshot, heat: npt.NDArray) -> Books:
+        """Return the books after a step that has left heat, before anything is said of jumps."""
+        work = 0.5 * (before.force + after.force) * (after.drive - before.drive)
+        return replace(self, drive=self.drive + work, heat=self.heat + heat)
+
     def imbalance(self, start: Snapshot, now: Snapshot) -> float:
         """Return the drive work that is nowhere to be found."""
         stored = now.stored - start.stored
@@ -56,6 +64,23 @@ class Books:
         )
         terms = (self.drive, *stored, float(self.heat.sum()), self.jumps, self.transfer)
         return max(abs(term) for term in terms)
+
+
+@dataclass(frozen=True)
+class Lowest:
+    """The least force of a leg so far, and how many steps have been made since."""
+
+    force: float = np.inf
+    since: int = 0
+
+    def after(self, force: float) -> Lowest:
+        """Return the least force after one more step."""
+        return Lowest(force) if force < self.force else replace(self, since=self.since + 1)
+
+    def behind(self, force: float) -> bool:
+        """Return whether this was the pull-off, for the force at present."""
+        risen = min(force, 0.0) - self.force
+        return self.since > 2 and risen > _RISEN * (abs(self.force) + 1)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.bem.contact import Contact, Relaxed
+from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.machine import Leg
 from viscotack.bem.settings import Settings
 from viscotack.protocol import (

@@ -11,6 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viscotack.bem.books import Snapshot
+
 
 @dataclass(frozen=True)
 class Hold:
@@ -67,12 +69,26 @@ class Leg:
     edge: float = np.nan
     least_step: float = 1.0
 
-    def beginning(self, drive: float, force: float) -> Leg:
-        """Return the leg with its rate, for a drive and a force at its beginning."""
+    def beginning(self, began: Snapshot) -> Leg:
+        """Return the leg with its rate, for the instant at which it begins."""
         if not np.isnan(self.rate):
             return self
-        now = force if self.dead_load else drive
+        now = began.force if self.dead_load else began.drive
         return replace(self, rate=(self.drive - now) / self.duration)
+
+    def hold(self, began: Snapshot, elapsed: float, unit: float) -> Hold:
+        """Return what is imposed a time after the beginning, for a unit of force of the surface."""
+        if self.dead_load:
+            return Hold(0.0, load=(began.force + self.rate * elapsed) / unit)
+        if self.rigid:
+            return Hold(np.inf, depth=began.depth + self.rate * elapsed)
+        k = self.stiffness / unit
+        return Hold(k, load=k * (began.drive + self.rate * elapsed))
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the depth is imposed."""
+        return bool(np.isinf(self.stiffness))
 
     @property
     def dead_load(self) -> bool:
@@ -89,9 +105,9 @@ class Leg:
         """Whether the contact may come apart in it: it is being opened, or hangs on a load."""
         return self.outwards or self.dead_load
 
-    def missing(self, depth: float, force: float, edge: float) -> float:
+    def missing(self, now: Snapshot) -> float:
         """Return how far the nearest of the ends is; not positive where one of them is reached."""
         way = -1.0 if self.outwards else 1.0
-        edge = 0.0 if np.isnan(edge) else edge
-        ends = (self.depth - depth, self.force - force, self.edge - edge)
+        edge = 0.0 if np.isnan(now.edge) else now.edge
+        ends = (self.depth - now.depth, self.force - now.force, self.edge - edge)
         return min((way * x for x in ends if not np.isnan(x)), default=np.inf)

@@ -100,3 +100,53 @@ class Grading:
             step = self.spacing + self.growth_outside * points[-1]
             points.append(points[-1] + min(step, self.scar_spacing + self.growth_outside * left))
         return start + np.array(points[1:-1]) * (length / points[-1])
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """The nodes that a march is on, and those that it may be on.
+
+    Attributes
+    ----------
+    finest, opening : Grading, float
+        Grading for the first crack, and the length over which its gap opens by h0.
+    lattice : float
+        Place around which the lattice of fine nodes lies, and the scar: where the edge began to
+        recede.
+    grading : Grading
+        Grading of the present nodes.
+    edge : float
+        Edge for which nodes were made, or asked for in vain, the last time.
+    """
+
+    finest: Grading
+    opening: float
+    lattice: float
+    grading: Grading
+    edge: float
+
+    def around(self, edge: float, opening: float) -> Mesh:
+        """Return the mesh around an edge for the length over which the gap opens there.
+
+        Its fine zone stays within a third of the edge.
+        """
+        factor = min(opening / self.opening, edge / (3 * self.finest.half_width))
+        grading = self.finest
+        if factor >= 2:
+            grading = grading.widened(2.0 ** np.floor(np.log2(factor)))
+        return replace(self, grading=grading, edge=edge)
+
+    def nodes(self) -> npt.NDArray:
+        """Return the nodes, from 0 outwards."""
+        return self.grading.nodes(self.edge, self.lattice)
+
+    def left_by(self, edge: float) -> bool:
+        """Return whether an edge is half out of the fine nodes, and not about to vanish."""
+        away = abs(edge - self.edge) > 0.5 * self.grading.half_width
+        return away and edge > 2 * self.grading.spacing
+
+    def strain(self, before: float, after: float) -> float:
+        """Return 1 where the edge goes so far in a step that it might leave the fine nodes."""
+        if not (before > 2 * self.grading.spacing and after > 0):
+            return 0.0
+        return ((after - before) / (0.4 * self.grading.half_width)) ** 2

@@ -10,15 +10,15 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
-from viscotack.bem.contact import Contact
+from viscotack.bem.contacts.contact import Contact
+from viscotack.bem.contacts.profile import ProfileContact
+from viscotack.bem.contacts.punch import PunchContact
+from viscotack.bem.contacts.shape import ShapeContact
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
-from viscotack.bem.profile import ProfileContact
-from viscotack.bem.punch import PunchContact
 from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
-from viscotack.bem.shape import ShapeContact
-from viscotack.bem.sphere import SphereContact
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes

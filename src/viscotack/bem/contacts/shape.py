@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq, minimize_scalar
 
-from viscotack.bem.halfspace import half_space
-from viscotack.bem.sphere import SphereContact
+from viscotack.bem.bodies.halfspace import half_space
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
 from viscotack.geometry import Shape
@@ -30,7 +30,7 @@ _LEAST, _MOST = 1e-6, 1e9
 
 @dataclass(frozen=True)
 class ShapeContact(SphereContact):
-    """A reduced shape of revolution; see :class:`viscotack.bem.contact.Contact`."""
+    """A reduced shape of revolution; see :class:`viscotack.bem.contacts.contact.Contact`."""
 
     shape: Shape
 
@@ -84,7 +84,7 @@ class ShapeContact(SphereContact):
         """Return the half-space with these nodes [beta].
 
         On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
-        has there: see :class:`viscotack.bem.profile.ProfileContact`.
+        has there: see :class:`viscotack.bem.contacts.profile.ProfileContact`.
         """
         r = nodes[-1]
         q = float(r * self.shape.flank(r) / self.shape.gap(r))

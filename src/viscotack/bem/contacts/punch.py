@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from viscotack.bem.contact import Relaxed
+from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
+from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.equilibrium import descend
-from viscotack.bem.layer import layer_influence, nodal_lengths
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings

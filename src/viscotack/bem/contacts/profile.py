@@ -18,15 +18,15 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 from scipy.special import hyp2f1
 
-from viscotack.bem.halfspace import half_space
-from viscotack.bem.sphere import SphereContact
+from viscotack.bem.bodies.halfspace import half_space
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.surface import Surface
 from viscotack.theory import profiles
 
 
 @dataclass(frozen=True)
 class ProfileContact(SphereContact):
-    """A tip z = A r^q of this Tabor number; see :class:`viscotack.bem.contact.Contact`."""
+    """A tip z = A r^q of this Tabor number; see :class:`viscotack.bem.contacts.contact.Contact`."""
 
     exponent: float
 

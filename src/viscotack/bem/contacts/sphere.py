@@ -17,9 +17,9 @@ import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq, minimize_scalar
 
-from viscotack.bem.contact import Relaxed
+from viscotack.bem.bodies.halfspace import half_space
+from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.equilibrium import descend
-from viscotack.bem.halfspace import half_space
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
@@ -42,7 +42,7 @@ _CENTRED = 0.25
 
 @dataclass(frozen=True)
 class SphereContact:
-    """A sphere of this Tabor number; see :class:`viscotack.bem.contact.Contact`.
+    """A sphere of this Tabor number; see :class:`viscotack.bem.contacts.contact.Contact`.
 
     What depends on the shape is in the methods up to `surface`; another shape has its own.
     """

@@ -1,0 +1,1 @@
+"""Soft bodies: the displacement of their surface under a pressure."""

@@ -1,0 +1,133 @@
+"""Where a branch of equilibrium ends: telling a jump from a step, and going after it.
+
+Drive work must reappear as elastic and interface energy and heat. Where it does not, however short
+the step and although the solid already answers as stiffly as it can, the branch has ended: the
+contact jumps to the next stable state downhill in energy, and what it loses is booked. Under a dead
+load there may be no such state: the contact is pulled apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from viscotack.bem.body import Trial
+from viscotack.bem.books import Snapshot
+from viscotack.bem.memory import Step, step
+from viscotack.bem.place import Place, Run
+from viscotack.bem.remesh import around_edge
+from viscotack.bem.steps import Attempt, arrived, force_change, instant, tried, weighed
+from viscotack.result import Event
+
+# The way down from the end of a branch may take so many iterations.
+_PATIENCE = 500
+# No equilibrium is there when none was found in so many steps, each twice as long as the last.
+_LOOKS = 8
+# What is lost on new nodes after a step that has lost nothing is a jump from so many times the
+# tolerated imbalance on.
+_CLEARLY = 5.0
+# After a jump the edge may be far from the fine nodes: so many meshes go after it.
+_MOST_MESHES = 200
+
+
+def shortest_step(run: Run, at: Place, s: Step) -> Place:
+    """Return where a step leads that can be no shorter: where that is too far, it is a jump."""
+    s, trial = _way_down(run, at, s)
+    if trial.released:
+        _let_go(run, at.seen, trial.after.seen.time)
+        return at
+    if trial.lost:  # however short the step, no equilibrium was found
+        run.history.outcome = "lost"
+        return at
+    attempt = weighed(run, at, s, trial)
+    after = _jumped(run, at, attempt) if attempt.too_long else arrived(at, attempt)
+    run.keep(after)
+    return after
+
+
+def followed(run: Run, at: Place) -> Place:
+    """Return the march with the fine nodes around its edge, what that costs being booked."""
+    moved = _on_new_nodes(run, at)
+    books, lost = moved.books, at.seen.stored - moved.seen.stored
+    if abs(moved.seen.force - at.seen.force) > force_change(run, moved):
+        # new nodes tipped it over the brink
+        run.history.events.append(_event(at.seen, moved.seen, lost))
+        return replace(moved, books=replace(books, jumps=books.jumps + lost))
+    return replace(moved, books=replace(books, transfer=books.transfer + lost))
+
+
+def _way_down(run: Run, at: Place, s: Step) -> tuple[Step, Trial]:
+    """Return the shortest step, or where it finds nothing one that looks from a little later on.
+
+    Where a branch has only just ended, the way down begins so flat that round-off decides how
+    many iterations it takes. Later it is steep; what the solid does meanwhile is next to
+    nothing, its compliance being the instantaneous one.
+    """
+    trial = tried(run, at, s, _PATIENCE)
+    at = replace(at, state=run.body.at_rest(at.state))
+    for _ in range(_LOOKS):
+        if not trial.lost:
+            break
+        longer = step(run.body.modes, 2 * s.length)
+        if not instant(run, longer) or longer.length > at.left:
+            break
+        s, trial = longer, tried(run, at, longer, _PATIENCE)
+    return s, trial
+
+
+def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
+    """Return the march after a jump: at rest, with fine nodes where the edge has come to be."""
+    missing, tolerated = attempt.missing, attempt.tolerated
+    # A jump loses energy. Where the step itself has lost none, and only went far, what new
+    # nodes cost must not look like one.
+    least = tolerated if missing > tolerated else _CLEARLY * tolerated
+    after = replace(
+        arrived(at, attempt),
+        state=run.body.at_rest(attempt.after),
+        books=replace(attempt.entry, jumps=attempt.entry.jumps + missing),
+        dt=at.leg.least_step,
+    )
+    for _ in range(_MOST_MESHES):
+        if not after.mesh.left_by(after.seen.edge):
+            break
+        now, after = after.seen, _on_new_nodes(run, after)
+        if after.seen is now:
+            break
+        missing += now.stored - after.seen.stored
+        jumps = after.books.jumps + now.stored - after.seen.stored
+        after = replace(after, books=replace(after.books, jumps=jumps))
+    if missing > least or (at.seen.edge > 0) != (after.seen.edge > 0):
+        run.history.events.append(_event(at.seen, after.seen, missing))
+    return after
+
+
+def _on_new_nodes(run: Run, at: Place) -> Place:
+    """Return the march on nodes around its edge, where it was if it finds no balance on them.
+
+    That happens on the brink of a jump: the march then goes on with the nodes it has.
+    """
+    moved = around_edge(run.body, at)
+    if isinstance(moved, Place):
+        run.history.meshes += 1
+        return moved
+    if moved.released:  # a dead load had nothing left that holds it
+        _let_go(run, at.seen, at.seen.time)
+    return replace(at, mesh=replace(at.mesh, edge=at.seen.edge))
+
+
+def _let_go(run: Run, now: Snapshot, time: float) -> None:
+    """End with a contact that a dead load pulls apart: nothing stops it, and nothing is kept.
+
+    The elastic energy is lost; what the load gains by falling further has no bound.
+    """
+    gone = replace(now, time=time, edge=float("nan"))
+    run.history.events.append(_event(now, gone, now.elastic))
+    run.history.outcome = "detached"
+
+
+def _event(before: Snapshot, after: Snapshot, lost: float) -> Event:
+    kind = "jump"
+    if before.edge > 0 and not after.edge > 0:
+        kind = "jump out of contact"
+    elif after.edge > 0 and not before.edge > 0:
+        kind = "jump into contact"
+    return Event(kind, after.time, after.depth, before.force, lost)

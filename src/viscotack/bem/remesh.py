@@ -1,0 +1,35 @@
+"""Fine nodes for an edge that has left its own: how long the crack there has become, and the move.
+
+What a move costs, and whether it was a jump, is for :mod:`.jumps` to say.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viscotack.bem.body import Body, State
+from viscotack.bem.contacts.contact import Contact
+from viscotack.bem.equilibrium import Balance
+from viscotack.bem.place import Place
+
+
+def around_edge(body: Body, at: Place) -> Place | Balance:
+    """Return the march on nodes around its edge, or the balance that is none where it fails there.
+
+    Where the crack has grown the nodes are coarser, and the fine zone is that much longer.
+    """
+    mesh = at.mesh.around(at.seen.edge, opening(at.state, body.contact))
+    state = body.remeshed(at.state, mesh.nodes(), at.hold())
+    return state if isinstance(state, Balance) else replace(at, state=state, mesh=mesh)
+
+
+def opening(state: State, contact: Contact) -> float:
+    """Return the distance from the edge over which the gap opens by h0; the zone's without one."""
+    gap, x = state.gap - contact.law.edge_gap - 1, state.surface.position
+    beyond = int(np.argmax((gap > 0) & (x > state.seen.edge)))
+    if beyond == 0:
+        return contact.zone
+    g, r = gap[beyond - 1 : beyond + 1], x[beyond - 1 : beyond + 1]
+    return float(r[1] - g[1] * (r[1] - r[0]) / (g[1] - g[0])) - state.seen.edge

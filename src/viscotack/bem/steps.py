@@ -1,0 +1,164 @@
+"""How long a step may be, trying one, and saying whether it was too long.
+
+A step is implicit and exact for a load that is linear in time (:mod:`.memory`), so it is of second
+order in its length. Its strain says by how much it is too long, as the square of a ratio of
+lengths: by the error of that linearity, by the change of force and depth, by the travel of the
+edge, and by the energy that is missing after it. The travel of a drive and the end of a leg are
+known before a step is tried; it is clipped to them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from viscotack.bem.body import State, Trial
+from viscotack.bem.books import SMALLEST_ENERGY, Books
+from viscotack.bem.memory import Step
+from viscotack.bem.place import Place, Run
+
+# The solid answers as stiffly as it can when a step's compliance exceeds the instantaneous one by
+# less than this part.
+_INSTANT = 1e-2
+# Past the pull-off, steps may be this much longer: what is left is a small part of the work.
+_LOOSER = 2.0
+# A step that needs more iterations than this is too long.
+_MOST_ITERATIONS = 25
+# A step is made again when its strain exceeds this. The next one aims at a ratio of lengths of
+# _AIM, so that few are; it is cut to between _MOST_CUT and _LEAST_CUT of its length, because a
+# strain that large tells only about how long it may be.
+_TOO_LONG = 1.5
+_AIM, _LEAST_CUT, _MOST_CUT = 0.8, 0.7, 0.2
+# A step is at most this much longer than the last.
+_GROWTH = 1.5
+# The end of a leg has been met within this part of the step that passes it.
+_AT_END = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Attempt:
+    """A step that was tried, and what the books would say of it.
+
+    Attributes
+    ----------
+    after, entry : State, Books
+        The state after it, and the books if nothing was lost in a jump.
+    missing, tolerated : float
+        Drive work that is nowhere to be found after it, and how much of that there may be.
+    strain : float
+        By how much it is too long: a ratio of lengths, squared.
+    """
+
+    after: State
+    entry: Books
+    missing: float
+    tolerated: float
+    strain: float
+
+    @property
+    def too_long(self) -> bool:
+        """Whether it cannot be taken as a step."""
+        return not self.strain <= _TOO_LONG
+
+
+def clipped(run: Run, at: Place) -> Place:
+    """Return the march with its next step within the travel it may have, and the end of its leg."""
+    leg, dt = at.leg, at.dt
+    if leg.rigid and leg.rate:  # a soft spring's drive may run ahead
+        dt = min(dt, _travel(run, at) / abs(leg.rate))
+        if not np.isnan(leg.depth) and at.ahead > 0:
+            dt = min(dt, at.ahead / abs(leg.rate))
+    if dt > 0.999 * at.left > 0:
+        dt = at.left
+    return at if dt == at.dt else replace(at, dt=dt)
+
+
+def instant(run: Run, s: Step) -> bool:
+    """Return whether the solid answers a step as stiffly as it can."""
+    return s.compliance < (1 + _INSTANT) * run.body.modes.instantaneous
+
+
+def is_shortest(run: Run, at: Place, s: Step) -> bool:
+    """Return whether nothing would change if the step were shorter still."""
+    return instant(run, s) and at.dt <= at.leg.least_step * (1 + 1e-9)
+
+
+def tried(run: Run, at: Place, s: Step, most_iterations: int = _MOST_ITERATIONS) -> Trial:
+    """Return what a step leads to."""
+    trial = run.body.after(at.state, s, at.hold(s.length), most_iterations)
+    run.history.iterations += trial.iterations
+    return trial
+
+
+def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
+    """Return a step that was tried with its entry in the books, and by how much it is too long."""
+    before, after = at.state, trial.after
+    heat = before.surface.unit * before.memory.heat(
+        s, before.relaxed, after.relaxed, before.nodal, after.nodal
+    )
+    first, entry = run.history.snapshots[0], at.books.entered(before.seen, after.seen, heat)
+    missing = entry.imbalance(first, after.seen) - at.books.imbalance(first, before.seen)
+    largest = max(entry.largest(first, after.seen), SMALLEST_ENERGY)
+    tolerated = run.settings.imbalance * largest
+    strain = max(_strain(run, at, trial), abs(missing) / tolerated)
+    return Attempt(after, entry, missing, tolerated, strain)
+
+
+def shortened(run: Run, at: Place, attempt: Attempt) -> Place | None:
+    """Return the march with a shorter next step, None where the one that was tried will do."""
+    if attempt.too_long:
+        run.history.rejected += 1
+        cut = min(_AIM / np.sqrt(attempt.strain), _LEAST_CUT)
+        return replace(at, dt=at.dt * max(_MOST_CUT, cut))
+    ahead, over = at.ahead, -at.leg.missing(attempt.after.seen)
+    if 0 < ahead and over > _AT_END * (ahead + over):
+        return replace(at, dt=at.dt * (ahead / (ahead + over)))
+    return None
+
+
+def arrived(at: Place, attempt: Attempt) -> Place:
+    """Return the march after a step, the next one as long as its strain suggests."""
+    return replace(
+        at,
+        state=attempt.after,
+        books=attempt.entry,
+        dt=at.dt * min(_GROWTH, _AIM / np.sqrt(attempt.strain + 1e-12)),
+        lowest=at.lowest.after(attempt.after.seen.force),
+    )
+
+
+def force_change(run: Run, at: Place) -> float:
+    """Return the largest change of the force in a step."""
+    return _looser(at) * run.settings.force_change * (abs(at.seen.force) + 1)
+
+
+def _travel(run: Run, at: Place) -> float:
+    """Return the largest travel [h0] in a step.
+
+    Once apart, tractions change over the gap. Pressed deep, forces change over the depth, which
+    grows like F^(2/3) by Hertz; adhesion is a small matter there.
+    """
+    apart = max(float(np.min(at.state.gap)) - 1, 0.0)
+    pressed = max(at.seen.force, 0.0) ** (2 / 3)
+    reach = run.body.contact.travel * (1 + pressed) + apart
+    return _looser(at) * run.settings.travel * reach
+
+
+def _looser(at: Place) -> float:
+    """Return how much longer steps may be."""
+    return _LOOSER if at.past else 1.0
+
+
+def _strain(run: Run, at: Place, trial: Trial) -> float:
+    """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
+    now, after = at.seen, trial.after.seen
+    travel = 0.0  # a rigid machine's is bounded before the step is tried
+    if not at.leg.rigid:
+        travel = (abs(after.depth - now.depth) / _travel(run, at)) ** 2
+    return max(
+        trial.error / (run.settings.step_error * _looser(at) ** 2),
+        (abs(after.force - now.force) / (2 * force_change(run, at))) ** 2,
+        travel,
+        at.mesh.strain(now.edge, after.edge),
+    )
