@@ -8,8 +8,7 @@ is imposed. A history is a sequence of legs, in each of which one of the three i
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-
-import numpy as np
+from math import inf, isinf, isnan, nan
 
 from viscotack.bem.books import Snapshot
 
@@ -35,7 +34,7 @@ class Hold:
     @property
     def rigid(self) -> bool:
         """Whether the depth is imposed."""
-        return bool(np.isinf(self.stiffness))
+        return isinf(self.stiffness)
 
 
 @dataclass(frozen=True)
@@ -62,16 +61,16 @@ class Leg:
 
     stiffness: float
     rate: float
-    duration: float = np.inf
-    drive: float = np.nan
-    depth: float = np.nan
-    force: float = np.nan
-    edge: float = np.nan
+    duration: float = inf
+    drive: float = nan
+    depth: float = nan
+    force: float = nan
+    edge: float = nan
     least_step: float = 1.0
 
     def beginning(self, began: Snapshot) -> Leg:
         """Return the leg with its rate, for the instant at which it begins."""
-        if not np.isnan(self.rate):
+        if not isnan(self.rate):
             return self
         now = began.force if self.dead_load else began.drive
         return replace(self, rate=(self.drive - now) / self.duration)
@@ -81,14 +80,14 @@ class Leg:
         if self.dead_load:
             return Hold(0.0, load=(began.force + self.rate * elapsed) / unit)
         if self.rigid:
-            return Hold(np.inf, depth=began.depth + self.rate * elapsed)
+            return Hold(inf, depth=began.depth + self.rate * elapsed)
         k = self.stiffness / unit
         return Hold(k, load=k * (began.drive + self.rate * elapsed))
 
     @property
     def rigid(self) -> bool:
         """Whether the depth is imposed."""
-        return bool(np.isinf(self.stiffness))
+        return isinf(self.stiffness)
 
     @property
     def dead_load(self) -> bool:
@@ -108,6 +107,6 @@ class Leg:
     def missing(self, now: Snapshot) -> float:
         """Return how far the nearest of the ends is; not positive where one of them is reached."""
         way = -1.0 if self.outwards else 1.0
-        edge = 0.0 if np.isnan(now.edge) else now.edge
+        edge = 0.0 if isnan(now.edge) else now.edge
         ends = (self.depth - now.depth, self.force - now.force, self.edge - edge)
-        return min((way * x for x in ends if not np.isnan(x)), default=np.inf)
+        return min((way * x for x in ends if not isnan(x)), default=inf)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-
-import numpy as np
+from math import ulp
 
 from viscotack.bem.body import Body, State
 from viscotack.bem.books import Books, History, Lowest, Profile, Snapshot
@@ -61,7 +60,7 @@ class Place:
         """The time left of the leg, none where the clock can no longer tell it from none."""
         now = self.seen.time
         left = self.leg.duration - (now - self.began.time)
-        return left if left > _TICKS * np.spacing(now) else 0.0
+        return left if left > _TICKS * ulp(now) else 0.0
 
     def hold(self, later: float = 0.0) -> Hold:
         """Return what the machine imposes, now or so much later."""
