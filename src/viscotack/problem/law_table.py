@@ -47,7 +47,10 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """
     name, _, rest = words.partition(":")
     if name not in laws:
-        raise InputError(f"the law must be one of {', '.join(laws)}, got {words!r}")
+        raise InputError(
+            f"the law must be one of {', '.join(laws)}, got {words!r}; one of your own comes "
+            "--with FILE.py"
+        )
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:

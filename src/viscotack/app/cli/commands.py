@@ -215,7 +215,11 @@ def stated_problem(
     problem = read_case(case, also=also)
     if door is None or door.word == _door_of(problem):
         return problem
-    raise InputError(f"{case} states a {_door_of(problem)}, which has commands of its own")
+    found = _door_of(problem)
+    raise InputError(
+        f"{case} states a {found}, which has commands of its own: viscotack simulate "
+        f"{found if found in _DOORS else 'case'} {case}"
+    )
 
 
 def _door_of(problem: Problem) -> str:
