@@ -252,3 +252,50 @@ def test_times_and_moduli_of_ones_own_go_to_si_by_their_cards():
     found = groups.in_si(**scales, work_of_adhesion=0.05).material
     assert (found.tau0, found.glassy_modulus) == pytest.approx((1.0, 7.5e6), rel=1e-12)
     assert found.order == 0.6
+
+
+def test_an_incomplete_noun_is_refused_before_anything_is_solved():
+    for missing in ("symmetry", "flank"):
+        members = {k: v for k, v in vars(SHAPE).items() if k not in (missing, "__dict__")}
+        poor = type("Poor", (), members | {"word": "poor"})
+        with pytest.raises(ValueError, match="'Poor' is no law, material or shape"):
+            known((poor,))
+    bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
+    from dataclasses import dataclass
+
+    with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
+        known((dataclass(frozen=True)(bare),))
+
+
+def test_flags_that_ones_own_material_needs_are_named():
+    status, _, err = call(
+        *"simulate sphere --material fractional-zener:0.6 --tabor 1 --preload 3 --rate 1".split()
+    )
+    assert status == 2 and "--modulus-ratio missing for --material fractional-zener" in err
+    status, _, err = call(*"simulate sphere --law morsel --material elastic".split())
+    assert status == 2 and "missing" in err
+
+
+def test_an_observable_that_fails_is_named(problem, tmp_path):
+    broken = vt.Observable("broken", "a broken number", "1", lambda result: result.nothing)
+    result = vt.solve(problem, until="pull-off", accuracy=2e-2, estimate_error=False)
+    with pytest.raises(vt.InputError, match="the observable broken failed: AttributeError"):
+        vt.summary(result, also=(broken,))
+
+
+def test_a_file_that_ends_the_program_is_refused(tmp_path):
+    (tmp_path / "ends.py").write_text("import sys\nsys.exit()\n")
+    with pytest.raises(ValueError, match="cannot be read: SystemExit"):
+        own_nouns([tmp_path / "ends.py"])
+    assert len(own_nouns([OWN / "morse.py", str(OWN / "morse.py")])) == 1
+
+
+def test_what_is_not_known_says_where_it_comes_from(case_file):
+    done = CliRunner().invoke(application(), ["simulate", "case", str(case_file)])
+    assert done.exit_code == 2 and "one of your own comes --with FILE.py" in done.stderr
+
+
+def test_a_geometry_that_is_not_reduced_is_refused():
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    with pytest.raises(ValueError, match="of slope 1 at distance 1, got Cone.slope=0.3."):
+        vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, geometry=vt.Cone(0.3))

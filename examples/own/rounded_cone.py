@@ -1,7 +1,7 @@
 """A cone with a rounded tip, and an observable: as a user would add them, without an edit of ours.
 
-viscotack simulate case rounded.toml --with examples/own/rounded_cone.py, with the table
-[rounded-cone] in place of [sphere].
+viscotack simulate case examples/own/rounded.toml, with --with for the three files here: the table
+[rounded-cone] stands in place of [sphere].
 """
 
 from dataclasses import dataclass

@@ -29,6 +29,7 @@ from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
+from viscotack.problem.table import OWN
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
 from viscotack.traction import LennardJones
@@ -212,8 +213,7 @@ def stated(
     given, nouns = given_of(answers), known(also)
     given |= _scales_of_passport(given)
     in_si = bool(given.keys() & SCALES.keys())
-    _kind_of_material(given.get("material", door.material), nouns)
-    _refuse_missing(door, given, in_si)
+    _refuse_missing(door, given, in_si, nouns)
     solid, unit = material_from({"material": door.material, **given}, nouns)
     elastic = isinstance(solid, Elastic)
     moves = tuple(move_from_words(words, PURE_NUMBERS) for words in given.get("move", ()))
@@ -253,7 +253,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
         return read_passport(name).material.reduced(), "1"
     kind = _kind_of_material(name, nouns)
     word, _, rest = name.partition(":")
-    require(given, material_needs(given), f" for --material {word}")
+    require(given, material_needs(given, nouns), f" for --material {word}")
     numbers = material_numbers(kind)
     for flag in ("modulus-ratio", "exponent"):
         if flag in given and flag not in numbers:
@@ -289,6 +289,7 @@ def _kind_of_material(name: str, nouns: Nouns) -> Any:
         raise InputError(
             "--material must be a passport FILE.toml, "
             f"{', '.join(['power-law', 'elastic', 'sls', *own])} or prony:FILE, got {name!r}"
+            f"{OWN}"
         )
     return kind
 
@@ -300,11 +301,10 @@ def material_numbers(kind: Any) -> list[str]:
     return [flag for flag, name in asked.items() if name in fields]
 
 
-def material_needs(given: Mapping[str, Any]) -> list[str]:
+def material_needs(given: Mapping[str, Any], nouns: Nouns) -> list[str]:
     """Return the flags without which the material of a command is not stated."""
-    word = given.get("material", "power-law").partition(":")[0]
-    needs = {"power-law": ["modulus-ratio", "exponent"], "sls": ["modulus-ratio"]}
-    return needs.get(word, [])
+    kind = _kind_of_material(given.get("material", "power-law"), nouns)
+    return [] if kind is None else material_numbers(kind)
 
 
 def _own_numbers(kind: Any, values: Mapping[str, Any], rest: str, name: str) -> dict[str, float]:
@@ -329,20 +329,22 @@ def _positive(given: Mapping[str, Any], name: str, otherwise: float | None) -> f
     return positive(f"--{name}", given[name], "1") if name in given else otherwise
 
 
-def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool) -> None:
+def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool, nouns: Nouns) -> None:
     """Name all that is missing at once."""
     solid = {"material": door.material, **given}
     elastic = solid["material"] == Elastic.word
     moved = bool(given.get("move"))
     rate = ["rate"] if not moved and (in_si or not elastic) else []
     missing = [
-        f"--{name}" for name in (*door.numbers, *material_needs(solid), *rate) if name not in given
+        f"--{name}"
+        for name in (*door.numbers, *material_needs(solid, nouns), *rate)
+        if name not in given
     ]
     start = ""
     if not given.keys() & set(door.starts):
         start = f"exactly one of {', '.join(f'--{name}' for name in door.starts)}"
     if missing:
-        of_solid = [name for name in material_needs(solid) if name not in given]
+        of_solid = [name for name in material_needs(solid, nouns) if name not in given]
         why = f" for --material {solid['material']}" if of_solid else ""
         more = f", and {start}, of which none is given" if start else ""
         raise InputError(f"{_listed(missing)} missing{why}{more}; --help says what they are")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from viscotack.campaign.columns import INPUTS, KINDS
+from viscotack.errors import InputError
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 
 # Stated relative errors are no less than these, which benchmarks/datasets.py has shown to hold in
@@ -58,7 +59,11 @@ class Column:
 
     def value(self, row: Mapping[str, Any]) -> Any:
         """Return the value of the column from the row of a campaign."""
-        value = row.get(self.source)
+        if self.source not in row:
+            raise InputError(
+                f"the campaign has no column {self.source!r}; run its plan anew, in another folder"
+            )
+        value = row[self.source]
         if self.form in ("exact", "whole") or value is None:
             return value
         if isinstance(value, list):

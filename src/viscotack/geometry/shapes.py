@@ -2,7 +2,7 @@
 
 A shape of revolution answers :meth:`gap` and its derivative :meth:`flank`, and its twin in other
 units of length, :meth:`reduced`; `word` names it in files. A class with these names is a shape,
-wherever it was written; docs/geometry.md goes through one. What scales, limits and outputs it has
+wherever it was written; docs/own.md goes through one. What scales, limits and outputs it has
 follows from `symmetry`: "revolution", or "plane" for the flat punch in plane strain.
 """
 

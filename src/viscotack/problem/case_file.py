@@ -19,7 +19,7 @@ from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Problem
 from viscotack.problem.prony_file import read_prony
 from viscotack.problem.protocol_table import protocol_from_table
-from viscotack.problem.table import Table, refuse_unknown
+from viscotack.problem.table import OWN, Table, refuse_unknown
 from viscotack.units import parse
 
 _COMMON = ("material", "interface", "protocol")
@@ -50,7 +50,8 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
     shape = _shape_table(path, tables, nouns)
     plain = nouns.shapes[shape].symmetry == "plane"
     names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))
-    refuse_unknown(f"{path}", tables, names, "table")
+    more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
+    refuse_unknown(f"{path}", tables, names, "table", more)
     found = {name: Table(path, name, tables) for name in names}
     if "layer" in found and not plain:
         raise InputError(
@@ -115,7 +116,7 @@ def _layer(table: Table, material: Material) -> Layer:
 def _material(table: Table, nouns: Nouns) -> Material:
     if "passport" in table.values:
         return _from_passport(table)
-    kind = nouns.materials[table.word("model", nouns.materials)]
+    kind = nouns.materials[table.word("model", nouns.materials, OWN)]
     if kind is Prony and "file" in table.values:
         return _prony(table)
     return table.make(kind, **table.numbers(kind))

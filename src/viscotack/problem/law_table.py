@@ -7,14 +7,14 @@ from typing import Any
 from viscotack.cards import Field, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
-from viscotack.problem.table import Table
+from viscotack.problem.table import OWN, Table
 from viscotack.traction import LAWS, Tabulated, Traction
 from viscotack.units import finite, positive
 
 
 def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
     """Return the law of the table [interface]; its range by equilibrium_gap or by strength."""
-    kind: Any = laws[table.word("law", laws)]
+    kind: Any = laws[table.word("law", laws, OWN)]
     if kind is Tabulated:
         return _tabulated(table.path.parent / str(table.get("file", '"table.csv"')))
     scales = cards(kind)
@@ -47,10 +47,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     """
     name, _, rest = words.partition(":")
     if name not in laws:
-        raise InputError(
-            f"the law must be one of {', '.join(laws)}, got {words!r}; one of your own comes "
-            "--with FILE.py"
-        )
+        raise InputError(f"the law must be one of {', '.join(laws)}, got {words!r}{OWN}")
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:

@@ -7,13 +7,14 @@ files and flags.
 import importlib.util
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from viscotack import geometry, materials, problem, protocol
+from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.geometry import SHAPES
 from viscotack.materials.words import MODELS
@@ -21,9 +22,24 @@ from viscotack.traction import LAWS
 
 # What tells a noun from another class, and where it belongs.
 _SIGNS = {
-    "laws": ("traction", "energy", "stiffness", "reduced"),
-    "materials": ("retardation_modes", "creep", "reduced"),
-    "shapes": ("gap", "flank", "reduced"),
+    "laws": (
+        "traction",
+        "energy",
+        "energy_beyond",
+        "stiffness",
+        "strength",
+        "edge_gap",
+        "reduced",
+    ),
+    "materials": (
+        "retardation_modes",
+        "creep",
+        "modulus_ratio",
+        "contact_modulus",
+        "time_unit",
+        "reduced",
+    ),
+    "shapes": ("gap", "flank", "symmetry", "reduced"),
 }
 _ROOMS = (materials, geometry, protocol, problem)
 
@@ -66,6 +82,12 @@ def known(also: Iterable[Any] = ()) -> Nouns:
             observables.append(noun)
             continue
         room = _room(noun)
+        bare = [f.name for f in fields(noun) if f.name not in {*cards(noun), *cards(noun, Pairs)}]
+        if bare:
+            raise InputError(
+                f"{noun.__name__} does not say what {', '.join(bare)} is measured in; give the "
+                "field a card: Annotated[float, Quantity(...)]"
+            )
         if noun.word in own[room] or noun.__name__ in types:
             raise InputError(
                 f"{noun.__name__} ({noun.word!r}) has a name or a word that is taken; choose others"
@@ -87,8 +109,8 @@ def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
         If a file is no Python, or defines nothing of the kind.
     """
     found: list[Any] = []
-    for path in paths:
-        found += _defined(Path(path).resolve(), sha256(Path(path).read_bytes()).hexdigest())
+    for path in dict.fromkeys(Path(path).resolve() for path in paths):
+        found += _defined(path, sha256(path.read_bytes()).hexdigest())
     return tuple(found)
 
 
@@ -102,7 +124,7 @@ def _defined(path: Path, content: str) -> tuple[Any, ...]:
     sys.modules[name] = module
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         del sys.modules[name]
         raise InputError(f"{path} cannot be read: {type(error).__name__}: {error}") from error
     found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))

@@ -263,6 +263,12 @@ class Groups:
                 f"geometry must be a reduced shape of revolution, got {self.geometry!r}; leave it "
                 "out for a sphere"
             )
+        slope = float(self.geometry.flank(1.0))
+        if abs(slope - 1) > 1e-6:
+            raise InputError(
+                "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
+                f"got {self.geometry!r} of slope {slope:g}; problem.groups().geometry is so"
+            )
         _check_reduced(self)
 
     @property

@@ -12,6 +12,9 @@ from viscotack.cards import Field, Pairs, cards
 from viscotack.errors import InputError
 from viscotack.units import parse
 
+# Where a law, a material or a shape that is not known may come from.
+OWN = "; one of your own comes --with FILE.py"
+
 
 class Table:
     """A table of a file: hands out its keys, and knows which were never asked for."""
@@ -84,13 +87,13 @@ class Table:
         }
         return found | {f.name: self.pairs(f) for f in cards(noun, Pairs).values()}
 
-    def word(self, key: str, allowed: Iterable[str]) -> str:
-        """Return the word of a key, one of those allowed."""
+    def word(self, key: str, allowed: Iterable[str], more: str = "") -> str:
+        """Return the word of a key, one of those allowed; `more` says where others come from."""
         allowed = list(allowed)
         value = self.get(key, f'"{allowed[0]}"')
         if value not in allowed:
             raise InputError(
-                f"{self.name} {key} must be one of {', '.join(allowed)}, got {value!r}"
+                f"{self.name} {key} must be one of {', '.join(allowed)}, got {value!r}{more}"
             )
         return value
 
@@ -106,13 +109,15 @@ class Table:
         refuse_unknown(self.name, self.values, self.known, "key")
 
 
-def refuse_unknown(where: str, given: Iterable[str], known: Iterable[str], what: str) -> None:
-    """Refuse names that are not known, and say which may be meant."""
+def refuse_unknown(
+    where: str, given: Iterable[str], known: Iterable[str], what: str, more: str = ""
+) -> None:
+    """Refuse names that are not known, and say which may be meant, and where more come from."""
     known = sorted(known)
     for name in given:
         if name not in known:
             close = difflib.get_close_matches(name, known, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}"
+            hint = f"did you mean {close[0]}?" if close else f"expected {', '.join(known)}{more}"
             raise InputError(f"{where}: unknown {what} {name!r}; {hint}")
 
 

@@ -263,10 +263,13 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
         if output.noted:
             answer[f"{name}_note"] = note
     for own in also:
-        answer[own.name], units[own.name] = (
-            _number(own.function, result)[0],
-            kind.units[own.measure],
-        )
+        units[own.name] = kind.units[own.measure]
+        try:
+            answer[own.name] = _number(own.function, result)[0]
+        except Exception as error:
+            raise InputError(
+                f"the observable {own.name} failed: {type(error).__name__}: {error}"
+            ) from error
     if scales is not None:
         for name, unit in units.items():
             if unit.scale:

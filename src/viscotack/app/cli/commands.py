@@ -294,7 +294,7 @@ def _report(
     with wrong_input():
         write("wrote", csv_file, lambda file: write_csv(result, file))
         write.picture(plot_file, lambda: _DRAW[kind](result))
-    answer = summary(result, also)
+        answer = summary(result, also)
     write.answer(
         json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer, also)
     )
