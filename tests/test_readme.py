@@ -125,3 +125,12 @@ def test_links_lead_somewhere(page):
 
 def test_picture_of_the_readme_is_small():
     assert (ROOT / "docs" / "pdms_lens.png").stat().st_size < 150_000
+
+
+def test_no_page_holds_what_a_merge_left():
+    root = Path(__file__).resolve().parents[1]
+    kept = [*root.glob("*.md"), *root.glob("docs/*.md"), *root.glob("replication/**/*.md")]
+    assert kept
+    marks = ("<" * 7 + " ", ">" * 7 + " ")
+    left = [page.name for page in kept if any(f"\n{m}" in page.read_text() for m in marks)]
+    assert left == []
