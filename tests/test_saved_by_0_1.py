@@ -91,7 +91,13 @@ def test_a_saved_result_says_what_was_printed(name, call):
     for answer in (then, now):
         answer.pop("problem")
         answer.pop("run_id")
-    assert now == then
+    assert now.keys() == then.keys()
+    for key, value in then.items():
+        if isinstance(value, float):
+            # the cubic through the minimum is solved by kernels that differ between processors
+            assert now[key] == pytest.approx(value, rel=1e-12, abs=1e-15), key
+        else:
+            assert now[key] == value, key
 
 
 @pytest.mark.parametrize("name", RESULTS)
