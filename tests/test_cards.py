@@ -91,3 +91,24 @@ def test_the_schema_holds_the_records_of_problems():
         assert set(described["required"]) <= part.keys()
     done = CliRunner().invoke(application(), ["schema"])
     assert json.loads(done.stdout) == jsonschema
+
+
+@pytest.mark.parametrize(
+    ("bounds", "wrong", "words"),
+    [
+        (dict(above=1), 0.5, "be above 1"),
+        (dict(above=0), 0.0, "be positive"),
+        (dict(most=5), 7.0, "be at most 5"),
+        (dict(least=2), 1.0, "be at least 2"),
+        (dict(least=2, most=3), 4.0, "lie between 2 and 3"),
+        (dict(above=2, most=3), 2.0, r"lie in .2, 3."),
+    ],
+)
+def test_every_kind_of_range_has_its_words(bounds, wrong, words):
+    with pytest.raises(vt.InputError, match=f"x must {words}, got {wrong}"):
+        Quantity("1", "x", "a number", **bounds).checked("x", wrong)
+
+
+def test_a_lower_bound_is_open_or_closed():
+    with pytest.raises(vt.InputError, match="open lower bound, above, or a closed one"):
+        Quantity("1", "x", "a number", above=0, least=1)

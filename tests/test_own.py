@@ -299,3 +299,19 @@ def test_a_geometry_that_is_not_reduced_is_refused():
     solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     with pytest.raises(ValueError, match="of slope 1 at distance 1, got Cone.slope=0.3."):
         vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, geometry=vt.Cone(0.3))
+
+
+@pytest.mark.parametrize("name", ["status", "rate", "steps", "pull_off_force", "force_at_25"])
+def test_an_observable_has_a_name_of_its_own(name):
+    with pytest.raises(vt.InputError, match=f"must be a new one .* got '{name}'"):
+        vt.Observable(name, "words", "1", lambda result: 0.0)
+    one = vt.Observable("mine", "words", "1", lambda result: 0.0)
+    with pytest.raises(vt.InputError, match="two observables are called mine"):
+        known((one, one))
+
+
+def test_a_plan_is_looked_at_with_files_of_ones_own(case_file, tmp_path):
+    plan = tmp_path / "plan.toml"
+    plan.write_text(f'problem = "{case_file.name}"\n[[grid]]\ntraction.steepness = 2.0\n')
+    status, out, err = call("campaign", "plan", plan)
+    assert status == 0 and out.startswith("1 cases"), err

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
-from viscotack.geometry import Sphere
+from viscotack.geometry import Cone, FlatPunch, Layer, Sphere
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -317,3 +317,25 @@ speed = "100 um/s"
     done = CliRunner().invoke(application(), [*command, "--plot", str(tmp_path / "x.svg")])
     assert done.exit_code == 0, done.stderr
     assert sorted(asked) == ["groups", "scales"]
+
+
+def test_geometries_that_are_none_are_refused_in_words():
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
+    law, test = LennardJones(0.05, 1e-7), Retraction(start=AtForce(0.0), speed=1e-5)
+
+    class Odd(Sphere):
+        symmetry = "axial"
+
+    for wrong, words in (
+        (Sphere, "geometry cannot be a Sphere"),
+        (Odd(1e-3), "has the symmetry 'revolution'.*got 'axial'"),
+        (Cone(1e10), "too steep"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            Problem(solid, law, wrong, test)
+    with pytest.raises(ValueError, match="a punch does not start at a contact radius"):
+        pulled = Retraction(start=AtRadius(1e-4), speed=1e-5)
+        Problem(solid, law, FlatPunch(1e-3), pulled, body=Layer(1e-4))
+    with pytest.raises(ValueError, match="no radius and no Tabor number"):
+        pad = Problem(solid, law, FlatPunch(1e-3), Retraction(AtDepth(0.0), 1e-5), Layer(1e-4))
+        assert pad.tabor

@@ -67,16 +67,21 @@ class Quantity:
             raise InputError(f"{name} must {self.range}, got {number}{words}{cure}")
         return number
 
+    def __post_init__(self) -> None:
+        if self.above is not None and self.least is not None:
+            raise InputError("a card has an open lower bound, above, or a closed one, least")
+
     @property
     def range(self) -> str:
         """The range in words that follow "must"."""
-        if self.above == 0 and self.most is None:
-            return "be positive"
-        if self.most is None:
-            return f"be at least {self.least:g}"
-        if self.above is not None:
-            return f"lie in ({self.above:g}, {self.most:g}]"
-        return f"lie between {self.least:g} and {self.most:g}"
+        above, least, most = self.above, self.least, self.most
+        if above is not None and most is not None:
+            return f"lie in ({above:g}, {most:g}]"
+        if least is not None and most is not None:
+            return f"lie between {least:g} and {most:g}"
+        if above is not None:
+            return "be positive" if above == 0 else f"be above {above:g}"
+        return f"be at least {least:g}" if least is not None else f"be at most {most:g}"
 
     @property
     def bounded(self) -> bool:
@@ -181,7 +186,7 @@ def conform(noun: Any) -> None:
     """
     for field in cards(type(noun)).values():
         value = getattr(noun, field.name)
-        if isinstance(value, str | bytes):
+        if isinstance(value, str):
             raise InputError(
                 f"{field.name} must be a number in {field.card.unit}, got {value!r}; "
                 f"viscotack.parse({value!r}, {field.card.unit!r}) reads text"

@@ -101,7 +101,7 @@ def finite(name: str, value: Any, unit: str) -> float:
     try:
         # Adding zero turns -0.0 into 0.0: equal objects then have equal records.
         number = float(value) + 0.0
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         cure = (
             f"; viscotack.parse({value!r}, {unit!r}) reads text" if isinstance(value, str) else ""
         )

@@ -378,15 +378,16 @@ def _start(door: Door, given: Mapping[str, Any], numbers: Mapping[str, float]) -
     (field,) = cards(kind).values()
     value = field.card.checked(f"--{name}", given[name], "1")
     if "tabor" in numbers:
-        _refuse_large(name, kind, value, numbers["tabor"])
+        q = numbers.get("profile_exponent", 2.0)
+        _refuse_large(name, kind, value, numbers["tabor"], q)
     return kind(value)
 
 
-def _refuse_large(name: str, kind: Any, value: float, tabor: float) -> None:
-    # a large contact is Hertz's
+def _refuse_large(name: str, kind: Any, value: float, tabor: float, exponent: float) -> None:
+    # a large contact is Hertz's, of a power law about: depth like a^q, force like a^(q + 1)
     radius = {
-        AtDepth: (max(value, 0.0) / tabor) ** (1 / 2) / np.cbrt(np.pi),
-        AtForce: (9 / 8 * max(value, 0.0)) ** (1 / 3),
+        AtDepth: (max(value, 0.0) / tabor) ** (1 / exponent) / np.cbrt(np.pi),
+        AtForce: (9 / 8 * max(value, 0.0)) ** (1 / (exponent + 1)),
         AtRadius: value,
         Apart: 0.0,
     }[kind]

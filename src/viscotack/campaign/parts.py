@@ -23,6 +23,7 @@ def arrow() -> Any:
     """Return the library of the store, or say how to get it."""
     try:
         import pyarrow
+        import pyarrow.compute
         import pyarrow.parquet
     except ImportError:
         raise ModuleNotFoundError(

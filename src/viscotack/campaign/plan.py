@@ -15,6 +15,7 @@ from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import own_nouns
+from viscotack.problem.older import upgraded_path
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 from ..units import parse
@@ -116,7 +117,12 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
             )
         blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
         blocks = [
-            (key, read_rows(path.parent / _file(path, block)) if key == "list" else block)
+            (
+                key,
+                [(line, _named(row)) for line, row in read_rows(path.parent / _file(path, block))]
+                if key == "list"
+                else block,
+            )
             for key, block in blocks
         ]
         if not blocks:
@@ -230,8 +236,19 @@ def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:
 def _inputs(key: str, block: Any) -> set[str]:
     """Return the names of the inputs of a block; a dotted path may be written as tables."""
     if key == "list":
-        return set(block[0][1])
+        return set(_named(block[0][1]))
     return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
+
+
+def _named(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values by the paths that numbers have now; one that is stated twice is refused."""
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        new = upgraded_path(name)
+        if new in found:
+            raise InputError(f"{new} is stated twice, also as {name}; leave out one")
+        found[new] = value
+    return found
 
 
 def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
@@ -243,7 +260,7 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             found |= _flat(value, f"{prefix}{key}.")
         else:
             found[f"{prefix}{key}"] = value
-    return found
+    return found if prefix else _named(found)
 
 
 def _cases(

@@ -23,7 +23,7 @@ from typing import Any
 from viscotack import __version__
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
-from viscotack.problem.older import upgraded
+from viscotack.problem.older import upgraded, upgraded_path
 
 from .case import CaseSettings
 from .parts import Parts, arrow, write_table
@@ -114,7 +114,7 @@ class Store:
             ) from None
         inputs = [name for name in table.column_names if name != "name"]
         cases = tuple(
-            Case(row.pop("name"), {k: v for k, v in row.items() if v is not None})
+            Case(row.pop("name"), {upgraded_path(k): v for k, v in row.items() if v is not None})
             for row in table.to_pylist()
         )
         given = self._provenance
@@ -172,7 +172,7 @@ class Store:
 
     def results(self) -> Any:
         """Return the results as a pyarrow.Table, a row per case, in the order of the plan."""
-        return self._ordered(self._results.read())
+        return self._ordered(_renamed(self._results.read()))
 
     def failures(self) -> Any:
         """Return the failures as a pyarrow.Table, without cases that were solved later."""
@@ -194,6 +194,20 @@ class Store:
         # What an earlier plan had and this one has not comes last, by name.
         order = sorted(range(len(names)), key=lambda i: (place.get(names[i], len(place)), names[i]))
         return table.take(order)
+
+
+def _renamed(table: Any) -> Any:
+    """Return a table in which inputs of older versions have the paths that numbers have now."""
+    old = [name for name in table.column_names if upgraded_path(name) != name]
+    for name in old:
+        new, values = upgraded_path(name), table.column(name)
+        if new in table.column_names:
+            merged = arrow().compute.coalesce(table.column(new), values)
+            table = table.set_column(table.column_names.index(new), new, merged).drop_columns(name)
+        else:
+            names = [new if given == name else given for given in table.column_names]
+            table = table.rename_columns(names)
+    return table
 
 
 def _names(parts: Parts) -> set[str]:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
@@ -96,7 +97,7 @@ def _shape(table: Table, kind: Any) -> Any:
         return table.make(kind, **table.numbers(kind))
     if "slope" in table.values:
         return table.make(Cone, **table.numbers(Cone))
-    exponent = table.quantity("exponent", "1", "2")
+    exponent = table.number(cards(PowerLawProfile)["exponent"])
     height = table.quantity("height", "m", '"10 um"')
     radius = table.quantity("at_radius", "m", '"200 um"')
     if not (height > 0 and radius > 0):

@@ -79,6 +79,8 @@ def known(also: Iterable[Any] = ()) -> Nouns:
     observables = []
     for noun in also:
         if hasattr(noun, "function") and not isinstance(noun, type):
+            if noun.name in {other.name for other in observables}:
+                raise InputError(f"two observables are called {noun.name}; rename one")
             observables.append(noun)
             continue
         room = _room(noun)

@@ -6,6 +6,8 @@ with `profile`, and ProfileGroups with `profile_exponent`.
 
 from typing import Any
 
+from viscotack.errors import InputError
+
 # What numbers of a problem were called -> are called, by the beginning of their path.
 _PATHS = {"punch.": "geometry.", "layer.": "body.", "profile.": "geometry."}
 
@@ -24,6 +26,8 @@ def upgraded(record: Any) -> Any:
             renamed["geometry"] = renamed.pop("profile")
         case "ProfileGroups" if "profile_exponent" in record:
             q = renamed.pop("profile_exponent")
+            if not isinstance(q, int | float) or not q >= 1:
+                raise InputError(f"profile_exponent must lie between 1 and 10, got {q!r}")
             renamed["type"] = "Groups"
             renamed["geometry"] = {"type": "PowerLawProfile", "coefficient": 1 / q, "exponent": q}
     return renamed

@@ -17,7 +17,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Layer
-from viscotack.protocol import Units
+from viscotack.protocol import AtRadius, Units
 
 # What a protocol's numbers are in, in SI and dimensionless: forces are mean stresses.
 SI = {
@@ -105,6 +105,11 @@ def check(problem: Any) -> None:
     if not isinstance(problem.body, Layer):
         raise InputError(
             f"a flat punch presses a layer, got {problem.body}; try body=Layer(thickness=1e-4)"
+        )
+    if isinstance(problem.protocol.start, AtRadius):
+        raise InputError(
+            "a punch does not start at a contact radius: its contact is as wide as the punch; "
+            f"give a depth or a mean stress, got {problem.protocol.start}"
         )
     base, nu = problem.body.base, problem.material.poisson_ratio
     if isinstance(base, Bonded) and base.poisson_ratio != nu:

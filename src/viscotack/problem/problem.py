@@ -127,8 +127,16 @@ class Problem:
             ("protocol", ("start", "moves"), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
         ):
             part = getattr(self, name)
-            if not all(hasattr(part, attribute) for attribute in wanted):
-                raise InputError(f"{name} cannot be a {type(part).__name__}; try {example}")
+            if isinstance(part, type) or not all(hasattr(part, name) for name in wanted):
+                given = part.__name__ if isinstance(part, type) else type(part).__name__
+                raise InputError(f"{name} cannot be a {given}; try {example}")
+        if self.geometry.symmetry not in ("revolution", "plane") or (
+            self.geometry.symmetry == "plane" and not isinstance(self.geometry, FlatPunch)
+        ):
+            raise InputError(
+                "a shape has the symmetry 'revolution', and only a FlatPunch is 'plane', got "
+                f"{self.geometry.symmetry!r} of {self.geometry!r}"
+            )
         self._kind.check(self)
 
     @property
@@ -139,11 +147,15 @@ class Problem:
     @property
     def radius(self) -> float:
         """Radius R [m] of the sphere with the Tabor number and scales of a shape of revolution."""
+        if self._kind is plane:
+            raise InputError("a flat punch has no radius and no Tabor number; see PunchGroups")
         return revolution.radius_of(self)
 
     @property
     def fracture_length(self) -> float:
         """Length a_0 [m] of a punch, Eq. 3.3."""
+        if self._kind is not plane:
+            raise InputError(f"the length a_0 is one of a punch, and this is a {self.geometry}")
         return plane.fracture_length(self)
 
     @property
@@ -258,7 +270,8 @@ class Groups:
     geometry: Shape = Sphere(1.0)
 
     def __post_init__(self) -> None:
-        if getattr(self.geometry, "symmetry", "") != "revolution":
+        bare = isinstance(self.geometry, type)
+        if bare or getattr(self.geometry, "symmetry", "") != "revolution":
             raise InputError(
                 f"geometry must be a reduced shape of revolution, got {self.geometry!r}; leave it "
                 "out for a sphere"

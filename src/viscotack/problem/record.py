@@ -87,7 +87,13 @@ def _made(record: Any, nouns: Nouns) -> Any:
             f"a record of {record['type']} must have the fields {sorted(needed)} and may have "
             f"{sorted(names - needed)}, got {sorted(given)}"
         )
-    return kind(**{name: _value(x, nouns) for name, x in record.items() if name != "type"})
+    values = {name: _value(x, nouns) for name, x in record.items() if name != "type"}
+    try:
+        return kind(**values)
+    except InputError:
+        raise
+    except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        raise InputError(f"a record of {record['type']} is impossible: {error}") from error
 
 
 def _value(value: Any, nouns: Nouns) -> Any:

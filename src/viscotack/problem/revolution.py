@@ -198,6 +198,8 @@ def _where(function: Any, value: float) -> float:
     """Return the radius [m] at which a rising function has this value, 1e15 for none."""
     if function(exp(_FAR)) <= value:
         return exp(_FAR)
+    if function(exp(-_FAR)) >= value:
+        return exp(-_FAR)
     found = brentq(lambda x: log(max(function(exp(x)), 1e-300) / value), -_FAR, _FAR)
     return exp(float(found))  # type: ignore[arg-type]
 

@@ -210,6 +210,15 @@ def effective_surface_energy(result: Result) -> float:
     return float(energy)
 
 
+# What summaries and rows of campaigns say beside the observables.
+_TAKEN = frozenset(
+    "status outcome error_estimate error_estimate_work energy_residual events wall_time_s "
+    "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
+    "size thickness cohesion preload preload_force preload_radius steps nodes modes "
+    "newton_iterations jumps travel_to_pull_off accuracy until".split()
+)
+
+
 @dataclass(frozen=True)
 class Observable:
     """A number of a result, of the user's own: ``summary(result, also=(mine,))``.
@@ -240,8 +249,12 @@ class Observable:
     function: Callable[[Result], float]
 
     def __post_init__(self) -> None:
-        if not self.name.isidentifier() or self.name in _OBSERVABLES:
-            raise InputError(f"name must be a new name such as 'rise_time', got {self.name!r}")
+        taken = self.name in _OBSERVABLES or self.name in _TAKEN
+        if not self.name.isidentifier() or taken or "_at_" in self.name:
+            raise InputError(
+                f"name must be a new one such as 'rise_time', got {self.name!r}; summaries and "
+                "campaigns have that themselves, or it says _at_"
+            )
         measures = ("force", "depth", "radius", "speed", "work", "time", "1")
         if self.measure not in measures:
             raise InputError(f"measure must be one of {', '.join(measures)}, got {self.measure!r}")

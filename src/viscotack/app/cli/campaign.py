@@ -41,6 +41,11 @@ Folder = Annotated[
 _LINES = 10.0
 
 
+def _paths(own: list[Path] | None) -> tuple[str, ...] | None:
+    """Return the files of the user's own as a plan keeps them."""
+    return None if own is None else tuple(str(file.resolve()) for file in own)
+
+
 @campaign.command("plan")
 def plan_command(
     plan_file: PlanFile,
@@ -48,6 +53,7 @@ def plan_command(
         Path | None,
         Option("--csv", metavar="FILE", help="Write the cases as a table; - is standard output."),
     ] = None,
+    own: With = None,
     as_json: AsJson = False,
 ) -> None:
     """Say what a plan stands for, without running it.
@@ -59,7 +65,7 @@ def plan_command(
         from viscotack.campaign.parts import table_of
 
         check_files({"--csv": csv_file}, as_json=as_json, reads=(plan_file,))
-        plan = read_plan(plan_file)
+        plan = read_plan(plan_file, own=_paths(own))
         write = Writing()
         if csv_file is not None:
             table = table_of([case.inputs for case in plan.cases])
@@ -170,7 +176,7 @@ def run_command(
         "until": until,
         "time_limit": time_limit,
         "memory_limit": memory_limit,
-        "own": None if own is None else tuple(str(file.resolve()) for file in own),
+        "own": _paths(own),
     }
     with _words_for_what_is_missing():
         from viscotack.campaign import AllCrashed, read_plan, run
