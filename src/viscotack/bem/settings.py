@@ -3,36 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Annotated
 
 import numpy as np
 
 from viscotack.bem.mesh import Grading
-from viscotack.cards import Quantity, card_of
+from viscotack.cards import card_of
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, Accuracy
 from viscotack.traction import LennardJones, Traction, softening
 
-# The accuracy at which the numbers of Settings.for_accuracy are stated.
-DEFAULT_ACCURACY = 2e-3
-LOOSEST_ACCURACY = 0.02
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
 # The law for which numbers of nodes are stated.
 _SOFTENING = softening(LennardJones(1.0, 1.0))
 # Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
 _SCAR_ZONES = 2.0
-
-
-Accuracy = Annotated[
-    float,
-    Quantity(
-        "1",
-        "",
-        "accuracy wanted of the pull-off force, relative",
-        least=1e-6,
-        most=LOOSEST_ACCURACY,
-        example="2e-3",
-    ),
-]
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,12 @@ from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
-from viscotack.bem.settings import DEFAULT_ACCURACY, LOOSEST_ACCURACY, Settings
+from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 

@@ -20,12 +20,12 @@ from typer import Argument, Context, Option
 from viscotack import __version__
 from viscotack.app.cli.asking import answers, asking
 from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, question_of, stated
-from viscotack.bem import settings
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone
 from viscotack.pictures import plot
 from viscotack.problem import Case, Problem
+from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
@@ -91,7 +91,7 @@ HowFar = Annotated[
     Until,
     Option("--until", help="Stop just past the force minimum, or when the surfaces are apart."),
 ]
-_ACCURACY = question_of(card_of(settings.Accuracy))
+_ACCURACY = question_of(card_of(AccuracyCard))
 Accuracy = Annotated[float, Option("--accuracy", metavar="RELATIVE", help=_ACCURACY)]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
