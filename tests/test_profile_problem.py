@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from viscotack.app.cli import application
 from viscotack.bem import solve
+from viscotack.forecast import OutOfRange, predict
 from viscotack.forecast.advice import advise
 from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
@@ -252,3 +253,8 @@ def test_an_impossible_profile_is_refused_with_its_file(tmp_path, keys, words):
     with pytest.raises(ValueError, match=words) as refused:
         read_case(tmp_path / "bad.toml")
     assert "bad.toml" in str(refused.value) and "[profile]" in str(refused.value)
+
+
+def test_a_prediction_for_a_cone_is_out_of_range_and_no_defect():
+    with pytest.raises(OutOfRange, match="predictions are for spheres, got a cone"):
+        predict(problem())
