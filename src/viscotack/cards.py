@@ -195,9 +195,11 @@ def conform(noun: Any) -> None:
             object.__setattr__(noun, field.name, field.card.checked(field.name, value))
 
 
-def rows(noun: type) -> list[tuple[str, str, str, str]]:
-    """Return word, symbol, unit and meaning of the numbers of a noun, for tables of the docs."""
-    return [
-        (field.name, field.card.symbol, field.card.unit, field.card.words)
-        for field in cards(noun).values()
-    ]
+def check_carded(noun: type) -> None:
+    """Refuse a class of which a field has no card."""
+    bare = [f.name for f in fields(noun) if f.name not in {*cards(noun), *cards(noun, Pairs)}]
+    if bare:
+        raise InputError(
+            f"{noun.__name__} does not say what {', '.join(bare)} is measured in; give the "
+            "field a card: Annotated[float, Quantity(...)]"
+        )

@@ -135,11 +135,11 @@ class Door:
             for word, words in _MATERIALS.items()
         )
         asked = [
-            *(Question(name, question_of(card, "")) for name, card in self.numbers.items()),
+            *(Question(name, question_of(card)) for name, card in self.numbers.items()),
             *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
-            Question("modulus-ratio", question_of(card_of(ModulusRatio), "")),
-            Question("exponent", question_of(_SOLID["exponent"].card, "")),
+            Question("modulus-ratio", question_of(card_of(ModulusRatio))),
+            Question("exponent", question_of(_SOLID["exponent"].card)),
         ]
         for number, name in enumerate(self.starts):
             (field,) = cards(STARTS[name]).values()
@@ -158,7 +158,7 @@ class Door:
         ]
         if self.in_si:
             asked += [
-                Question(name, f"For answers in SI as well: {question_of(card, '')}", text=True)
+                Question(name, f"For answers in SI as well: {question_of(card)}", text=True)
                 for name, card in SCALES.items()
             ]
         return tuple(asked)
@@ -235,10 +235,10 @@ def stated(
         glued = "bonded" in given
         base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
         return PunchGroups(**numbers, **parts, base=base)
-    q = numbers.pop("profile_exponent", None)
+    if door is PROFILE:
+        q = numbers.pop("profile_exponent")
+        parts["geometry"] = PowerLawProfile(1 / q, q)
     groups = Groups(**numbers, **parts)
-    if q is not None:
-        groups = Groups(**numbers, **parts, geometry=PowerLawProfile(1 / q, q))
     return _in_si(groups, given, "s" if elastic else unit) if in_si else groups
 
 
@@ -322,7 +322,7 @@ def _own_numbers(kind: Any, values: Mapping[str, Any], rest: str, name: str) -> 
 
 def given_of(answers: Mapping[str, Any]) -> dict[str, Any]:
     """Return the answers that were given."""
-    return {name: value for name, value in answers.items() if value is not None and value != ()}
+    return {name: value for name, value in answers.items() if value not in (None, (), [])}
 
 
 def _positive(given: Mapping[str, Any], name: str, otherwise: float | None) -> float | None:
@@ -335,16 +335,13 @@ def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool, nouns: No
     elastic = solid["material"] == Elastic.word
     moved = bool(given.get("move"))
     rate = ["rate"] if not moved and (in_si or not elastic) else []
-    missing = [
-        f"--{name}"
-        for name in (*door.numbers, *material_needs(solid, nouns), *rate)
-        if name not in given
-    ]
+    needs = material_needs(solid, nouns)
+    missing = [f"--{name}" for name in (*door.numbers, *needs, *rate) if name not in given]
     start = ""
     if not given.keys() & set(door.starts):
         start = f"exactly one of {', '.join(f'--{name}' for name in door.starts)}"
     if missing:
-        of_solid = [name for name in material_needs(solid, nouns) if name not in given]
+        of_solid = any(name not in given for name in needs)
         why = f" for --material {solid['material']}" if of_solid else ""
         more = f", and {start}, of which none is given" if start else ""
         raise InputError(f"{_listed(missing)} missing{why}{more}; --help says what they are")

@@ -139,7 +139,7 @@ def _prony(table: Table) -> Prony:
             f"{table.name} file: its times have no unit; name the column relaxation_time_s"
         )
     second = parse(f"1 {unit}", "s")
-    E0 = table.quantity("rubbery_modulus", "Pa")
+    plain = {name: table.number(field) for name, field in cards(Prony).items()}
+    E0 = plain["rubbery_modulus"]
     branches = tuple((ratio * E0, time * second) for ratio, time in ratios)
-    nu = table.quantity("poisson_ratio", "1")
-    return table.make(Prony, rubbery_modulus=E0, branches=branches, poisson_ratio=nu)
+    return table.make(Prony, **plain, branches=branches)

@@ -7,14 +7,14 @@ files and flags.
 import importlib.util
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, is_dataclass
 from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from viscotack import geometry, materials, problem, protocol
-from viscotack.cards import Pairs, cards
+from viscotack.cards import check_carded
 from viscotack.errors import InputError
 from viscotack.geometry import SHAPES
 from viscotack.materials.words import MODELS
@@ -84,12 +84,7 @@ def known(also: Iterable[Any] = ()) -> Nouns:
             observables.append(noun)
             continue
         room = _room(noun)
-        bare = [f.name for f in fields(noun) if f.name not in {*cards(noun), *cards(noun, Pairs)}]
-        if bare:
-            raise InputError(
-                f"{noun.__name__} does not say what {', '.join(bare)} is measured in; give the "
-                "field a card: Annotated[float, Quantity(...)]"
-            )
+        check_carded(noun)
         if noun.word in own[room] or noun.__name__ in types:
             raise InputError(
                 f"{noun.__name__} ({noun.word!r}) has a name or a word that is taken; choose others"

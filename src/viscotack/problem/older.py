@@ -16,7 +16,7 @@ def upgraded(record: Any) -> Any:
     """Return a record of any version as one of this version; what is none is left as it is."""
     if not isinstance(record, dict):
         return record
-    renamed = {name: value for name, value in record.items()}
+    renamed = dict(record)
     match record.get("type"):
         case "PunchProblem" if {"punch", "layer"} <= record.keys():
             renamed["type"] = "Problem"

@@ -17,17 +17,11 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Layer
-from viscotack.protocol import AtRadius, Units
+from viscotack.protocol import Apart, AtRadius, Start, Units
+from viscotack.protocol.words import PUNCH_UNITS
 
 # What a protocol's numbers are in, in SI and dimensionless: forces are mean stresses.
-SI = {
-    "depth": "m",
-    "force": "Pa",
-    "radius": "m",
-    "speed": "m/s",
-    "time": "s",
-    "stiffness": "Pa/m",
-}
+SI = PUNCH_UNITS | {"stiffness": "Pa/m"}
 GROUPS = {
     "depth": "h0",
     "force": "sigma0",
@@ -94,23 +88,28 @@ def to_groups(scales: PunchScales) -> Units:
     return Units(1 / scales.length, 1 / scales.stress, 1 / scales.width, 1 / scales.time)
 
 
+def check_start(start: Start | Apart) -> None:
+    """Refuse a start at a contact radius."""
+    if isinstance(start, AtRadius):
+        raise InputError(
+            "a punch does not start at a contact radius: its contact is as wide as the punch; "
+            f"give a depth or a mean stress, got {start}"
+        )
+
+
 def check(problem: Any) -> None:
     """Refuse a punch without a layer, and a bonded one of another Poisson ratio than its material.
 
     Raises
     ------
     ValueError
-        In both cases.
+        In these cases, and if it starts at a contact radius.
     """
     if not isinstance(problem.body, Layer):
         raise InputError(
             f"a flat punch presses a layer, got {problem.body}; try body=Layer(thickness=1e-4)"
         )
-    if isinstance(problem.protocol.start, AtRadius):
-        raise InputError(
-            "a punch does not start at a contact radius: its contact is as wide as the punch; "
-            f"give a depth or a mean stress, got {problem.protocol.start}"
-        )
+    check_start(problem.protocol.start)
     base, nu = problem.body.base, problem.material.poisson_ratio
     if isinstance(base, Bonded) and base.poisson_ratio != nu:
         raise InputError(

@@ -40,7 +40,7 @@ from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 from viscotack.problem.plane import PunchScales
 from viscotack.problem.revolution import Scales
 from viscotack.problem.units import material_in_si
-from viscotack.protocol import Apart, AtRadius, Move, Retraction, Start, Units, check_moves
+from viscotack.protocol import Apart, Move, Retraction, Start, Units, check_moves
 from viscotack.traction import LennardJones, Traction
 from viscotack.units import positive
 
@@ -144,7 +144,7 @@ class Problem:
         """Tabor number mu of a shape of revolution, range of the forces beside the deformation."""
         return revolution.tabor_number(self.radius, self.material, self.traction)
 
-    @property
+    @cached_property
     def radius(self) -> float:
         """Radius R [m] of the sphere with the Tabor number and scales of a shape of revolution."""
         if self._kind is plane:
@@ -429,11 +429,7 @@ class PunchGroups:
             raise InputError(
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
-        if isinstance(self.start, AtRadius):
-            raise InputError(
-                "a punch does not start at a contact radius: its contact is as wide as the punch; "
-                "give a depth or a force"
-            )
+        plane.check_start(self.start)
 
     @property
     def modulus_ratio(self) -> float:

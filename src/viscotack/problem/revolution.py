@@ -29,6 +29,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
 from viscotack.materials import Material
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
+from viscotack.protocol.words import SPHERE_UNITS
 from viscotack.theory.elastic import indenter
 from viscotack.traction import Traction
 
@@ -39,14 +40,7 @@ LARGEST_CONTACT = STEEPEST_FLANK = 0.5
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
 # What a protocol's numbers are in, in SI and dimensionless.
-SI = {
-    "depth": "m",
-    "force": "N",
-    "radius": "m",
-    "speed": "m/s",
-    "time": "s",
-    "stiffness": "N/m",
-}
+SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
     "depth": "h0",
     "force": "1.5 pi R dg0",

@@ -1,10 +1,10 @@
 """From a reduced material to SI, by the units on its cards."""
 
 import re
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
-from viscotack.cards import Pairs, cards
+from viscotack.cards import Pairs, cards, check_carded
 from viscotack.errors import InputError
 
 _FACTOR = re.compile(r"(Pa|s)(?:\^(-?[0-9.]+))?")
@@ -21,19 +21,13 @@ def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: fl
         If a constant has no card, or a unit that is not made of Pa and s.
     """
     kind, unit = type(material), {"Pa": modulus, "s": time}
-    numbers, lists = cards(kind), cards(kind, Pairs)
-    bare = [f.name for f in fields(kind) if f.name not in {*numbers, *lists}]
-    if bare:
-        raise InputError(
-            f"{kind.__name__} does not say what {', '.join(bare)} is measured in; give the field a "
-            "card: Annotated[float, Quantity(...)]"
-        )
+    check_carded(kind)
     changed: dict[str, Any] = {
         name: getattr(material, name) * _factor(field.card.unit, unit)
-        for name, field in numbers.items()
+        for name, field in cards(kind).items()
         if field.card.unit != "1"
     }
-    for name, field in lists.items():
+    for name, field in cards(kind, Pairs).items():
         first, second = (_factor(u, unit) for u in field.card.units)
         changed[name] = tuple((x * first, y * second) for x, y in getattr(material, name))
     return replace(material, **changed, poisson_ratio=poisson_ratio)

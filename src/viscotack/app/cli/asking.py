@@ -46,7 +46,7 @@ def _flags(questions: tuple[Question, ...]) -> tuple[Any, ...]:
     only = typer.Typer(add_completion=False)
     only.command()(ask)
     made = typer.main.get_command(only).params
-    return tuple(option for option in made if f"--{option.name}" != "--help")
+    return tuple(option for option in made if option.name != "help")
 
 
 def _parameter(question: Question) -> inspect.Parameter:
@@ -70,7 +70,7 @@ def _parameter(question: Question) -> inspect.Parameter:
 
 def _kept(name: str) -> Callable[..., Any]:
     def keep(context: typer.Context, value: Any) -> Any:
-        context.meta.setdefault(_ANSWERS, {})[name] = value or None if value == [] else value
+        context.meta.setdefault(_ANSWERS, {})[name] = value
         return value
 
     return keep

@@ -25,6 +25,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Cone
 from viscotack.pictures import plot
 from viscotack.problem import Case, Problem
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
 from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
@@ -133,7 +134,7 @@ def _simulate(
     case: CaseFile = None,
     own: With = None,
     until: HowFar = Until.DETACHED,
-    accuracy: Accuracy = 2e-3,
+    accuracy: Accuracy = DEFAULT_ACCURACY,
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
@@ -141,16 +142,22 @@ def _simulate(
     as_json: AsJson = False,
 ) -> None:
     door = _DOORS.get(context.info_name or "")
-    carry_out(
-        lambda: stated_problem(case, context, door, own),
-        own=own,
-        case=case,
-        accuracy=accuracy,
-        until=until,
-        files=(plot_file, csv_file, save_file),
-        plot_kind=plot_kind,
-        as_json=as_json,
-    )
+    with wrong_input():
+        named = {"--plot": plot_file, "--csv": csv_file, "--save": save_file}
+        # the file that states the problem is never written
+        check_files(named, as_json=as_json, reads=(case,))
+        problem = stated_problem(case, context, door, own)
+        from viscotack.bem import solve
+
+        with _progress() as progress:
+            result = solve(
+                problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
+            )
+    write = Writing()
+    write("saved", save_file, lambda file: save(result, file))
+    _report(result, write, as_json, plot_file, plot_kind, csv_file, own)
+    if result.outcome is Outcome.STOPPED:
+        raise typer.Exit(1)
 
 
 _DOORS = {door.word: door for door in (SPHERE, PUNCH, PROFILE)}
@@ -227,39 +234,6 @@ def _door_of(problem: Problem) -> str:
     return "profile" if isinstance(problem.geometry, Cone) else problem.geometry.word
 
 
-def carry_out(
-    state: Callable[[], Case],
-    *,
-    own: Iterable[Path] | None,
-    accuracy: float,
-    until: Until,
-    case: Path | None,
-    files: tuple[Path | None, Path | None, Path | None],
-    plot_kind: PlotKind,
-    as_json: bool,
-) -> None:
-    """Simulate a problem and report; the files are for picture, table and result.
-
-    `case` is the file that states the problem, if one does: it is never written.
-    """
-    plot_file, csv_file, save_file = files
-    with wrong_input():
-        named = {"--plot": plot_file, "--csv": csv_file, "--save": save_file}
-        check_files(named, as_json=as_json, reads=(case,))
-        problem = state()
-        from viscotack.bem import solve
-
-        with _progress() as progress:
-            result = solve(
-                problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
-            )
-    write = Writing()
-    write("saved", save_file, lambda file: save(result, file))
-    _report(result, write, as_json, plot_file, plot_kind, csv_file, own)
-    if result.outcome is Outcome.STOPPED:
-        raise typer.Exit(1)
-
-
 @application.command("show")
 def show(
     file: Annotated[Path, Argument(metavar="FILE.npz", help="A result that --save wrote.")],
@@ -290,8 +264,8 @@ def _report(
     csv_file: Path | None,
     own: Iterable[Path] | None,
 ) -> None:
-    also = known(own_nouns(own or ())).observables
     with wrong_input():
+        also = known(own_nouns(own or ())).observables
         write("wrote", csv_file, lambda file: write_csv(result, file))
         write.picture(plot_file, lambda: _DRAW[kind](result))
         answer = summary(result, also)

@@ -10,15 +10,14 @@ from its tip, over an area that no force notices.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import brentq
 from scipy.special import hyp2f1
 
 from viscotack.bem.bodies.halfspace import half_space
+from viscotack.bem.contacts.shape import inverse
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.surface import Surface
 from viscotack.theory import profiles
@@ -54,14 +53,15 @@ class ProfileContact(SphereContact):
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        return _inverse(self.jkr_depth, depth, profiles.instability(**self._units))
+        return inverse(
+            self.jkr_depth, depth, float(profiles.instability(**self._units).contact_radius)
+        )
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
         units = self._units
-        return _inverse(
-            lambda a: float(profiles.force(a, **units)), force, profiles.pull_off(**units)
-        )
+        end = float(profiles.pull_off(**units).contact_radius)
+        return inverse(lambda a: float(profiles.force(a, **units)), force, end)
 
     def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
         r"""Return the JKR gap [h0] around a contact of this radius [beta].
@@ -104,14 +104,3 @@ class ProfileContact(SphereContact):
         """Return the depth [h0] of a contact of radius beta without adhesion."""
         units = self._units
         return self.tabor * (float(profiles.depth(1.0, **units)) + np.sqrt(2 * np.pi))
-
-
-def _inverse(function: Callable[[float], float], value: float, end: profiles.Point) -> float:
-    """Return where a function that grows beyond the end of a branch has this value."""
-    low = float(end.contact_radius)
-    if value <= function(low):
-        return low
-    high = 2 * low
-    while function(high) < value:
-        high *= 2
-    return float(brentq(lambda a: function(a) - value, low, high, xtol=1e-14 * high))  # type: ignore[arg-type]

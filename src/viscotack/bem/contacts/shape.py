@@ -45,13 +45,13 @@ class ShapeContact(SphereContact):
 
     def radius_of_rise(self, rise: float) -> float:
         """Return the radius [beta] at which the indenter has risen by this much [h0]."""
-        return _inverse(lambda r: float(self.rise(r)), rise, _LEAST)
+        return inverse(lambda r: float(self.rise(r)), rise, _LEAST)
 
     def bare_radius(self, depth: float) -> float:
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if depth <= 0:
             return 0.0
-        return _inverse(
+        return inverse(
             lambda a: self.tabor * float(indenter.bare_depth(a, shape=self.shape)), depth, _LEAST
         )
 
@@ -61,11 +61,11 @@ class ShapeContact(SphereContact):
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        return _inverse(self.jkr_depth, depth, self._last_by_depth)
+        return inverse(self.jkr_depth, depth, self._last_by_depth)
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
-        return _inverse(self._jkr_force, force, self._last_by_force)
+        return inverse(self._jkr_force, force, self._last_by_force)
 
     def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
@@ -114,7 +114,7 @@ def _lowest(function: Callable[[float], float]) -> float:
     return float(np.exp(found.x))
 
 
-def _inverse(function: Callable[[float], float], value: float, low: float) -> float:
+def inverse(function: Callable[[float], float], value: float, low: float) -> float:
     """Return where a function that grows from a radius on has this value; `low` past its end."""
     if value <= function(low):
         return low
