@@ -41,7 +41,7 @@ from viscotack.problem.plane import PunchScales
 from viscotack.problem.revolution import Scales
 from viscotack.problem.units import material_in_si
 from viscotack.protocol import Apart, Move, Retraction, Start, Units, check_moves
-from viscotack.traction import LennardJones, Traction
+from viscotack.traction import LennardJones, Traction, effective_range
 from viscotack.units import positive
 
 Rate = Annotated[
@@ -288,6 +288,11 @@ class Groups:
     def modulus_ratio(self) -> float:
         """Rubbery over glassy modulus, k, in (0, 1]; no unit."""
         return self.material.modulus_ratio
+
+    @property
+    def effective_tabor(self) -> float:
+        """Tabor number over the effective range of the law: how near the contact is to JKR."""
+        return self.tabor / effective_range(self.traction)
 
     @property
     def outputs(self) -> Kind:

@@ -7,11 +7,20 @@ docs/traction-laws.md shows how a law is added.
 
 from viscotack.traction.dugdale import Dugdale
 from viscotack.traction.exponential import Exponential
-from viscotack.traction.law import Traction, softening
+from viscotack.traction.law import Traction, effective_range, softening
 from viscotack.traction.lennard_jones import LennardJones
 from viscotack.traction.tabulated import Tabulated
 
 # Word in a file or a flag -> law. Every constant beside work and gap is a pure number.
 LAWS = {law.word: law for law in (LennardJones, Dugdale, Exponential, Tabulated)}
 
-__all__ = ["LAWS", "Dugdale", "Exponential", "LennardJones", "Tabulated", "Traction", "softening"]
+__all__ = [
+    "LAWS",
+    "Dugdale",
+    "Exponential",
+    "LennardJones",
+    "Tabulated",
+    "Traction",
+    "effective_range",
+    "softening",
+]

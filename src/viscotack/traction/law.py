@@ -23,6 +23,9 @@ EquilibriumGap = Annotated[
     float, Quantity("m", "h0", "gap of zero traction", above=0, example="1.55 um")
 ]
 
+# Strength of the Lennard-Jones law in work of adhesion over equilibrium gap, the measure of ranges.
+_STRENGTH = 16 / (9 * 3**0.5)
+
 
 class Traction(Protocol):
     """What a traction law offers, for the type checker; a dataclass with these names is a law.
@@ -60,6 +63,25 @@ def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if not (h > 0).all():
         raise InputError(f"gap must be positive, got a minimum of {h.min()} m")
     return h
+
+
+def effective_range(law: Traction) -> float:
+    r"""Return the range of a law over its equilibrium gap: that of a Lennard-Jones law as strong.
+
+    .. math:: s = \frac{16}{9\sqrt 3} \frac{\Delta\gamma_0}{\sigma_0 h_0}
+
+    It is the length over which adhesion acts, whatever the gap at which it begins: 1 for
+    Lennard-Jones, 1.03 for Dugdale, 2.79 d for an exponential law of decay d. A contact of Tabor
+    number mu with this law is about as near to JKR as one of mu/s with Lennard-Jones.
+
+    Examples
+    --------
+    >>> from viscotack.traction import Exponential
+    >>> law = Exponential(work_of_adhesion=0.15, equilibrium_gap=1.5e-6, decay=0.1)
+    >>> f"{effective_range(law):.3f}"
+    '0.279'
+    """
+    return _STRENGTH * law.work_of_adhesion / (law.strength * law.equilibrium_gap)
 
 
 @lru_cache(maxsize=64)
