@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
+from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem import Settings, solve
@@ -153,6 +154,18 @@ def test_a_table_of_a_smooth_law_is_that_law():
     # a monotone curve is flat at its highest point: second order there, in the energy third
     assert np.all(np.diff(np.log2(error)) < -2)
     assert error[-1] < 1e-3
+
+
+@pytest.mark.parametrize("length", [1.0, 1e-2, 1e-3, 1e-4])
+def test_a_table_may_be_as_short_as_it_likes_before_a_firm_wall(length):
+    # the wall, which goes on to gap 0, is worth up to 1e11 times the work of adhesion
+    opening = np.array([-0.4, -0.2, 0.0, 0.2, 0.5, 1.0, 1.5])
+    traction = 1e5 * np.array([-1e3, -10.0, 0.0, 1.0, 0.8, 0.3, 0.0])
+    law = Tabulated.of_points(RANGE * (1 + length * opening), traction).reduced()
+    assert law.energy(1.0) == pytest.approx(-1, rel=1e-12, abs=0)
+    of_points = PchipInterpolator(opening, traction)
+    strength = 1e5 / float(of_points.integrate(0.0, 1.5))
+    assert law.strength * length == pytest.approx(strength, rel=1e-9, abs=0)
 
 
 @pytest.mark.parametrize(
