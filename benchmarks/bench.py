@@ -11,6 +11,10 @@ PARTS = [
     ("Speed beside the published algorithm", ["speed.py"]),
     ("Accuracy of the default setting", ["accuracy.py"]),
     ("Random cases over the whole range", ["robust.py", "--count", "512", "--until", "detached"]),
+    (
+        "Random problems with every law",
+        ["trust.py", "--count", "60", "--noise", "20", "--finer", "20", "--limit", "20"],
+    ),
     ("The flat punch on a layer", ["punch.py"]),
     ("Tests with a history, and other traction laws", ["histories.py"]),
     ("From the rate to the state at pull-off", ["rate_law.py"]),

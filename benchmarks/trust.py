@@ -5,6 +5,7 @@ with the kernels of every --core-type that is named, runs --noise of them with r
 1e-14 in all that is worked out, and --finer of them ten times as accurately. Each run is a file of
 the folder, a line for each problem as it is done; a run that was cut short goes on where it was.
 Then the figures are printed beside what is asked of them, and what is worst.
+Without --out the files are not kept.
 
 ``--report FILE ...`` prints them for files that are there, the first being what the others are held
 against; ``--show NUMBER`` prints a problem and its record.
@@ -21,6 +22,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
@@ -136,6 +138,26 @@ def run(
     print(file=sys.stderr)
 
 
+def runs(given: argparse.Namespace, folder: Path) -> list[Path]:
+    """Do all runs that are wanted, each in a file of a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    first, plain = given.core_type[0], Asked(given.seed, given.accuracy)
+    noise = Asked(given.seed, given.accuracy, noise=True)
+    finer = Asked(given.seed, given.accuracy / FINER, estimate=False)
+    files = []
+    for name, asked, count, kernels, longer in (
+        *((kind or "plain", plain, given.count, kind, 1.0) for kind in given.core_type),
+        ("noise", noise, given.noise, first, 1.0),
+        ("finer", finer, given.finer, first, FINER),
+    ):
+        if count:
+            file, numbers = folder / f"{name}.jsonl", range(min(count, given.count))
+            limit = longer * given.limit
+            run(file, asked, numbers, kernels=kernels, limit=limit, workers=given.workers)
+            files.append(file)
+    return files
+
+
 def main() -> None:
     """Run and report."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -155,26 +177,11 @@ def main() -> None:
         shown = problem(given.seed, given.show)
         print(words(shown), json.dumps(to_dict(shown), indent=2), sep="\n")
         return
-    files = list(given.report or [])
-    if given.out is not None:
-        given.out.mkdir(parents=True, exist_ok=True)
-        first, plain = given.core_type[0], Asked(given.seed, given.accuracy)
-        noise = Asked(given.seed, given.accuracy, noise=True)
-        finer = Asked(given.seed, given.accuracy / FINER, estimate=False)
-        for name, asked, count, kernels, longer in (
-            *((kind or "plain", plain, given.count, kind, 1.0) for kind in given.core_type),
-            ("noise", noise, given.noise, first, 1.0),
-            ("finer", finer, given.finer, first, FINER),
-        ):
-            if count:
-                file = given.out / f"{name}.jsonl"
-                limit = longer * given.limit
-                numbers = range(min(count, given.count))
-                run(file, asked, numbers, kernels=kernels, limit=limit, workers=given.workers)
-                files.append(file)
-    if not files:
-        parser.error("give --out FOLDER, --report FILE or --show NUMBER")
-    report(files)
+    if given.report:
+        report(given.report)
+        return
+    with nullcontext(given.out) if given.out else TemporaryDirectory() as folder:
+        report(runs(given, Path(folder)))
 
 
 if __name__ == "__main__":
