@@ -14,7 +14,7 @@ from viscotack.bem import Settings, solve
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.materials import Elastic
 from viscotack.problem import Groups
-from viscotack.protocol import AtDepth
+from viscotack.protocol import Apart, AtDepth
 from viscotack.result.observables import pull_off
 from viscotack.theory import maugis
 from viscotack.traction import (
@@ -166,6 +166,21 @@ def test_a_table_may_be_as_short_as_it_likes_before_a_firm_wall(length):
     of_points = PchipInterpolator(opening, traction)
     strength = 1e5 / float(of_points.integrate(0.0, 1.5))
     assert law.strength * length == pytest.approx(strength, rel=1e-9, abs=0)
+
+
+def test_beyond_its_end_a_table_has_nothing_however_steeply_it_ends():
+    law = Tabulated.of_points([0.8, 1.0, 1.5, 2.0, 2.5], [-100.0, 0.0, 1.0, 0.8, 0.0])
+    end = law.points[-1][0] * law.equilibrium_gap
+    assert law.stiffness(0.999 * end) < -0.5
+    beyond = np.array([1.0, 1.001, 5.0, 1e4]) * end
+    for function in (law.traction, law.stiffness, law.energy, law.energy_beyond):
+        np.testing.assert_array_equal(function(beyond), 0.0)
+
+
+def test_surfaces_apart_beyond_the_reach_of_a_table_that_ends_steeply_are_at_rest():
+    steep = Tabulated.of_points([0.8, 1.0, 1.5, 2.0, 2.5], [-100.0, 0.0, 1.0, 0.8, 0.0]).reduced()
+    relaxed = SphereContact(2.0, steep).relaxed(Apart(15.0), Settings.for_accuracy(5e-3))
+    assert relaxed.force == 0
 
 
 @pytest.mark.parametrize(

@@ -138,10 +138,11 @@ class Tabulated:
         """The curve through the points, its derivative and its integrals, zero at the end."""
         gap, traction = np.array(self.points).T
         inner = PchipInterpolator(gap, traction)
-        # a first piece from gap 0, straight
+        # a first piece from gap 0, straight, and a last one without anything, its slope neither
         slope = float(inner(gap[0], 1))
         wall = np.array([0.0, 0.0, slope, traction[0] - slope * gap[0]])
-        curve = PPoly(np.column_stack([wall, inner.c]), np.concatenate([[0.0], gap]))
+        pieces = np.column_stack([wall, inner.c, np.zeros(4)])
+        curve = PPoly(pieces, np.concatenate([[0.0], gap, [gap[-1] + 1]]))
         energy = _zero_at_end(curve.antiderivative())
         return _Curves(curve, energy, _zero_at_end(energy.antiderivative()), curve.derivative())
 
