@@ -33,6 +33,7 @@ from trust_report import report
 
 import viscotack
 from viscotack import pull_off, solve, time_to_detachment, to_dict, work_to_pull_off
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
 
 PACKAGE = Path(viscotack.__file__).parent
 # Round-off as another processor has it lies with the tests of the package at hand.
@@ -167,7 +168,7 @@ def main() -> None:
     parser.add_argument("--core-type", nargs="+", default=[""], metavar="NAME", help="of OpenBLAS")
     parser.add_argument("--noise", type=int, default=0, metavar="COUNT")
     parser.add_argument("--finer", type=int, default=0, metavar="COUNT")
-    parser.add_argument("--accuracy", type=float, default=5e-3)
+    parser.add_argument("--accuracy", type=float, default=DEFAULT_ACCURACY)
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds a problem")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--report", type=Path, nargs="+", metavar="FILE")

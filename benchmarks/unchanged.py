@@ -77,6 +77,12 @@ MENDED = {
         "sphere 072",
         "sphere 084",
     ),
+    "the energy of a table is summed from its far end": (
+        "sphere 037",
+        "sphere 047",
+        "sphere 054",
+        "punch 060",
+    ),
     "Newton goes on until the tractions are balanced as well": (
         "sphere 003",
         "sphere 012",
