@@ -2,9 +2,9 @@
 
 ``python benchmarks/trust.py --out FOLDER`` draws 600 problems (`random_problems.py`), runs them
 with the kernels of every --core-type that is named, runs --noise of them with relative noise of
-1e-14 in all that is worked out, and --finer of them ten times as accurately. Each run is a file of
-the folder, a line for each problem as it is done; a run that was cut short goes on where it was.
-Then the figures are printed beside what is asked of them, and what is worst.
+1e-14 in all that is worked out, and --finer of those that have an answer ten times as accurately.
+Each run is a file of the folder, a line for each problem as it is done; a run that was cut short
+goes on where it was. Then the figures are printed beside what is asked of them, and what is worst.
 Without --out the files are not kept.
 
 ``--report FILE ...`` prints them for files that are there, the first being what the others are held
@@ -18,8 +18,9 @@ import hashlib
 import json
 import sys
 import warnings
+from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -29,7 +30,7 @@ from typing import Any
 from in_time import spread_in_time
 from random_problems import problem, words
 from threadpoolctl import threadpool_info
-from trust_report import report
+from trust_report import read, report
 
 import viscotack
 from viscotack import pull_off, solve, time_to_detachment, to_dict, work_to_pull_off
@@ -110,7 +111,7 @@ def source() -> str:
 
 
 def run(
-    file: Path, asked: Asked, numbers: range, *, kernels: str, limit: float, workers: int
+    file: Path, asked: Asked, numbers: Sequence[int], *, kernels: str, limit: float, workers: int
 ) -> None:
     """Ask what a file does not yet have, and write each answer at once."""
     head = {"kernels": kernels, "limit": limit, "source": source(), **vars(asked)}
@@ -142,20 +143,24 @@ def run(
 def runs(given: argparse.Namespace, folder: Path) -> list[Path]:
     """Do all runs that are wanted, each in a file of a folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    first, plain = given.core_type[0], Asked(given.seed, given.accuracy)
-    noise = Asked(given.seed, given.accuracy, noise=True)
-    finer = Asked(given.seed, given.accuracy / FINER, estimate=False)
+    plain = Asked(given.seed, given.accuracy)
+    first = given.core_type[0]
     files = []
-    for name, asked, count, kernels, longer in (
-        *((kind or "plain", plain, given.count, kind, 1.0) for kind in given.core_type),
-        ("noise", noise, given.noise, first, 1.0),
-        ("finer", finer, given.finer, first, FINER),
-    ):
-        if count:
-            file, numbers = folder / f"{name}.jsonl", range(min(count, given.count))
-            limit = longer * given.limit
-            run(file, asked, numbers, kernels=kernels, limit=limit, workers=given.workers)
-            files.append(file)
+
+    def add(name: str, asked: Asked, numbers: Sequence[int], kernels: str, longer: float) -> None:
+        files.append(folder / f"{name}.jsonl")
+        limit = longer * given.limit
+        run(files[-1], asked, numbers, kernels=kernels, limit=limit, workers=given.workers)
+
+    for kernels in given.core_type:
+        add(kernels or "plain", plain, range(given.count), kernels, 1.0)
+    if given.noise:
+        numbers = range(min(given.noise, given.count))
+        add("noise", replace(plain, noise=True), numbers, first, 1.0)
+    if given.finer:
+        answered = sorted(read(files[0]).answered)[: given.finer]
+        finer = Asked(given.seed, given.accuracy / FINER, estimate=False)
+        add("finer", finer, answered, first, FINER)
     return files
 
 
