@@ -158,7 +158,7 @@ def _zero_at_end(curve: PPoly) -> PPoly:
     """Return the curve with zero at its end, summed from there: a wall may be worth 1e9 tails."""
     moved, step = curve.c.copy(), np.diff(curve.x)
     moved[-1] = 0.0
-    gained = sum(c * step**power for power, c in enumerate(moved[::-1]))
+    gained = np.sum([c * step**power for power, c in enumerate(moved[::-1])], axis=0)
     moved[-1] = -np.cumsum(gained[::-1])[::-1]
     return PPoly(moved, curve.x)
 
