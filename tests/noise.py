@@ -31,8 +31,9 @@ def noise(seed, size=1e-14):
         S = noisy(stiffness(*arguments))
         return (S + S.T) / 2
 
-    def noisy_factor(matrix, diagonal):
-        return factor(noisy(matrix), noisy(diagonal))
+    def noisy_factor(matrix, curvature):
+        noised = curvature._replace(diagonal=noisy(curvature.diagonal))
+        return factor(noisy(matrix), noised)
 
     with ExitStack() as stack:
         for owner, name, function in (

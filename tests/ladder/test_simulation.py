@@ -26,7 +26,7 @@ from viscotack.result.observables import (
     work_to_pull_off,
 )
 from viscotack.theory import bradley, jkr
-from viscotack.traction import LennardJones
+from viscotack.traction import Dugdale, LennardJones
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 # What the default setting promises; the estimate says less than this in every case here.
@@ -68,9 +68,10 @@ def test_far_displacement_is_that_of_a_point_force():
     assert G[3, 0] == pytest.approx(area[0] / (np.pi * 400.0), rel=1e-7, abs=0)
 
 
-def test_stiffness_is_symmetric_and_positive_definite():
-    surface = half_space(np.concatenate([np.linspace(0, 2, 40), np.geomspace(2.1, 60, 30)]), 3.24)
-    S = surface.stiffness
+@pytest.mark.parametrize("law", [LennardJones(1.0, 1.0), Dugdale(1.0, 1.0, fall=0.1)])
+def test_stiffness_is_symmetric_and_positive_definite(law):
+    nodes = np.concatenate([np.linspace(0, 2, 40), np.geomspace(2.1, 60, 30)])
+    S = half_space(nodes, 3.24, law).stiffness
     assert np.array_equal(S, S.T)
     assert np.linalg.eigvalsh(S)[0] > 0
 
@@ -437,7 +438,7 @@ def test_where_the_published_algorithm_gave_up_this_one_finishes():
 def test_mended_lines_meet_a_smooth_pressure_at_third_order():
     def displacement(intervals, distant):
         x = np.linspace(0.0, 1.0, intervals + 1)
-        S = stiffness(layer_influence(x, 2.0, Frictionless()), 2 * np.diff(x), distant)
+        S = stiffness(layer_influence(x, 2.0, Frictionless()), 2 * np.diff(x), 24.0, distant)
         u = np.linalg.solve(S, nodal_lengths(x) * (1 - x * x) ** 3)
         return u[:: intervals // 10][1:10]
 

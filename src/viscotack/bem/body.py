@@ -13,14 +13,13 @@ from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
+from viscotack.bem.span import least_gap, room
 from viscotack.bem.surface import Surface
 from viscotack.materials import Modes
 
 # An iteration that gains less than this part of the energy is the last of a step: the force is then
 # within 1e-7, and steps at large Tabor numbers take three times fewer iterations.
 _LEAST_GAIN = 1e-10
-# Carried to other nodes, a gap may undershoot where it is steep; the law repels below this [h0].
-_LEAST_GAP = 0.8
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +95,7 @@ class Body:
             law,
             free,
             s.compliance,
-            np.maximum(guess, 0.5 * state.gap),
+            np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span)),
             self._net(hold, state),
             least_gain=_LEAST_GAIN,
             most_iterations=most_iterations,
@@ -134,7 +133,7 @@ class Body:
         memory = Memory(d, d @ surface.stiffness)
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
-        guess = np.maximum(carried(state.gap), _LEAST_GAP)
+        guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
         balance = descend(surface, law, free, c, guess, self._net(hold, state))
         if not balance.stable:
             return balance

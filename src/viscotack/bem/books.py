@@ -10,7 +10,7 @@ import numpy.typing as npt
 from viscotack.result import Event
 
 # The imbalance of the energies is measured by their largest term, but by no less than this: at the
-# start all of them are zero [output force times h0].
+# start all of them are zero [output force times the range of the law].
 SMALLEST_ENERGY = 0.1
 # Pull-off is behind when the force has risen again by this part of its minimum and of the unit of
 # force: a force that has just become tensile is as large as what nodes add to it.
@@ -96,9 +96,11 @@ class Profile:
 class History:
     """What the march passed through: a snapshot and the books after each step.
 
-    `legs` has the number of the leg that led to each snapshot.
+    `legs` has the number of the leg that led to each snapshot, `least_energy` what the imbalance of
+    the energies is measured by at least [output force times h0].
     """
 
+    least_energy: float
     snapshots: list[Snapshot] = field(default_factory=list)
     books: list[Books] = field(default_factory=list)
     legs: list[int] = field(default_factory=list)
@@ -116,4 +118,4 @@ class History:
         pairs = list(zip(self.books, self.snapshots, strict=True))
         missing = np.array([b.imbalance(first, s) for b, s in pairs])
         largest = np.array([b.largest(first, s) for b, s in pairs])
-        return missing / np.maximum(np.maximum.accumulate(largest), SMALLEST_ENERGY)
+        return missing / np.maximum(np.maximum.accumulate(largest), self.least_energy)

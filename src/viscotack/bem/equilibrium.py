@@ -20,26 +20,26 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
+from viscotack.bem.interface import Band
 from viscotack.bem.machine import Hold
+from viscotack.bem.span import released, room
 from viscotack.bem.surface import Surface
-from viscotack.traction import Traction
+from viscotack.traction import Traction, effective_range
 
 _potrf, _potrs = get_lapack_funcs(("potrf", "potrs"), dtype=np.float64)
 
-# Newton converges quadratically: a last change of 1e-6 of the gap leaves an error near 1e-12.
+# Newton converges quadratically: a last change of 1e-6 of the room leaves an error near 1e-12.
 _LAST_CHANGE = 1e-6
 # What is added to an unstable tangent, as parts of its most negative curvature.
 _STIFFER = (1e-3, 1e-2, 1e-1)
 # The least of that curvature, as part of the stiffness of a node.
 _SLIGHT = 1e-9
-# A last change of a part x of the gap may leave this part of the tractions unbalanced, and so many
+# A last change of a part x of the room may leave this part of the tractions unbalanced, and so many
 # x^2. A smooth law leaves less than half of that; the kinks of another leave 1e-5 after a tiny
 # change, which the audit of the energies would take for a jump.
 _UNBALANCED = 1e-6
 _CURVED = 30.0
-# A dead load that has opened the smallest gap so far [h0] is held by nothing.
-_RELEASED = 30.0
-# A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
+# A step may close at most this part of the room at a node: beyond, the repulsion explodes.
 _LARGEST_CLOSING = 0.3
 
 
@@ -96,34 +96,37 @@ class _Elastic:
         return 0.5 * float(v @ Mv) + float(self.linear @ v), Mv + self.linear  # type: ignore[operator]
 
 
-def _factor(stiffness: npt.NDArray, diagonal: npt.NDArray):
-    """Return the Cholesky factor of stiffness + diagonal, or None where it is not stable."""
+def _factor(stiffness: npt.NDArray, curvature: Band):
+    """Return the Cholesky factor of stiffness + curvature, or None where it is not stable."""
     tangent = stiffness.copy(order="F")
-    tangent.flat[:: len(tangent) + 1] += diagonal
+    tangent.flat[:: len(tangent) + 1] += curvature.diagonal
+    if curvature.beside is not None:  # only the lower half is used
+        tangent.flat[len(tangent) :: len(tangent) + 1] += curvature.beside
     factor, info = _potrf(tangent, lower=1, overwrite_a=1, clean=0)
     return None if info else factor
 
 
-def _stiffened(stiffness: npt.NDArray, curvature: npt.NDArray):
+def _stiffened(stiffness: npt.NDArray, curvature: Band):
     """Return the factor of a tangent made just stiff enough to be positive definite.
 
     The first stiffness that serves is taken, because a step goes as far along the unstable
     direction as the stiffness lets it.
     """
     # out of the range of a law there is no curvature, and under a dead load nothing else either
-    softest = max(-float(np.min(curvature)), _SLIGHT * float(np.max(np.diag(stiffness))))
+    diagonal, beside = curvature
+    softest = max(-float(np.min(diagonal)), _SLIGHT * float(np.max(np.diag(stiffness))))
     for share in _STIFFER:
-        factor = _factor(stiffness, curvature + share * softest)
+        factor = _factor(stiffness, Band(diagonal + share * softest, beside))
         if factor is not None:
             return factor
-    factor = _factor(stiffness, np.maximum(curvature, 0.0))
+    factor = _factor(stiffness, Band(np.maximum(diagonal, 0.0)))
     # under a dead load the solid alone does not resist all of them
-    return _factor(stiffness, curvature + 1.1 * softest) if factor is None else factor
+    return _factor(stiffness, Band(diagonal + 1.1 * softest)) if factor is None else factor
 
 
-def _limited(change: npt.NDArray, gap: npt.NDArray) -> float:
+def _limited(change: npt.NDArray, room: npt.NDArray) -> float:
     """Return the largest part of the change that closes no gap too far."""
-    closing = float(np.max(-change / gap))
+    closing = float(np.max(-change / room))
     return min(1.0, _LARGEST_CLOSING / closing) if closing > 0 else 1.0
 
 
@@ -152,30 +155,31 @@ def descend(
     Tabor numbers the energy hardly depends on where the edge is, and iterations would go on along
     that valley. Not stable if they ran out.
     """
-    A, solid = surface.area, _Elastic.of(surface.stiffness / compliance, free_gap, hold)
-    gap = guess
+    solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
+    face, gap, span = surface.interface, guess, effective_range(law)
     elastic, pull = solid.at(gap)
-    interface = float(A @ law.energy(gap))
-    energy = elastic + interface
+    adhesion = face.energy(law, gap)
+    energy = elastic + adhesion
     # Near the minimum the round-off of the two sums decides, not the slope.
-    size = abs(elastic) + abs(interface)
+    size = abs(elastic) + abs(adhesion)
     for iteration in range(1, most_iterations + 1):
-        curvature = A * law.stiffness(gap)
+        curvature = face.tangent(law, gap)
         factor = _factor(solid.matrix, curvature)
         stable = factor is not None
         if factor is None:
             factor = _stiffened(solid.matrix, curvature)
-        residual = pull + A * law.traction(gap)
+        residual = pull + face.tension(law, gap)
         change, _ = _potrs(factor, -residual, lower=1)
-        part, slope = _limited(change, gap), float(residual @ change)
+        size_of_law = room(gap, span)
+        part, slope = _limited(change, size_of_law), float(residual @ change)
         while True:
             trial = gap + part * change
             elastic, pull = solid.at(trial)
-            trial_energy = elastic + float(A @ law.energy(trial))
+            trial_energy = elastic + face.energy(law, trial)
             if trial_energy <= energy + 1e-4 * part * slope + 1e-12 * size or part < 1e-6:
                 break
             part *= 0.5
-        largest = float(np.max(np.abs(change) / gap))
+        largest = float(np.max(np.abs(change) / size_of_law))
         last = stable and largest < _LAST_CHANGE
         if last and part < 1.0 and (iteration == most_iterations or np.array_equal(trial, gap)):
             # So small a change of a stable state gains less than the round-off of the energies,
@@ -185,8 +189,8 @@ def descend(
             return Balance(gap, solid.depth(gap), iteration, True)
         gap, energy = trial, trial_energy
         little = stable and part == 1.0 and -slope < least_gain * size
-        if (last and part == 1.0) or (little and _balanced(pull, A * law.traction(gap), largest)):
+        if (last and part == 1.0) or (little and _balanced(pull, face.tension(law, gap), largest)):
             return Balance(gap, solid.depth(gap), iteration, True)
-        if hold.stiffness == 0 and np.min(gap) > _RELEASED:
+        if hold.stiffness == 0 and released(gap, span):
             return Balance(gap, solid.depth(gap), iteration, False, released=True)
     return Balance(gap, solid.depth(gap), most_iterations, False)

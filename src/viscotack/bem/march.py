@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from viscotack.bem.body import Body
-from viscotack.bem.books import Books, History, Lowest
+from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
 from viscotack.bem.machine import Leg
@@ -23,12 +23,10 @@ from viscotack.bem.mesh import Grading, Mesh
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import opening
 from viscotack.bem.settings import Settings
+from viscotack.bem.span import separated
 from viscotack.bem.steps import arrived, clipped, is_shortest, shortened, tried, weighed
 from viscotack.materials import Modes
 
-# The surfaces have separated when the smallest gap is this large [h0]; the work that is left is
-# the energy of the interface there.
-SEPARATED = 10.0
 # A depth, a force or an edge has been met within this, in its unit.
 _MET = 1e-9
 
@@ -51,7 +49,7 @@ def march(
     apart). The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
     on steps was met, or "lost" when no equilibrium was found.
     """
-    history = History()
+    history = History(least_energy=SMALLEST_ENERGY * contact.span)
     body = Body(contact, modes, np.asarray(modes.weights))
     run = Run(body, settings, legs, profiles, history)
     at = _first(run, start, grading)
@@ -122,7 +120,7 @@ def _stepped(run: Run, at: Place) -> Place:
 def _judged(run: Run, at: Place, until: str) -> Place:
     """See whether the leg, or the march, has come to its end, and whether nodes must follow."""
     history, last = run.history, at.number == len(run.legs) - 1
-    if last and at.leg.opens and float(np.min(at.state.gap)) > SEPARATED:
+    if last and at.leg.opens and separated(at.state.gap, run.body.contact.span):
         history.outcome = "detached"
     elif last and until == "pull-off" and at.past:
         history.outcome = "pull-off"

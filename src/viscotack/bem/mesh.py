@@ -109,7 +109,8 @@ class Mesh:
     Attributes
     ----------
     finest, opening : Grading, float
-        Grading for the first crack, and the length over which its gap opens by h0.
+        Grading for the first crack, and the length over which its gap opens by
+        the range of the law.
     lattice : float
         Place around which the lattice of fine nodes lies, and the scar: where the edge began to
         recede.

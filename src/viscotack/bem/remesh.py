@@ -26,8 +26,8 @@ def around_edge(body: Body, at: Place) -> Place | Balance:
 
 
 def opening(state: State, contact: Contact) -> float:
-    """Return the distance from the edge over which the gap opens by h0; the zone's without one."""
-    gap, x = state.gap - contact.law.edge_gap - 1, state.surface.position
+    """Return the distance from the edge over which the gap opens by a range; or the zone."""
+    gap, x = state.gap - contact.law.edge_gap - contact.span, state.surface.position
     beyond = int(np.argmax((gap > 0) & (x > state.seen.edge)))
     if beyond == 0:
         return contact.zone

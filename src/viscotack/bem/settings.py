@@ -6,15 +6,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from viscotack.bem.interface import resolved
 from viscotack.bem.mesh import Grading
 from viscotack.cards import card_of
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, Accuracy
-from viscotack.traction import LennardJones, Traction, softening
+from viscotack.traction import Traction, softening
 
 # With fewer nodes over the length in which the gap opens, a slow edge is caught by the nodes.
 _FEWEST_NODES = 2.5
-# The law for which numbers of nodes are stated.
-_SOFTENING = softening(LennardJones(1.0, 1.0))
+# Numbers of nodes are stated for laws whose tension falls no more steeply than this.
+_SOFTENING = 1.2
+# A law with a step is not taken at the nodes (:mod:`.interface`): so many times finer they keep the
+# edge from being caught by them. Beyond its step there is nothing to resolve: so many zones do.
+_FINEST, _STEP_ZONES = 8.0, 2.0
 # Lengths of the relaxed crack's zone that stay fine around the first edge, for what remembers.
 _SCAR_ZONES = 2.0
 
@@ -38,13 +42,13 @@ class Settings:
     growth_inside, growth_outside : float
         Relative growth of the node distance from there to the centre and outwards.
     reach : float
-        Rigid gap at the last node [h0]; the tail beyond is added in closed form.
+        Rigid gap at the last node [range of the law]; the tail beyond is added in closed form.
     step_error : float
-        Largest error of a linear load in a step, as displacement [h0].
+        Largest error of a linear load in a step, as displacement [range of the law].
     force_change : float
         Largest change of the force in a step, relative to |force| + 1.5 pi R dg0.
     travel, first_travel : float
-        Largest and first travel of the drive in a step [(mu + 1) h0].
+        Largest and first travel of the drive in a step [mu h0 + range of the law].
     imbalance : float
         Energy that may go missing in a step, relative to the largest term of the books.
     mode_tolerance : float
@@ -92,14 +96,14 @@ class Settings:
     ) -> Grading:
         """Return the grading of the nodes around a crack whose gap opens over a zone.
 
-        A law that falls more steeply than that of Lennard-Jones has nodes so much finer; `more`
-        multiplies their number where the geometry asks for it.
+        A law that falls more steeply than most has nodes so much finer; `more` multiplies their
+        number where the geometry asks for it.
         """
-        steeper = max(1.0, softening(law) / _SOFTENING)
+        steeper = min(max(1.0, softening(law) / _SOFTENING), _FINEST)
         spacing = zone / (self.nodes_per_zone * steeper * more)
         return Grading(
             spacing=spacing,
-            half_width=zone * self.fine_zones,
+            half_width=zone * (self.fine_zones if resolved(law) else _STEP_ZONES),
             scar_spacing=spacing,
             scar_half_width=zone * _SCAR_ZONES,
             growth_inside=self.growth_inside,

@@ -192,7 +192,7 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
     if isinstance(groups, PunchGroups):
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
     low, high = _TABOR_RANGE
-    if not low <= groups.tabor <= high:
+    if not low <= groups.effective_tabor <= high:
         raise InputError(
             f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"

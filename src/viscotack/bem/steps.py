@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from viscotack.bem.body import State, Trial
-from viscotack.bem.books import SMALLEST_ENERGY, Books
+from viscotack.bem.books import Books
 from viscotack.bem.memory import Step
 from viscotack.bem.place import Place, Run
 
@@ -99,7 +99,7 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     )
     first, entry = run.history.snapshots[0], at.books.entered(before.seen, after.seen, heat)
     missing = entry.imbalance(first, after.seen) - at.books.imbalance(first, before.seen)
-    largest = max(entry.largest(first, after.seen), SMALLEST_ENERGY)
+    largest = max(entry.largest(first, after.seen), run.history.least_energy)
     tolerated = run.settings.imbalance * largest
     strain = max(_strain(run, at, trial), abs(missing) / tolerated)
     return Attempt(after, entry, missing, tolerated, strain)
@@ -157,7 +157,7 @@ def _strain(run: Run, at: Place, trial: Trial) -> float:
     if not at.leg.rigid:
         travel = (abs(after.depth - now.depth) / _travel(run, at)) ** 2
     return max(
-        trial.error / (run.settings.step_error * _looser(at) ** 2),
+        trial.error / (run.settings.step_error * run.body.contact.span * _looser(at) ** 2),
         (abs(after.force - now.force) / (2 * force_change(run, at))) ** 2,
         travel,
         at.mesh.strain(now.edge, after.edge),

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
+from viscotack.bem.interface import Interface
 from viscotack.traction import Traction
 
 _potrf, _potri = get_lapack_funcs(("potrf", "potri"), dtype=np.float64)
@@ -35,6 +36,8 @@ class Surface:
         indenter beyond it adds (Derjaguin). Zero where the indenter ends there.
     whole : float
         Where the edge is when all nodes are in contact; nan where that cannot be.
+    interface : Interface
+        The law on these nodes.
     """
 
     position: npt.NDArray
@@ -44,10 +47,11 @@ class Surface:
     unit: float
     flank: float
     whole: float
+    interface: Interface
 
     def nodal(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
         """Return the nodal forces, compression positive."""
-        return -self.area * law.traction(gap)
+        return -self.interface.tension(law, gap)
 
     def force(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the normal force [output unit], compression positive, with that of the flank."""
@@ -59,7 +63,7 @@ class Surface:
 
     def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the interface energy [output force times h0], zero for surfaces far apart."""
-        nodal = self.unit * float(self.area @ law.energy(gap))
+        nodal = self.unit * self.interface.energy(law, gap)
         return nodal + (self.flank * float(law.energy_beyond(gap[-1])) if self.flank else 0.0)
 
     def edge(self, gap: npt.NDArray, edge_gap: float) -> float:
@@ -92,7 +96,10 @@ class Surface:
 
 
 def stiffness(
-    influence: npt.NDArray, panels: npt.NDArray, distant: npt.NDArray | float = 1.0
+    influence: npt.NDArray,
+    panels: npt.NDArray,
+    smoothing: float,
+    distant: npt.NDArray | float = 1.0,
 ) -> npt.NDArray:
     r"""Return the nodal forces that hold unit displacements, for a collocated influence matrix.
 
@@ -107,6 +114,7 @@ def stiffness(
     stays symmetric, half off the displacements: with the smoothing
     :math:`W = 1 - \tfrac{1}{24} h^2 \partial^2`, here by differences that conserve the force,
     :math:`B \to W B W^T` has an error of third order on equal nodes, and a fiftieth of the error.
+    An interface that takes means over panels has more to make up for, and says how much.
 
     Parameters
     ----------
@@ -114,6 +122,8 @@ def stiffness(
         G [length], from nodes that ascend from the axis.
     panels : ndarray, shape (N - 1,)
         Area between neighbours, half of it belonging to each of them.
+    smoothing : float
+        What the interface needs, 24 where it takes the law at the nodes.
     distant : float or ndarray, shape (N - 1,)
         1 where a pressure is felt far beyond its panel, 0 where the solid answers on the spot, like
         springs side by side: there the straight lines do no harm.
@@ -131,7 +141,7 @@ def stiffness(
     none = np.zeros(1)
     area = (np.concatenate([panels, none]) + np.concatenate([none, panels])) / 2
     B = influence / area
-    moved = panels * distant / 24
+    moved = panels * distant / smoothing
     B = _smoothed(_smoothed((B + B.T) / 2, moved, area).T, moved, area)
     B = (B + B.T) / 2
     factor, info = _potrf(B, lower=1)

@@ -111,7 +111,9 @@ class Tabulated:
     def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the derivative of the traction by the gap [Pa/m]; negative where it softens."""
         scale = self.work_of_adhesion / self.equilibrium_gap**2
-        return scale * self._curves.stiffness(self._within(gap))
+        within = self._within(gap)
+        # at the end the curve may come down with a slope; beyond it there is none
+        return scale * self._curves.stiffness(within) * (within < self.points[-1][0])
 
     @property
     def strength(self) -> float:

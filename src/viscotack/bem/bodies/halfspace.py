@@ -30,7 +30,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import ellipe, ellipkm1
 
+from viscotack.bem.interface import interface
 from viscotack.bem.surface import Surface, stiffness
+from viscotack.traction import Traction
 
 # Below this ratio (c/r)^2 the closed form outside the cap loses digits to cancellation.
 _SERIES_BELOW = 0.05
@@ -92,15 +94,17 @@ def nodal_areas(radius: npt.NDArray) -> npt.NDArray:
     return np.concatenate([half, [0.0]]) + np.concatenate([[0.0], half])
 
 
-def half_space(radius: npt.NDArray, tabor: float) -> Surface:
+def half_space(radius: npt.NDArray, tabor: float, law: Traction) -> Surface:
     """Return the surface with these nodes [beta] under a sphere of this Tabor number."""
-    panels = np.pi * np.diff(radius * radius)
+    panels, area = np.pi * np.diff(radius * radius), nodal_areas(radius)
+    face = interface(law, area, panels)
     return Surface(
         position=radius,
-        area=nodal_areas(radius),
-        stiffness=stiffness(influence(radius), panels) / tabor**2,
+        area=area,
+        stiffness=stiffness(influence(radius), panels, face.smoothing) / tabor**2,
         rigid_gap=1 + tabor * radius * radius / 2,
         unit=2 * tabor / (3 * np.pi),  # dg beta^2/h0 in 1.5 pi R dg
         flank=4 / 3,  # 2 pi R times the energy there
         whole=float("nan"),
+        interface=face,
     )

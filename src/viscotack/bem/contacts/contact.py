@@ -36,6 +36,8 @@ class Contact(Protocol):
     ----------
     law : Traction
         Reduced traction law.
+    span : float
+        Range of the law [h0]: what it does, it does over this length.
     travel : float
         Depth [h0] over which the contact changes as a whole: what steps are measured by.
     edge_unit : float
@@ -46,6 +48,8 @@ class Contact(Protocol):
 
     @property
     def law(self) -> Traction: ...  # noqa: D102
+    @property
+    def span(self) -> float: ...  # noqa: D102
     @property
     def travel(self) -> float: ...  # noqa: D102
     @property

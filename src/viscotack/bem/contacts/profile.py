@@ -79,15 +79,6 @@ class ProfileContact(SphereContact):
         gap = self.rise(r) - depth + 2 / np.pi * (depth * np.arcsin(ratio) - hollow)
         return np.maximum(gap, 0.0)  # but for round-off it is not negative
 
-    @property
-    def zone(self) -> float:
-        """Length over which the gap opens at a relaxed edge [beta].
-
-        That of a crack, or a part of the distance over which the tip rises by h0: for q = 2 those
-        of the sphere.
-        """
-        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(2) * self.radius_of_rise(1.0))
-
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta].
 
@@ -96,7 +87,7 @@ class ProfileContact(SphereContact):
         the last node by r^(2-q), and the force on it by q/(1.5 q - 1) in all.
         """
         q = self.exponent
-        surface = half_space(nodes, self.tabor)
+        surface = half_space(nodes, self.tabor, self.law)
         flank = surface.flank * nodes[-1] ** (2 - q) * q / (1.5 * q - 1)
         return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))
 

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.equilibrium import descend
+from viscotack.bem.interface import interface
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
@@ -25,7 +26,7 @@ from viscotack.bem.surface import Surface, stiffness
 from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
-from viscotack.traction import Traction
+from viscotack.traction import Traction, effective_range
 
 # A glued layer with a foundation softer than this is squeezed sideways rather than compressed: its
 # nodes tell thicknesses apart everywhere, by default three of them to one.
@@ -64,9 +65,14 @@ class PunchContact:
     law: Traction
 
     @property
+    def span(self) -> float:
+        """The range of the law [h0]."""
+        return effective_range(self.law)
+
+    @property
     def travel(self) -> float:
-        """A thin layer is stretched by about sqrt(3 b/a0) h0 when it lets go."""
-        return 1 + float(np.sqrt(3 * min(self.thickness, self.size)))
+        """A thin layer is stretched by about sqrt(3 b/a0) ranges when it lets go."""
+        return self.span * (1 + float(np.sqrt(3 * min(self.thickness, self.size))))
 
     @property
     def edge_unit(self) -> float:
@@ -76,7 +82,8 @@ class PunchContact:
     @property
     def zone(self) -> float:
         """Length over which the gap opens at a slow crack [a0], at most that of the layer."""
-        return min(1.5 * self.law.strength**2 / np.pi, 2 * self.thickness)
+        crack = 1.5 * (self.law.strength * self.span) ** 2 / np.pi
+        return min(crack, 2 * self.thickness)
 
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the layer with these nodes [a0]."""
@@ -84,15 +91,17 @@ class PunchContact:
         panels = 2 * np.diff(nodes)  # on both sides
         # A layer that is thin beside a panel is a row of springs.
         distant = 1 / (1 + (np.diff(nodes) / self.thickness) ** 2)
-        strength = self.law.strength
+        strength, area = self.law.strength, nodal_lengths(nodes)
+        face = interface(self.law, area, panels)
         return Surface(
             position=nodes,
-            area=nodal_lengths(nodes),
-            stiffness=stiffness(G, panels, distant) * (2 * strength**2 / np.pi),
+            area=area,
+            stiffness=stiffness(G, panels, face.smoothing, distant) * (2 * strength**2 / np.pi),
             rigid_gap=np.ones(len(nodes)),
             unit=1 / (2 * self.size * strength),  # a0 dg/h0 in 2 a sigma0
             flank=0.0,
             whole=self.size,
+            interface=face,
         )
 
     def grading(self, settings: Settings, depth: float) -> Grading:

@@ -71,15 +71,6 @@ class ShapeContact(SphereContact):
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
         return self.tabor * indenter.gap(nodes, contact_radius=radius, **self._jkr)
 
-    @property
-    def zone(self) -> float:
-        """Length over which the gap opens at a relaxed edge [beta].
-
-        That of a crack, or a part of the distance over which the tip rises by h0: for a sphere its
-        own.
-        """
-        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(2) * self.radius_of_rise(1.0))
-
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta].
 
@@ -88,7 +79,7 @@ class ShapeContact(SphereContact):
         """
         r = nodes[-1]
         q = float(r * self.shape.flank(r) / self.shape.gap(r))
-        surface = half_space(nodes, self.tabor)
+        surface = half_space(nodes, self.tabor, self.law)
         # of a sphere the area between two gaps is 1/mu of their difference, here r/f' of it
         flank = surface.flank * (r / float(self.shape.flank(r))) * q / (1.5 * q - 1)
         return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))

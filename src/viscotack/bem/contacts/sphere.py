@@ -23,19 +23,25 @@ from viscotack.bem.equilibrium import descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
+from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import jkr
-from viscotack.traction import Traction
+from viscotack.traction import Traction, effective_range
 
 # In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
 _JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
 _RADIUS_UNIT = np.pi ** (1 / 3)
 _MOST_MESHES = 200
-# A start by force or radius is found to this part of (mu + 1) h0 in depth.
+# A start by force or radius is found to this part of the travel in depth.
 _DEPTH_TOLERANCE = 1e-6
+# At a small Tabor number the gap opens over this part of the distance over which the tip rises by
+# the range of the law.
+_RISING = 0.2 / np.sqrt(2)
+# Where surfaces overlap by this part of the range there is a contact without adhesion as well.
+_FIRM = 0.2
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
 
@@ -81,9 +87,14 @@ class SphereContact:
         return self.tabor * np.asarray(jkr.gap(nodes, contact_radius=radius, **_JKR_UNITS))
 
     @property
+    def span(self) -> float:
+        """The range of the law [h0]."""
+        return effective_range(self.law)
+
+    @property
     def travel(self) -> float:
-        """A contact changes over mu h0 where it is large, over the range h0 where it is small."""
-        return self.tabor + 1
+        """A contact changes over mu h0 where it is large, over the law's range where small."""
+        return self.tabor + self.span
 
     @property
     def edge_unit(self) -> float:
@@ -94,23 +105,25 @@ class SphereContact:
     def zone(self) -> float:
         """Length over which the gap opens at a relaxed edge [beta].
 
-        That of a crack is 0.75 beta/mu^2. At small Tabor numbers it would be larger than the
-        contact; the gap then opens over the distance over which a paraboloid rises by about h0.
+        That of a crack is 0.75 beta over the square of the effective Tabor number. Where this is
+        small it would be larger than the contact; the gap then opens over the distance over which
+        the indenter rises by about the range of the law.
         """
-        return min(0.75 / self.tabor**2, 0.2 / np.sqrt(self.tabor))
+        crack = 0.75 / (self.tabor / self.span) ** 2
+        return float(min(crack, _RISING * self.radius_of_rise(self.span)))
 
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta]."""
-        return half_space(nodes, self.tabor)
+        return half_space(nodes, self.tabor, self.law)
 
     def grading(self, settings: Settings, depth: float) -> Grading:
         """Return the grading of the nodes for a largest depth [h0]."""
         # Nodes catch the edge with an energy that falls exponentially with their number, while
         # that by which one place of the edge differs from the next falls like 1/mu^2.
-        catching = 1 + 0.4 * float(np.log10(max(self.tabor / 10, 1.0)))
+        catching = 1 + 0.4 * float(np.log10(max(self.tabor / self.span / 10, 1.0)))
         edge = self.jkr_radius(depth)
         # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
-        rise = settings.reach + max(depth, self.rise(edge), 0.0)
+        rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
         outer = max(self.radius_of_rise(rise), 2.5 * edge)
         return settings.grading(self.zone, self.law, outer, more=catching)
 
@@ -164,14 +177,17 @@ class SphereContact:
         """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
         law = self.law
         grading = self.grading(settings, depth)
-        edge = max(self.jkr_radius(depth), self.bare_radius(max(depth + 0.2, 0.0))) + offset
+        edge = (
+            max(self.jkr_radius(depth), self.bare_radius(max(depth + _FIRM * self.span, 0.0)))
+            + offset
+        )
         surface, gap = None, None
         for _ in range(_MOST_MESHES):
             nodes = grading.nodes(edge, edge)
             if surface is None or gap is None:
                 guess = 1 + self.jkr_gap(nodes, edge)
             else:
-                guess = np.maximum(CubicSpline(surface.position, gap)(nodes), 0.8)
+                guess = np.maximum(CubicSpline(surface.position, gap)(nodes), least_gap(self.span))
             surface = self.surface(nodes)
             balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
             gap = balance.gap
@@ -206,7 +222,7 @@ class SphereContact:
                 found[depth] = self._at_depth(depth, settings, offset)
             return quantity(found[depth]) - wanted
 
-        scale = self.tabor + 1.0
+        scale = self.travel
         low = high = first_depth
         try:
             span = 0.05 * scale

@@ -1,0 +1,110 @@
+"""Any law: the march takes its lengths from it, and not from Lennard-Jones."""
+
+import numpy as np
+import pytest
+
+from viscotack.bem import solve
+from viscotack.bem.interface import AtNodes, OnPanels, interface, resolved
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import AtDepth
+from viscotack.result.observables import pull_off_force, work_to_pull_off
+from viscotack.theory import maugis
+from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
+
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+# strong and short, with a corner in its stiffness where it ends
+TABLE = Tabulated.of_points(
+    [0.95, 0.98, 1.0, 1.05, 1.1, 1.2], [-20.0, -8.0, 0.0, 10.0, 6.0, 0.0]
+).reduced()
+GAPS = np.array([0.99, 1.0, 1.0002, 1.0004, 1.3, 1.95, 2.02, 2.0201, 2.5, 4.0])
+PANELS = np.array([0.1, 0.2, 0.2, 0.3, 0.1, 0.4, 0.2, 0.1, 0.5])
+LAWS = {
+    "lennard-jones": LennardJones(1.0, 1.0),
+    "step": Dugdale(1.0, 1.0, rise=0.01, fall=0.05),
+    "table": TABLE,
+}
+
+
+def pulled(law, tabor, material=ELASTIC, rate=1.0, accuracy=0.005, **options):
+    """Return the answer for a sphere that starts and moves in the lengths of its contact."""
+    length = tabor + effective_range(law)
+    groups = Groups(
+        tabor=tabor,
+        material=material,
+        start=AtDepth(3 * length),
+        rate=rate * length,
+        traction=law,
+    )
+    return solve(groups, until="pull-off", accuracy=accuracy, **options)
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize("rule", [AtNodes(np.ones(10)), OnPanels(PANELS)])
+def test_forces_and_tangent_are_derivatives_of_the_interface_energy(law, rule):
+    h, unit = 1e-6, np.eye(len(GAPS))
+
+    def derivative(function):
+        return np.array([(function(GAPS + h * e) - function(GAPS - h * e)) / (2 * h) for e in unit])
+
+    forces = derivative(lambda gap: rule.energy(law, gap))
+    size = np.max(np.abs(forces))
+    np.testing.assert_allclose(rule.tension(law, GAPS), forces, rtol=1e-6, atol=1e-6 * size)
+    band = rule.tangent(law, GAPS)
+    tangent = np.diag(band.diagonal)
+    if band.beside is not None:
+        tangent = tangent + np.diag(band.beside, -1) + np.diag(band.beside, 1)
+    slopes = derivative(lambda gap: rule.tension(law, gap))
+    np.testing.assert_allclose(tangent, slopes, rtol=1e-4, atol=1e-4 * np.max(np.abs(slopes)))
+
+
+def test_a_law_that_nodes_can_follow_is_taken_there_and_a_step_between_them():
+    area, panels = np.ones(3), np.ones(2)
+    assert isinstance(interface(LennardJones(1.0, 1.0), area, panels), AtNodes)
+    assert isinstance(interface(Exponential(1.0, 1.0, 1e-3), area, panels), AtNodes)
+    assert isinstance(interface(Dugdale(1.0, 1.0, fall=0.02), area, panels), OnPanels)
+    assert not resolved(TABLE.of_points([0.9, 1.0, 1.1, 1.11], [-1.0, 0.0, 1.0, 0.0]).reduced())
+
+
+@pytest.mark.march
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "standard solid"])
+def test_of_a_law_with_a_scale_of_its_own_only_that_scale_matters(material):
+    # an exponential law knows its decay and nothing else, wherever its equilibrium is
+    answers = []
+    for decay in (0.25, 1e-3):
+        law = Exponential(1.0, 1.0, decay)
+        result = pulled(law, 1.5 * effective_range(law), material)
+        work = work_to_pull_off(result) / effective_range(law)
+        answers.append((pull_off_force(result), work, result.error_estimate["force"]))
+    assert answers[1] == pytest.approx(answers[0], rel=1e-6)
+
+
+@pytest.mark.march
+@pytest.mark.parametrize(
+    ("decay", "expected"),
+    # converged, at an accuracy of 5e-4; the stronger, the nearer to JKR
+    [(0.25, 1.0102), (0.1, 1.0019)],
+)
+def test_a_short_strong_law_pulls_off_near_jkr(decay, expected):
+    result = pulled(Exponential(1.0, 1.0, decay), 3.0)
+    estimate = result.error_estimate["force"]
+    assert pull_off_force(result) == pytest.approx(expected, rel=max(estimate, 1e-3))
+
+
+@pytest.mark.march
+@pytest.mark.parametrize("fall", [0.5, 0.1, 0.02, 1e-3])
+def test_a_step_of_any_sharpness_has_the_force_of_maugis(fall):
+    result = pulled(Dugdale(1.0, 1.0, fall=fall), 1.0)
+    case = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": 1.0}
+    expected = maugis.pull_off_force(**case) / (1.5 * np.pi)
+    assert pull_off_force(result) == pytest.approx(expected, rel=1.5e-3)
+    assert result.statistics["nodes"] < 250
+
+
+@pytest.mark.march
+def test_a_table_that_ends_with_a_corner_is_between_jkr_and_derjaguin():
+    weak = pull_off_force(pulled(TABLE, 0.05 * effective_range(TABLE)))
+    strong = pull_off_force(pulled(TABLE, 8 * effective_range(TABLE)))
+    assert 1 < strong < 1.02
+    assert 1.31 < weak < 4 / 3
