@@ -120,7 +120,8 @@ def at_pull_off(
     Notes
     -----
     One equation for t. As t grows, creep being concave, t/kappa grows and with it Gamma; kappa
-    grows, so v falls and Gamma(v) of the law with it: there is one root, and it lies between bounds that are known.
+    grows, so v falls and Gamma(v) of the law with it: there is one root,
+    between bounds that are known.
 
     Examples
     --------
@@ -183,6 +184,7 @@ def unlimited(
     ...     1e-3, law, depth=[1e-4, 5e-4], radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15
     ... )
     >>> [f"{force * 1e3:.1f} mN" for force in state.force]
+    ['35.1 mN', '34.8 mN']
     """
     r, d = np.broadcast_arrays(positive(speed=speed), np.asarray(depth, dtype=float))
     length, height, load = (
@@ -214,10 +216,13 @@ def unlimited(
         root = np.sqrt(np.clip(asked, 1.0, k ** (-2 / 3)))
         return asked, _SLOPE * length / height * r / (compliance * root), compliance
 
-    slowest = _SLOPE * length / height * np.min(r) * np.cbrt(k)
-    fastest = _SLOPE * length / height * np.max(r) / k
+    # the compliance grows with time, and the speed falls with it and with the energy
+    fastest, slowest = (
+        _SLOPE * length / height * np.asarray(r / modes.creep(np.exp(end))) for end in (low, high)
+    )
     amplification = law.amplification_of_passage(
-        *np.log(law.tip_length / unit / np.array([fastest, k * slowest]))
+        float(np.log(law.tip_length / (unit * np.max(fastest)))),
+        float(np.log(law.tip_length / (unit * np.min(slowest) * k ** (4 / 3)))),
     )
 
     def crack(gamma: Any, v: Any) -> Any:

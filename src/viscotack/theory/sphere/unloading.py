@@ -44,8 +44,8 @@ Array = npt.NDArray[np.float64]
 # Parts of the way of Gamma from 1 to 1/k between which the law is tabulated; beyond it is straight.
 _LOW, _HIGH = 1e-10, 1 - 1e-4
 _PER_DECADE = 12
-# ln of the times of passage that are looked at first, and where looking ends.
-_SPAN, _WIDEST = 16.0, 500.0
+# ln of the times of passage that are looked at first, in which steps, and where looking ends.
+_SPAN, _COARSE, _WIDEST = 16.0, 2.0, 500.0
 # Beyond the table the speed grows with this power of Gamma: all but a wall at 1/k.
 _WALL = 3e3
 # Gamma - 1 that no longer counts.
@@ -55,7 +55,7 @@ _SMALLEST = 1e-3
 _GLASSY = 1.03
 # ln of the largest dimensionless speed of such an edge.
 _FREE = 600.0
-_TOLERANCE = 1e-7
+_TOLERANCE = 1e-8
 # Longest step beside the radius at the start.
 _LONGEST = 0.02
 
@@ -158,7 +158,7 @@ def retraction(
     unit = law.speed_unit / length * height / r
     log_speed = _log_speed(law)
     # a slower edge is in equilibrium to within _FIRST anyhow, and would only be stiffer
-    unit = min(unit, np.exp(-log_speed(np.log(_FIRST))))
+    unit = min(unit, math.exp(-log_speed(math.log(_FIRST))))
 
     def amplification(path: float, a: float) -> tuple[float, float]:
         """Return Gamma and the depth; the path is what drive and edge have moved together."""
@@ -170,7 +170,7 @@ def retraction(
         if gamma <= 1:
             return [0.0]
         # neither a waiting edge nor a running one makes this large
-        return [-1 / (1 + np.exp(min(-log_speed(np.log(gamma - 1)), _FREE)) / unit)]
+        return [-1 / (1 + math.exp(min(-log_speed(math.log(gamma - 1)), _FREE)) / unit)]
 
     solver = LSODA(
         motion,
@@ -195,7 +195,7 @@ def retraction(
         radii.append(a)
     a = np.array(radii)
     gamma, d = np.array([amplification(s, x) for s, x in zip(path, radii, strict=True)]).T
-    speeds = [log_speed(np.log(x - 1)) if x > 1 else -np.inf for x in gamma]
+    speeds = [log_speed(math.log(x - 1)) if x > 1 else -np.inf for x in gamma.tolist()]
     edge = unit * np.exp(np.minimum(speeds, _FREE))
     return Unloading(
         # round-off moves the drive back while only the edge runs
@@ -215,16 +215,17 @@ def _log_speed(law: CrackLaw) -> Callable[[float], float]:
     spline = CubicSpline(odds, speeds)
     # plain numbers: the function is asked for one at a time, thousands of times
     knots, cubics = odds.tolist(), spline.c.T.tolist()
-    slope = float(spline(odds[0], 1))
+    slowest, fastest, slope = float(speeds[0]), float(speeds[-1]), float(spline(odds[0], 1))
     # of the last Gamma - 1, from its odds
-    wall = float(np.log(1 / k - 1) - np.log1p(np.exp(-odds[-1])))
+    room = 1 / k - 1
+    wall = float(np.log(room) - np.log1p(np.exp(-odds[-1])))
 
     def log_speed(q: float) -> float:
         if q >= wall:
-            return float(speeds[-1]) + _WALL * (q - wall)
-        x = q - math.log(1 / k - 1 - math.exp(q))
+            return fastest + _WALL * (q - wall)
+        x = q - math.log(room - math.exp(q))
         if x <= knots[0]:
-            return float(speeds[0]) + slope * (x - knots[0])
+            return slowest + slope * (x - knots[0])
         i = min(bisect.bisect_right(knots, x), len(cubics)) - 1
         c, d = cubics[i], min(x, knots[-1]) - knots[i]
         return ((c[0] * d + c[1]) * d + c[2]) * d + c[3]
@@ -238,17 +239,17 @@ def _table(law: CrackLaw) -> tuple[Array, Array]:
     low, high = -_SPAN, _SPAN
     while max(-low, high) < _WIDEST:
         # coarsely first, to learn where the law is anything but straight
-        times = np.arange(high, low, -1.0)
+        times = np.arange(high, low, -_COARSE)
         odds = law.passage(times).log_odds
         if odds[0] < first and odds[-1] > last:
-            high = times[np.flatnonzero(odds < first)[-1]]
-            low = times[np.flatnonzero(odds > last)[0]]
+            high = float(times[np.flatnonzero(odds < first)[-1]])
+            low = float(times[np.flatnonzero(odds > last)[0]])
             found = law.passage(np.arange(high, low - 0.1, -np.log(10) / _PER_DECADE))
             rows = slice(
                 int(np.flatnonzero(found.log_odds <= first)[-1]),
                 int(np.searchsorted(found.log_odds, last)) + 1,
             )
-            return found.log_speed[rows], found.log_odds[rows]
+            return np.array(found.log_speed[rows], float), np.array(found.log_odds[rows], float)
         low, high = low if odds[-1] > last else 2 * low, high if odds[0] < first else 2 * high
     raise InputError(
         "the solid creeps over so many decades of time that the speed of the edge cannot be "
