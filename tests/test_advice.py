@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from time import process_time
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import viscotack as vt
 from viscotack.app.cli import main
 from viscotack.protocol import Dwell
 from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
+from viscotack.traction import effective_range
 
 POWER_LAW = "--tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 JKR = ["--radius", "1 mm", "--contact-modulus", "1 MPa", "--work-of-adhesion", "50 mJ/m^2"]
@@ -124,11 +126,42 @@ def test_adhesion_regime_follows_the_tabor_number():
     assert found == ["dmt", "transition", "jkr"]
 
 
-def test_a_light_preload_is_below_the_threshold_and_a_heavy_one_above():
-    assert vt.advise(groups(100.0, start=vt.AtRadius(1.8))).preload == "below"
-    assert vt.advise(groups(100.0, start=vt.AtRadius(4.5))).preload == "above"
-    assert vt.advise(groups(1e-5)).preload == "any"
-    # the same state, said in three ways
+@pytest.mark.parametrize(
+    ("rate", "exponent", "radius", "preload"),
+    [
+        (3.16, 0.4, 1.8, "same"),
+        (100.0, 0.8, 1.5, "raises"),
+        (100.0, 0.8, 2.4, "lowers"),
+        (1e4, 1.6, 2.2, "raises"),
+        (1e4, 1.6, 6.0, "same"),
+    ],
+)
+def test_pressing_harder_does_what_is_said(rate, exponent, radius, preload):
+    cases = [groups(rate, exponent=exponent, start=vt.AtRadius(x)) for x in (radius, 2 * radius)]
+    light, heavy = (
+        vt.pull_off_force(vt.solve(c, accuracy=5e-3, until="pull-off", estimate_error=False))
+        for c in cases
+    )
+    advice = vt.advise(cases[0])
+    assert advice.preload == preload and advice.preload_change is not None
+    low, high = advice.preload_change
+    # each of the two simulations is good to half a per cent
+    assert low - 0.01 <= heavy / light - 1 <= high + 0.01
+
+
+def test_pressing_harder_is_said_with_its_band_or_not_at_all():
+    for start, words in ((vt.AtRadius(2.4), "would lower the force"), (vt.AtRadius(1.5), "raise")):
+        said = [s for s in vt.advise(groups(100.0, start=start)).sentences if "Pressing" in s]
+        assert len(said) == 1 and words in said[0] and "%)" in said[0]
+    for advice, preload in (
+        (vt.advise(groups(1e-5)), "any"),
+        (vt.advise(groups(100.0, tabor=0.5, start=vt.AtRadius(3.0))), "unknown"),
+    ):
+        assert (advice.preload, advice.preload_change) == (preload, None)
+        assert not any("Pressing" in s for s in advice.sentences)
+
+
+def test_the_same_start_said_in_three_ways_is_one():
     depth, force = (
         f(1.8 * np.pi ** (1 / 3), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0)
         for f in (jkr.depth, jkr.force)
@@ -143,6 +176,72 @@ def test_a_light_preload_is_below_the_threshold_and_a_heavy_one_above():
     )
     assert by_depth.start_radius == pytest.approx(1.8, rel=1e-9, abs=0)
     assert by_force.start_radius == pytest.approx(by_radius.start_radius, rel=1e-9, abs=0)
+    assert by_force.preload_change == pytest.approx(by_radius.preload_change, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        dict(rate=1.0),
+        dict(rate=316.23),
+        dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4),
+    ],
+)
+def test_advice_comes_at_once(case):
+    problem = groups(**case)
+    times = []
+    for _ in range(7):
+        began = process_time()
+        vt.advise(problem)
+        times.append(process_time() - began)
+    assert min(times) < 0.02
+
+
+# A hand-made table: a wall, a peak, a tail that ends.
+TABLE = vt.Tabulated.of_points(
+    [0.8, 1.0, 1.2, 1.5, 2.5, 4.0], [-4.0, 0.0, 1.0, 0.8, 0.1, 0.0]
+).reduced()
+LAWS = {
+    "exponential 0.25": vt.Exponential(1.0, 1.0, 0.25),
+    "exponential 1": vt.Exponential(1.0, 1.0, 1.0),
+    "dugdale": vt.Dugdale(1.0, 1.0),
+    "table": TABLE,
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(
+    ("effective_tabor", "rate"), [(0.3, 0.01), (1.5, 1.0), (5.0, 1.0), (5.0, 1e4)]
+)
+def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor, rate):
+    length = effective_range(LAWS[law])
+    case = replace(
+        groups(
+            rate * length,
+            tabor=effective_tabor * length,
+            start=vt.AtRadius(3.6 if effective_tabor > 1 else 2.0),
+        ),
+        traction=LAWS[law],
+    )
+    advice = vt.advise(case)
+    assert advice.effective_tabor == pytest.approx(case.effective_tabor, rel=1e-12, abs=0)
+    force = vt.pull_off_force(vt.solve(case, accuracy=5e-3, until="pull-off", estimate_error=False))
+    found = [e for e in advice.estimates if e.applies and e.pull_off_force is not None]
+    assert found
+    for e in found:
+        assert e.pull_off_force == pytest.approx(force, rel=e.error + 5e-3, abs=0), e.tier
+
+
+def test_a_law_as_strong_as_lennard_jones_gets_its_advice_with_a_band_of_its_own():
+    # as strong, and the work the same: the decay at which the effective range is that of the gap
+    decay = 9 * 3**0.5 / (16 * np.e)
+    case = groups(1.0, start=vt.AtRadius(3.0))
+    first = vt.advise(case)
+    second = vt.advise(replace(case, traction=vt.Exponential(1.0, 1.0, decay)))
+    steep = vt.advise(replace(case, traction=vt.Dugdale(1.0, 1.0)))
+    assert second.amplification == pytest.approx(first.amplification, rel=1e-9, abs=0)
+    bands = [estimate(x, "unloading").error for x in (first, second, steep)]
+    assert bands[0] < bands[1] < bands[2]
 
 
 def test_an_elastic_solid_has_one_answer():
@@ -193,6 +292,13 @@ def test_advice_does_not_depend_on_the_unit_of_time():
 def test_other_tests_than_a_steady_retraction_get_no_advice(change):
     with pytest.raises(ValueError, match="a rigid drive pulls off at a constant speed; simulate"):
         vt.advise(replace(groups(1.0), **change))
+
+
+@pytest.mark.slow
+def test_a_threshold_near_saturation_is_found_beyond_the_usual_radii():
+    # the force still grows by 0.16 at (9/k)^(1/3) + 1 = 5.48
+    radius = vt.threshold_contact_radius(groups(1e4, exponent=1.6), slope=0.1, accuracy=5e-3)
+    assert 5.48 < radius < 6.2
 
 
 @pytest.mark.slow

@@ -267,12 +267,23 @@ def refused(problem, **options):
         ({"moves": (vt.Dwell(3.0),)}, "Dwell(duration=3.0"),
         ({"stiffness": 2.0}, "a stiffness of 2 x 1.5 pi R dg0/h0"),
         ({"start": vt.Apart(9.0)}, "Apart(gap=9.0)"),
-        ({"traction": vt.Dugdale(1.0, 1.0)}, "the traction is Dugdale"),
     ],
 )
-def test_other_tests_and_tractions_are_refused(changed, words):
+def test_other_tests_are_refused(changed, words):
     error = refused(replace(sphere(), **changed))
     assert words in error and error.endswith("`viscotack simulate` answers it")
+
+
+def test_another_law_is_answered_by_a_theory_with_its_band():
+    law = vt.Exponential(1.0, 1.0, 1.0)
+    case = replace(sphere(tabor=9.0, rate=1.0), traction=law)
+    answer = vt.predict(case)
+    assert answer.why.startswith("the traction is Exponential, and LennardJones alone was learned")
+    assert "not known to hold" not in answer.why
+    force = vt.pull_off_force(vt.solve(case, until="pull-off", estimate_error=False))
+    assert answer.interval[0] <= force <= answer.interval[1]
+    steep = replace(case, traction=vt.Dugdale(1.0, 1.0, fall=0.1))
+    assert "steepest fall 0.76 to 6.7, not 19" in vt.predict(steep).why
 
 
 def test_where_nothing_applies_it_says_what_is_out():

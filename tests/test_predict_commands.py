@@ -232,7 +232,6 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
         ("for 'sphere', a file CASE.toml or a table CASES.csv, got 'punch'", ["punch"]),
         ("--rate missing", SPHERE),
         ("the machine has a stiffness of 2", [*SPHERE, *RATE, "--stiffness", "2"]),
-        ("the traction is Dugdale", [*SPHERE, *RATE, "--law", "dugdale"]),
         ("confidence must be one of 0.5", [*SPHERE, *RATE, "--confidence", "90"]),
         ("confidence must be one of 0.5", [*SPHERE, "--rate", "1e13", "--confidence", "0.85"]),
         ("its ending must be one of", [*SPHERE, *RATE, "--plot", tmp_path / "a.xyz"]),

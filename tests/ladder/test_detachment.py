@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import viscotack as vt
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
-from viscotack.theory import CrackLaw, detachment, jkr, lennard_jones, persson_brener
+from viscotack.theory import CrackLaw, detachment, greenwood, jkr, lennard_jones, persson_brener
 
 LENS = dict(radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15)
 MODULI = dict(rubbery_modulus=1.5e6, poisson_ratio=0.5)
@@ -161,3 +161,51 @@ def test_simulations_are_met_at_every_rate(rate, tabor, modulus_ratio, exponent)
     assert state.crack_speed == pytest.approx(speed, rel=0.25, abs=0)
     found = lennard_jones.pull_off_ratio(tabor) * state.force / (1.5 * np.pi)
     assert found == pytest.approx(force, rel=0.12, abs=0)
+
+
+def test_a_start_of_any_size_has_the_state_that_it_tends_to():
+    law = CrackLaw(theory="persson-brener", material=SOLID, tip_length=TIP)
+    found = detachment.unlimited(1e-3, law, depth=[1e-5, DEPTH], **LENS)
+    assert found.force[1] == pytest.approx(float(at(1e-3).force), rel=1e-12, abs=0)
+    assert found.compliance[0] < found.compliance[1] and found.force[0] > found.force[1]
+    with pytest.raises(ValueError, match="below"):
+        detachment.at_pull_off(1e-3, law, depth=1e-5, **LENS)
+
+
+@pytest.mark.parametrize("theory", [greenwood, persson_brener])
+@pytest.mark.parametrize("material", SOLIDS, ids=["standard", "broad", "weak", "prony"])
+def test_a_crack_by_its_passage_is_the_crack_by_its_speed(theory, material):
+    word = {greenwood: "greenwood", persson_brener: "persson-brener"}[theory]
+    law = CrackLaw(theory=word, material=material, tip_length=TIP)
+    times = np.linspace(-9.0, 9.0, 25)
+    found = law.passage(times)
+    gamma, k = np.exp(found.log_amplification), material.modulus_ratio
+    assert gamma == pytest.approx(
+        theory.amplification(np.exp(found.log_speed), material=material), rel=1e-12, abs=0
+    )
+    assert np.exp(found.log_odds) == pytest.approx((gamma - 1) / (1 / k - gamma), rel=1e-6, abs=0)
+    assert np.log(gamma) - found.log_speed == pytest.approx(times, rel=1e-12, abs=1e-12)
+    curve = law.amplification_of_passage(-9.0, 9.0)
+    assert curve(times) == pytest.approx(gamma, rel=1e-12, abs=0)
+
+
+def test_a_passage_of_a_standard_solid_is_explicit():
+    # one retardation time: 1/Gamma = k + (1 - k) psi, psi of the theory alone
+    times, k = np.array([-2.0, 0.0, 2.0]), SOLID.modulus_ratio
+    zone = k + (1 - k) * np.asarray(greenwood.zone_response(np.exp(times)))
+    q = np.exp(times) / (2 * np.pi)
+    tip = k + (1 - k) * (1 - np.sqrt(1 + q**2) + q)
+    for found, curve, expected in (
+        (
+            greenwood.passage(times, material=SOLID),
+            greenwood.amplification_of_passage(-2.0, 2.0, material=SOLID),
+            1 / zone,
+        ),
+        (
+            persson_brener.passage(times, material=SOLID),
+            persson_brener.amplification_of_passage(-2.0, 2.0, material=SOLID),
+            1 / tip,
+        ),
+    ):
+        assert np.exp(found.log_amplification) == pytest.approx(expected, rel=1e-11, abs=0)
+        assert curve(times) == pytest.approx(expected, rel=1e-11, abs=0)

@@ -163,6 +163,20 @@ def test_a_very_thin_layer_comes_off_at_the_strength():
     assert crack_speed_at_pull_off(result) == 0  # all at once: no crack has moved
 
 
+@pytest.mark.parametrize(("rate", "accuracy"), [(10, 1e-3), (30, 2e-3), (300, 2e-3), (1e4, 1e-3)])
+def test_an_edge_that_runs_out_just_before_the_pull_off_has_a_speed(rate, accuracy):
+    # the whole contact opens within a step of the pull-off, with or without an edge there
+    found, fine = (run(rate=rate, accuracy=x) for x in (accuracy, 1e-4))
+    speed = crack_speed_at_pull_off(fine)
+    assert crack_speed_at_pull_off(found) == pytest.approx(speed, rel=0.35, abs=0)
+    assert ligament_at_pull_off(found) == pytest.approx(ligament_at_pull_off(fine), rel=2e-3, abs=0)
+
+
+def test_the_speed_of_an_edge_that_runs_out_converges():
+    speeds = [crack_speed_at_pull_off(run(rate=1e4, accuracy=x)) for x in (1e-4, 3e-5)]
+    assert speeds[0] == pytest.approx(speeds[1], rel=0.01, abs=0)
+
+
 @pytest.mark.parametrize("thickness", [3.24, 32.42, 324.2])
 def test_a_viscoelastic_punch_lies_between_the_two_elastic_ones(thickness):
     slow = pull_off_stress(run(material=ELASTIC, thickness=thickness))

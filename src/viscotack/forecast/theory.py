@@ -9,8 +9,9 @@ from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import hertz
+from viscotack.traction import LennardJones, effective_range, softening
 
-from .advice import Estimate, advise
+from .advice import Estimate, advise, lennard_jones_alike
 from .prediction import OutOfRange, Prediction
 
 SIMULATE = "`viscotack simulate` answers it"
@@ -27,6 +28,10 @@ _MEASURED = {
     "exponent": (0.3, 1.6),
     "rate": (0.1, 1e8),
 }
+
+
+# Other laws: effective range, and the steepest fall of the tension [strength^2/work].
+_MEASURED_LAWS = {"effective range": (0.69, 8.4), "steepest fall": (0.76, 6.7)}
 
 
 def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: float) -> Prediction:
@@ -93,14 +98,18 @@ def _not_measured(groups: Groups) -> str:
     material = groups.material
     if not isinstance(material, RetardationPowerLaw | StandardSolid):
         return f"for power laws and standard solids, not {type(material).__name__}"
-    assert groups.rate is not None, "checked at the door"
-    values = {"tabor": groups.tabor, "modulus_ratio": groups.modulus_ratio}
+    alike = lennard_jones_alike(groups)
+    assert alike.rate is not None, "checked at the door"
+    values = {"tabor": alike.tabor, "modulus_ratio": groups.modulus_ratio}
     if isinstance(material, RetardationPowerLaw):
         values["exponent"] = material.exponent
-    values["rate"] = groups.rate * material.time_unit
+    values["rate"] = alike.rate * material.time_unit
+    if not isinstance(groups.traction, LennardJones):
+        values["effective range"] = effective_range(groups.traction)
+        values["steepest fall"] = softening(groups.traction)
     found = []
     for name, value in values.items():
-        least, most = _MEASURED[name]
+        least, most = (_MEASURED | _MEASURED_LAWS)[name]
         # the ends themselves, whichever way they were rounded
         if not least * (1 - 1e-9) <= value <= most * (1 + 1e-9):
             found.append(f"{name} {least:g} to {most:g}, not {value:.4g}")

@@ -25,6 +25,8 @@ from . import Outcome, Result
 Array = npt.NDArray[np.float64]
 # Steps of equal length are equal but for round-off.
 _EQUAL = 1 + 1e-9
+# Steps after the pull-off within which an edge that is gone counts as running out.
+_GONE = 3
 
 
 @dataclass(frozen=True)
@@ -80,12 +82,16 @@ def pull_off(result: Result) -> PullOff:
             "in it; run further"
         )
     place, smallest = _minimum(x, force, lowest)
+    edge, time = result.contact_radius[piece], result.time[piece]
+    found = _running_out(x, edge, time, place) if isinstance(result.groups, PunchGroups) else None
+    if found is None:
+        found = _between(x, edge, place), _between(x, result.edge_speed[piece], place)
     return PullOff(
         force=-smallest,
         depth=-place,
-        time=_between(x, result.time[piece], place),
-        contact_radius=_between(x, result.contact_radius[piece], place),
-        crack_speed=_between(x, result.edge_speed[piece], place),
+        time=_between(x, time, place),
+        contact_radius=found[0],
+        crack_speed=found[1],
     )
 
 
@@ -114,7 +120,9 @@ def crack_speed_at_pull_off(result: Result) -> float:
     """Return the speed of the receding edge at the force minimum, positive.
 
     Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit; for
-    a punch h_0 per time unit.
+    a punch h_0 per time unit. Where the edge of a punch is gone within a few steps after, place and
+    speed are those of a cubic of the travel by the place, in its last four; nan where it was gone
+    more than a step before.
     """
     factor = result.problem.outputs.of("edge_speed").factor(result.groups)
     return pull_off(result).crack_speed * factor
@@ -397,6 +405,37 @@ def _between(x: Array, y: Array, at: float) -> float:
     if x[i] == at:
         return float(y[i])
     return float(np.interp(at, x[i - 1 : i + 1], y[i - 1 : i + 1]))
+
+
+def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, float] | None:
+    """Return place and speed of an edge that is gone within a few steps.
+
+    It runs faster and faster, so that its place is no smooth function of the travel; but the travel
+    is one of the place: a cubic through the last four up to there. None where the edge goes on, or
+    has not moved.
+    """
+    i = int(np.searchsorted(x, at))
+    known = np.isfinite(edge)
+    last = i if known[i] else i - 1
+    if last < 3 or np.all(known[last : i + 2 + _GONE]):
+        return None
+    points = slice(last - 3, last + 1)
+    # nan where there was no edge, which is no fall either
+    if not np.all(np.diff(edge[points]) < 0):
+        return None
+    scale = edge[last - 3] - edge[last]
+    u = (edge[points] - edge[last]) / scale
+    travel = np.polynomial.Polynomial(np.linalg.solve(np.vander(u, increasing=True), x[points]))
+    roots = (travel - at).roots()
+    roots = roots[
+        (roots.imag == 0) & (roots.real <= 1) & (edge[last] + scale * roots.real > 0)
+    ].real
+    roots = roots[travel.deriv()(roots) < 0]
+    if not roots.size:
+        return None
+    nearest = float(roots[np.argmin(np.abs(roots))])
+    drive = (x[i] - x[i - 1]) / (time[i] - time[i - 1])
+    return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
 
 
 def _work(result: Result, found: PullOff, *, until: float) -> float:

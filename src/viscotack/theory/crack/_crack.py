@@ -14,7 +14,7 @@ then inverted on the panels, at a cost that does not depend on the number of mod
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -55,6 +55,47 @@ class Material(Protocol):
         ...
 
 
+class Passage(NamedTuple):
+    """Cracks whose tip passes in given times: all else is explicit.
+
+    Attributes
+    ----------
+    log_speed : ndarray
+        ln of the dimensionless speed.
+    log_amplification : ndarray
+        ln Gamma.
+    log_odds : ndarray
+        ln of (Gamma - 1)/(1/k - Gamma), which keeps its digits at both ends.
+    """
+
+    log_speed: Array
+    log_amplification: Array
+    log_odds: Array
+
+
+def passage(
+    log_time: npt.ArrayLike, material: Material, response: Response, *, factor: float
+) -> Passage:
+    """Return the cracks whose tip, Gamma l long, passes in exp(log_time) time units."""
+    y = np.asarray(log_time, dtype=float)
+    k = material.modulus_ratio
+    glassy, rubbery = _parts(y - np.log(factor), material, response)
+    log_gamma = -np.log(k + glassy)
+    with np.errstate(divide="ignore"):
+        odds = np.log(k) + np.log(rubbery) - np.log(glassy)
+    return Passage(log_gamma - y, log_gamma, odds)
+
+
+def amplification_of_passage(
+    low: float, high: float, material: Material, response: Response, *, factor: float
+) -> Callable[[Array], Array]:
+    """Return Gamma as a function of the log_time of :func:`passage`, between two of them."""
+    start, grid = _grid(low - np.log(factor), high - np.log(factor))
+    glassy, _ = _parts(grid, material, response)
+    coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
+    return lambda y: np.exp(_evaluated(y - np.log(factor), start, coefficients))
+
+
 def amplification(
     speed: npt.ArrayLike, material: Material, response: Response, *, factor: float
 ) -> Number:
@@ -68,7 +109,7 @@ def amplification(
         # Gamma lies between 1 and 1/k, and A between 1/s and 1/(k s)
         low, high = -np.max(log), -np.min(log) - np.log(material.modulus_ratio)
         start, grid = _grid(low, high)
-        glassy, rubbery = _parts(grid, material, response)
+        glassy, _ = _parts(grid, material, response)
         # from the smaller of the two parts, exact to round-off at both ends
         coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
         falling = _minus_position(coefficients, start)

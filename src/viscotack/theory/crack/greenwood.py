@@ -20,6 +20,7 @@ Maghami, PhD thesis (2025), chapter 3, published as doi:10.1016/j.engfracmech.20
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -63,6 +64,18 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
     '0.918'
     """
     return _crack.speed(amplification, material, _response, factor=1.0)
+
+
+def passage(log_time: npt.ArrayLike, *, material: _crack.Material) -> _crack.Passage:
+    """Return the cracks whose tip passes in exp(log_time) time units, as their logarithms."""
+    return _crack.passage(log_time, material, _response, factor=1.0)
+
+
+def amplification_of_passage(
+    low: float, high: float, *, material: _crack.Material
+) -> Callable[[Any], Any]:
+    """Return Gamma as a function of that log_time, fast, between two of them."""
+    return _crack.amplification_of_passage(low, high, material, _response, factor=1.0)
 
 
 def cohesive_zone_length(

@@ -8,7 +8,9 @@ Range and source are those of the theory it names.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +20,7 @@ from viscotack.materials import Modes
 from viscotack.theory._checks import Number, plain, positive, ratio
 
 from . import greenwood, persson_brener
-from ._crack import Material
+from ._crack import Material, Passage
 
 THEORIES = {"greenwood": greenwood, "persson-brener": persson_brener}
 
@@ -80,6 +82,21 @@ class CrackLaw:
         """Return the speed [m/s] of an amplification, at least 1 and below ``largest``."""
         v = THEORIES[self.theory].speed(amplification, material=self.material)
         return plain(np.asarray(v) * self.speed_unit)
+
+    def passage(self, log_time: npt.ArrayLike) -> Passage:
+        r"""Return the cracks whose tip passes in given times, from ln of them, with no equation.
+
+        Each time is that in which a tip as long as :math:`\Gamma l` passes, in time units of the
+        solid; the speeds, logarithms too, are dimensionless.
+        """
+        return THEORIES[self.theory].passage(log_time, material=self.material)
+
+    def amplification_of_passage(self, low: float, high: float) -> Callable[[Any], Any]:
+        """Return the amplification as a function of ln of such a time, between two of them.
+
+        Where speed and amplification are both guessed it spares the inversion.
+        """
+        return THEORIES[self.theory].amplification_of_passage(low, high, material=self.material)
 
     def reduced(self) -> CrackLaw:
         """Return the same law with dimensionless speeds."""

@@ -19,6 +19,7 @@ thesis (2025), chapter 4, published as doi:10.1016/j.jmps.2024.105844.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -61,6 +62,18 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
     '0.512'
     """
     return _crack.speed(amplification, material, _response, factor=2 * np.pi)
+
+
+def passage(log_time: npt.ArrayLike, *, material: _crack.Material) -> _crack.Passage:
+    """Return the cracks whose tip passes in exp(log_time) time units, as their logarithms."""
+    return _crack.passage(log_time, material, _response, factor=2 * np.pi)
+
+
+def amplification_of_passage(
+    low: float, high: float, *, material: _crack.Material
+) -> Callable[[Any], Any]:
+    """Return Gamma as a function of that log_time, fast, between two of them."""
+    return _crack.amplification_of_passage(low, high, material, _response, factor=2 * np.pi)
 
 
 def crack_tip_length(

@@ -246,7 +246,9 @@ def threshold_contact_radius(
     The thesis's fit to simulations at mu = 3.24, modulus ratio 0.1, exponents 0.4 to 1.6 and rates
     from 3 to 1e6 h0/tau0, with the threshold where dP/da0 is 0.1 in these units; it ends at
     1.5/k. Used for smaller modulus ratios it is an extrapolation.
-    :func:`viscotack.threshold_contact_radius` computes the answer for a problem.
+    Even there it asks for up to half as much again as simulations do, and where the bulk creeps on
+    more preload lowers the force: :func:`viscotack.threshold_contact_radius` computes the answer
+    for a problem, and :func:`viscotack.advise` says what pressing harder does.
 
     Examples
     --------

@@ -39,6 +39,7 @@ doi:10.1098/rspa.1971.0141.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,8 +53,10 @@ from viscotack.theory.elastic import jkr
 
 # Depth at the largest tension, -3^(1/3)/4, and da/d(depth) there, 3^(1/3)/2, of JKR.
 _DEPTH, _SLOPE = np.cbrt(3) / 4, np.cbrt(3) / 2
-# Halvings of the bracket of ln t: to round-off.
-_ROUNDS = 60
+# Rounds to the root of ln t at most, a quarter of them halves of its bracket; round-off there, and
+# rounds in which the law settles.
+_ROUNDS, _ROUND_OFF = 150, 1e-14
+_SETTLED = 5
 _TOLERANCE = 1e-12
 
 
@@ -117,7 +120,8 @@ def at_pull_off(
     Notes
     -----
     One equation for t. As t grows, creep being concave, t/kappa grows and with it Gamma; kappa
-    grows, so v falls and Gamma(v) of the law with it: there is one root, and bisection finds it.
+    grows, so v falls and Gamma(v) of the law with it: there is one root,
+    between bounds that are known.
 
     Examples
     --------
@@ -132,20 +136,72 @@ def at_pull_off(
     >>> f"{state.force * 1e3:.1f} mN at {state.crack_speed * 1e3:.2f} mm/s"
     '31.3 mN at 0.97 mm/s'
     """
-    r = np.asarray(positive(speed=speed))
+    state = unlimited(
+        speed,
+        law,
+        depth=depth,
+        radius=radius,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+    )
     case = dict(radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
-    length, height, load = (float(x) for x in contact_scales(**case))
     start = float(np.asarray(jkr.contact_radius_at_depth(depth, **case)))
+    a = np.ravel(state.contact_radius)
+    if np.any(a > start):
+        i = int(np.argmax(a))
+        raise InputError(
+            f"the relaxed contact radius of {start:.3g} m at the start is below the {a[i]:.3g} m "
+            f"at which a heavier preload would detach at {np.ravel(speed)[i]:.3g} m/s; press "
+            "deeper, or pull slower"
+        )
+    return state
+
+
+def unlimited(
+    speed: npt.ArrayLike,
+    law: CrackLaw,
+    *,
+    depth: npt.ArrayLike,
+    radius: float,
+    contact_modulus: float,
+    work_of_adhesion: float,
+) -> State:
+    r"""Return the state of :func:`at_pull_off` also where the start is smaller than the state.
+
+    It then says what the bulk has relaxed in the time that this depth takes, not the force. Speeds
+    and depths are broadcast; other parameters as there.
+
+    Examples
+    --------
+    A deeper start takes longer, so that the bulk has crept farther and the force is smaller:
+
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> law = CrackLaw(theory="persson-brener", material=solid, tip_length=1e-6)
+    >>> state = unlimited(
+    ...     1e-3, law, depth=[1e-4, 5e-4], radius=5e-3, contact_modulus=2e6, work_of_adhesion=0.15
+    ... )
+    >>> [f"{force * 1e3:.1f} mN" for force in state.force]
+    ['35.1 mN', '34.8 mN']
+    """
+    r, d = np.broadcast_arrays(positive(speed=speed), np.asarray(depth, dtype=float))
+    length, height, load = (
+        float(x)
+        for x in contact_scales(
+            radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion
+        )
+    )
     k, unit = law.material.modulus_ratio, law.material.time_unit
-    dimensionless = law.reduced()
-    least = depth + _DEPTH * height
-    if not least > 0:
+    least = d + _DEPTH * height
+    if not np.all(least > 0):
         raise InputError(
             f"depth must be above {-_DEPTH * height:.6g} m, that of the pull-off of the relaxed "
-            f"contact, got {depth} m"
+            f"contact, got {np.min(d)} m"
         )
     low = np.log(k * least / r)
-    high = np.log((depth + _DEPTH * height * k ** (-2 / 3)) / r)
+    high = np.log((d + _DEPTH * height * k ** (-2 / 3)) / r)
     modes = law.material.retardation_modes(
         shortest=float(np.exp(np.min(low))),
         longest=float(np.exp(np.max(high))),
@@ -153,30 +209,60 @@ def at_pull_off(
     )
 
     def edge(log_time: Any) -> tuple[Any, Any, Any]:
-        """Return the amplification that the travel asks for, the edge speed and kappa."""
+        """Return Gamma^(2/3) that the travel asks for, the edge speed and kappa."""
         time = np.exp(log_time)
         compliance = np.asarray(modes.creep(time))
-        excess = np.maximum(r * time / compliance - depth, 0.0) / (_DEPTH * height)
-        gamma = np.clip(excess**1.5, 1.0, 1 / k)
-        v = _SLOPE * length / height * r / (compliance * np.cbrt(gamma))
-        return excess**1.5, v, compliance
+        asked = (r * time / compliance - d) / (_DEPTH * height)
+        root = np.sqrt(np.clip(asked, 1.0, k ** (-2 / 3)))
+        return asked, _SLOPE * length / height * r / (compliance * root), compliance
 
-    def crack(v: Any) -> Any:
-        return np.asarray(dimensionless.amplification(v * unit / law.tip_length))
+    # the compliance grows with time, and the speed falls with it and with the energy
+    fastest, slowest = (
+        _SLOPE * length / height * np.asarray(r / modes.creep(np.exp(end))) for end in (low, high)
+    )
+    amplification = law.amplification_of_passage(
+        float(np.log(law.tip_length / (unit * np.max(fastest)))),
+        float(np.log(law.tip_length / (unit * np.min(slowest) * k ** (4 / 3)))),
+    )
 
-    for _ in range(_ROUNDS):
-        middle = (low + high) / 2
-        asked, v, _ = edge(middle)
-        early = asked < crack(v)
-        low, high = np.where(early, middle, low), np.where(early, high, middle)
-    _, v, compliance = edge(high)
-    gamma = crack(v)
+    def crack(gamma: Any, v: Any) -> Any:
+        """Return the amplification of a tip that has grown by gamma, at a speed."""
+        y = np.log(np.clip(gamma, 1.0, 1 / k) * law.tip_length / (unit * v))
+        return amplification(np.atleast_1d(y)).reshape(np.shape(y))
+
+    def excess(log_time: Any) -> Any:
+        asked, v, _ = edge(log_time)
+        return asked - np.cbrt(crack(np.maximum(asked, 0.0) ** 1.5, v)) ** 2
+
+    best = _root(excess, low, high, noise=_ROUND_OFF * (k ** (-2 / 3) + np.abs(d) / height))
+    asked, v, compliance = edge(best)
+    gamma = asked**1.5
+    for _ in range(_SETTLED):
+        # the speed is right to round-off, and the law settles on its energy
+        gamma = crack(gamma, v)
     a = length * np.cbrt(9 / 8 * gamma)
-    if np.any(a > start):
-        i = int(np.argmax(np.ravel(a)))
-        raise InputError(
-            f"the relaxed contact radius of {start:.3g} m at the start is below the "
-            f"{np.ravel(a)[i]:.3g} m at which a heavier preload would detach at "
-            f"{np.ravel(r)[i]:.3g} m/s; press deeper, or pull slower"
+    return State(*(plain(x) for x in (1.5 * load * gamma, a, v, gamma, np.exp(best), compliance)))
+
+
+def _root(function: Callable[[Any], Any], low: Any, high: Any, *, noise: Any) -> Any:
+    """Return where a rising function of arrays is zero: regula falsi, with halves between."""
+    below, above = function(low), function(high)
+    x, before = low, np.zeros(np.shape(low))
+    for round_ in range(_ROUNDS):
+        span = above - below
+        x = (low + high) / 2
+        if round_ % 4 < 3:
+            x = np.where(span > 0, low - below * (high - low) / np.where(span > 0, span, 1.0), x)
+        found = function(x)
+        if np.all(np.abs(found) <= noise):
+            break
+        side = np.where(found < 0, -1.0, 1.0)
+        # an end that stays twice is given half of its weight (Illinois)
+        again = np.where(side == before, 0.5, 1.0)
+        below, above = (
+            np.where(side < 0, found, below * again),
+            np.where(side > 0, found, above * again),
         )
-    return State(*(plain(x) for x in (1.5 * load * gamma, a, v, gamma, np.exp(high), compliance)))
+        low, high = np.where(side < 0, x, low), np.where(side > 0, x, high)
+        before = side
+    return x
