@@ -20,7 +20,7 @@ from viscotack.protocol import (
     Retract,
 )
 from viscotack.result.dead_load import time_to_detachment
-from viscotack.result.observables import pull_off_force
+from viscotack.result.observables import pull_off, pull_off_force
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale
 
@@ -125,6 +125,34 @@ def test_a_held_force_stays_as_it_is():
     assert held.sum() > 10
     np.testing.assert_allclose(result.force[held], -0.8, rtol=1e-5)
     assert result.depth[held][-1] < result.depth[held][0]  # and the sphere creeps out
+
+
+# --- starts by force --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "size"),
+    [
+        *((sphere, {"tabor": mu}) for mu in (0.03, 0.1, 1.0, 3.0, 20.0)),
+        *((punch, {"thickness": b}) for b in (0.5, 3.24, 32.42)),
+    ],
+)
+def test_a_start_by_force_exists_up_to_the_elastic_pull_off(make, size):
+    pulled = pull_off(run(make(AtDepth(0.5), rate=1.0, material=ELASTIC, **size), "pull-off"))
+    load = 0.9998 * pulled.force
+    hangs = run(make(AtForce(-load), Dwell(0.1, hold="force"), **size))
+    assert hangs.force[0] == pytest.approx(-load, rel=1e-5, abs=0)
+    assert hangs.outcome == "still in contact"
+    assert hangs.depth[0] > pulled.depth  # on the side on which a load is borne
+
+
+def test_more_than_the_elastic_pull_off_force_is_no_start():
+    for groups in (
+        sphere(AtForce(-1.002 * elastic_pull_off(0.1)), rate=1.0, tabor=0.1),
+        punch(AtForce(-0.58), rate=1.0),
+    ):
+        with pytest.raises(ValueError, match="no relaxed contact"):
+            solve(groups)
 
 
 # --- dead loads -------------------------------------------------------------------------------
