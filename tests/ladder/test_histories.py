@@ -322,6 +322,17 @@ def test_moves_end_where_they_are_to_end():
         assert end == pytest.approx(value, rel=1e-3, abs=0)
 
 
+@pytest.mark.parametrize(
+    "before",
+    [(), (MoveTo(8.0, 1.0),), (LoadTo(3.0, 1.0),), (Dwell(1.0, hold="depth"),)],
+    ids=["start", "spring", "dead-load", "rigid"],
+)
+def test_a_drive_ends_where_it_is_to_end_whatever_held_the_contact_before(before):
+    result = run(sphere(AtDepth(5.0), *before, MoveTo(2.0, 0.5), stiffness=0.5))
+    drive = result.depth[-1] + result.force[-1] / 0.5
+    assert drive == pytest.approx(2.0, rel=1e-5, abs=0)
+
+
 def test_a_move_to_where_the_contact_is_beyond_already_takes_no_time():
     result = run(sphere(AtDepth(5.0), Approach(1.0, AtDepth(2.0)), Dwell(1.0)))
     assert result.time[-1] == pytest.approx(1.0, rel=1e-2, abs=0)
