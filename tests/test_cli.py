@@ -293,6 +293,71 @@ def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
     assert "stopped because" in capsys.readouterr().out
 
 
+TAPS = [
+    *"simulate sphere --tabor 1 --material sls --modulus-ratio 0.1 --accuracy 1e-2".split(),
+    *["--apart", "10"],
+    *2 * ["--move", "approach 5 to depth 2", "--move", "retract 5 to depth -15"],
+]
+HANG = [
+    *"simulate sphere --tabor 2 --material sls --modulus-ratio 0.1 --accuracy 1e-2".split(),
+    *"--preload-force 0 --move".split(),
+    *["load to force -1.5 in 0.001", "--move", "hold force 1000"],
+]
+
+
+def test_each_cycle_is_told_in_words_json_and_a_table(capsys, tmp_path):
+    files = ["--cycles", tmp_path / "c.csv", "--save", tmp_path / "c.npz"]
+    assert call([*TAPS, *files, "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["cycles"]
+    table = np.genfromtxt(tmp_path / "c.csv", delimiter=",", names=True)
+    assert [row["cycle"] for row in rows] == [1, 2]
+    assert table.dtype.names == tuple(rows[0])
+    for name in ("snap_in_depth", "peak_force", "pull_off_force", "hysteresis"):
+        np.testing.assert_array_equal(table[name], [row[name] for row in rows])
+    assert np.isnan(table["time_to_detachment"]).all()
+    assert call(["show", tmp_path / "c.npz"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    (head,) = (i for i, line in enumerate(lines) if line.split()[0] == "cycle")
+    names = lines[head].replace("snap-in at", "at").replace("at depth", "depth").split()
+    said = dict(zip(names, lines[head + 2].split(), strict=True))
+    assert said["cycle"] == "2"
+    assert said["pull-off"] == f"{rows[1]['pull_off_force']:.4g}"
+    assert "snap-in, peak, pull-off in 1.5 pi R dg0" in lines[head + 3]
+    assert call(["show", tmp_path / "c.npz", "--cycles", "-"]) == 0
+    assert capsys.readouterr().out == (tmp_path / "c.csv").read_text()
+
+
+def test_a_dead_load_is_told_by_its_time_in_words_json_and_a_table(capsys, tmp_path):
+    scales = "--radius 5mm --contact-modulus 2MPa --poisson-ratio 0.5 --tau0 0.1s".split()
+    run = [*HANG, *scales, "--work-of-adhesion", "0.15 J/m^2", "--save", tmp_path / "d.npz"]
+    assert call([*run, "--cycles", tmp_path / "d.csv"]) == 0
+    words = capsys.readouterr().out
+    assert "pull-off" not in words and "cycle" not in words
+    assert "error of the time" in words
+    (line,) = (line for line in words.splitlines() if "time to detachment" in line)
+    assert call(["show", tmp_path / "d.npz", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["pull_off_force"] is None and answer["pull_off_force_N"] is None
+    time = answer["time_to_detachment"]
+    assert answer["time_to_detachment_s"] == pytest.approx(0.1 * time, rel=1e-12)
+    assert line.split()[3] == f"{time:.5g}" and line.endswith(f"= {0.1 * time:.4g} s")
+    table = np.genfromtxt(tmp_path / "d.csv", delimiter=",", names=True)
+    assert table["time_to_detachment_s"] == answer["time_to_detachment_s"]
+
+
+def test_a_force_held_while_apart_exits_with_one(capsys, tmp_path):
+    hold = "simulate sphere --tabor 2 --material elastic --apart 20 --move".split()
+    assert call([*hold, "hold force 10", "--cycles", tmp_path / "c.csv"]) == 1
+    assert "stopped because a force of -0.00446 is to be held" in capsys.readouterr().out
+
+
+def test_surfaces_that_did_not_touch_are_not_called_detached(capsys):
+    assert call("simulate sphere --tabor 2 --material elastic --apart 20 --rate 1".split()) == 0
+    words = capsys.readouterr().out
+    assert words.startswith("never in contact: the test went to a depth of -19 h0")
+    assert "pull-off" not in words and "detached" not in words
+
+
 def test_options_of_the_run_are_passed_on(fake):
     assert call([*SPHERE, *ELASTIC, "--until", "pull-off", "--accuracy", "1e-2"]) == 0
     assert fake["until"] == "pull-off"

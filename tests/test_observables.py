@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -278,3 +279,23 @@ def test_summary_passes_the_estimates_on():
 
 def test_displacements_are_in_equilibrium_gaps():
     assert pull_off_depth(jkr_result()) == pytest.approx(-0.360562 * DISPLACEMENT, rel=1e-5)
+
+
+def test_a_held_force_is_no_pull_off_however_round_off_lets_it_tremble():
+    from viscotack.protocol import AtForce, Dwell, LoadTo
+
+    hang = (LoadTo(-1.0, 1.0), Dwell(9.0, hold="force"))
+    groups = replace(GROUPS, start=AtForce(0.0), rate=None, moves=hang)
+    move = [0, 0, 0, 1, 1, 1, 1]
+    force = np.array([0.0, -0.5, -1.0, -1.0, -1.0 - 1e-9, -1.0, -1.0])
+    parts = dict(problem=groups, status="jumped at depth -6", move=move)
+    for lowest in (4, 6):
+        force[-1] = -1.0 if lowest == 4 else -1.0 - 2e-9
+        with pytest.raises(ValueError, match="what the machine held"):
+            pull_off(plain(-np.arange(7.0), force, **parts))
+
+
+def test_moves_that_do_not_fit_the_steps_are_refused():
+    for move in ([0], np.arange(7)[::-1]):
+        with pytest.raises(ValueError, match="as many as its steps, and ascend"):
+            plain(-np.arange(7.0), -np.ones(7), move=move)

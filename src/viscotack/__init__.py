@@ -78,6 +78,9 @@ if TYPE_CHECKING:
     from .result import load as load
     from .result import save as save
     from .result import write_csv as write_csv
+    from .result.cycles import Cycle as Cycle
+    from .result.cycles import cycles as cycles
+    from .result.cycles import write_cycles as write_cycles
     from .result.dead_load import time_to_detachment as time_to_detachment
     from .result.observables import Observable as Observable
     from .result.observables import PullOff as PullOff
@@ -147,6 +150,7 @@ _NAMES = {
         "effective_surface_energy",
         "summary",
     ),
+    "result.cycles": ("Cycle", "cycles", "write_cycles"),
     "result.dead_load": ("time_to_detachment",),
     "forecast": (
         "advise",

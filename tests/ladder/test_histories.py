@@ -19,8 +19,9 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
+from viscotack.result.cycles import cycles
 from viscotack.result.dead_load import time_to_detachment
-from viscotack.result.observables import pull_off_force
+from viscotack.result.observables import pull_off, pull_off_force, summary
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale
 
@@ -127,6 +128,34 @@ def test_a_held_force_stays_as_it_is():
     assert result.depth[held][-1] < result.depth[held][0]  # and the sphere creeps out
 
 
+# --- starts by force --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("make", "size"),
+    [
+        *((sphere, {"tabor": mu}) for mu in (0.03, 0.1, 1.0, 3.0, 20.0)),
+        *((punch, {"thickness": b}) for b in (0.5, 3.24, 32.42)),
+    ],
+)
+def test_a_start_by_force_exists_up_to_the_elastic_pull_off(make, size):
+    pulled = pull_off(run(make(AtDepth(0.5), rate=1.0, material=ELASTIC, **size), "pull-off"))
+    load = 0.9998 * pulled.force
+    hangs = run(make(AtForce(-load), Dwell(0.1, hold="force"), **size))
+    assert hangs.force[0] == pytest.approx(-load, rel=1e-5, abs=0)
+    assert hangs.outcome == "still in contact"
+    assert hangs.depth[0] > pulled.depth  # on the side on which a load is borne
+
+
+def test_more_than_the_elastic_pull_off_force_is_no_start():
+    for groups in (
+        sphere(AtForce(-1.002 * elastic_pull_off(0.1)), rate=1.0, tabor=0.1),
+        punch(AtForce(-0.58), rate=1.0),
+    ):
+        with pytest.raises(ValueError, match="no relaxed contact"):
+            solve(groups)
+
+
 # --- dead loads -------------------------------------------------------------------------------
 
 
@@ -206,6 +235,55 @@ def test_what_came_before_the_hold_is_not_part_of_its_time():
     assert later == pytest.approx(at_once, rel=2e-3, abs=0)
 
 
+def test_a_dead_load_has_a_time_and_no_pull_off_force():
+    hang = (LoadTo(-1.5, 1e-3), Dwell(1e4, hold="force"))
+    result = solve(sphere(AtForce(0.0), *hang))
+    answer = summary(result)
+    held = time_to_detachment(result)
+    assert answer["time_to_detachment"] == held
+    # from the end of the loading, to the last step
+    assert held == pytest.approx(result.time[-1] - 1e-3, rel=1e-9, abs=0)
+    assert [row["time_to_detachment"] for row in answer["cycles"]] == [held]
+    for name in ("pull_off_force", "pull_off_depth", "work_to_pull_off", "work_of_separation"):
+        assert answer[name] is None, name
+    with pytest.raises(ValueError, match="what the machine held"):
+        pull_off_force(result)
+    # the error is that of the time, and covers it
+    exact = time_to_detachment(solve(sphere(AtForce(0.0), *hang), accuracy=2e-4))
+    assert answer["error_estimate"].keys() == {"time"}
+    assert abs(held / exact - 1) < answer["error_estimate"]["time"] < 2e-2
+
+
+def test_a_load_that_grows_until_the_contact_lets_go_is_a_pull_off():
+    answer = summary(run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0))))
+    ramp = run(sphere(AtForce(1.0), LoadTo(-9.0, 10.0), Dwell(1.0, hold="force")))
+    assert answer["time_to_detachment"] is None
+    assert answer["pull_off_force"] == pytest.approx(-ramp.force.min(), rel=1e-3, abs=0)
+    with pytest.raises(ValueError, match="let go before the force was held"):
+        time_to_detachment(ramp)
+
+
+@pytest.mark.parametrize(
+    "moves",
+    [
+        (Dwell(1.0, hold="force"),),
+        (LoadTo(-0.5, 1.0),),
+        (Approach(10.0, AtDepth(2.0)), Retract(10.0, AtDepth(-30.0)), Dwell(1.0, hold="force")),
+    ],
+    ids=["held", "lowered", "apart again"],
+)
+def test_a_force_held_while_the_surfaces_are_apart_stops_the_run(moves):
+    result = solve(sphere(Apart(20.0), *moves), estimate_error=False, throw=False)
+    assert result.outcome == "stopped"
+    assert "with the surfaces apart, at a depth of" in result.status
+
+
+def test_a_load_that_presses_brings_surfaces_together():
+    result = run(sphere(Apart(20.0), LoadTo(0.5, 1.0)))
+    assert kinds(result) == ["jump into contact"]
+    assert result.outcome == "still in contact"
+
+
 def test_only_a_load_that_was_held_and_lost_has_a_time_to_detachment():
     pulled = run(sphere(AtDepth(1.0), rate=10.0))
     with pytest.raises(ValueError, match="must end with a dwell at constant force"):
@@ -280,6 +358,79 @@ def test_a_contact_that_came_apart_is_made_again_in_every_cycle():
     assert result.outcome in ("jumped", "detached")
 
 
+@pytest.mark.parametrize(
+    "moves", [(), (Approach(5.0, AtDepth(-8.0)),), (Dwell(1.0),)], ids=["pull", "near", "wait"]
+)
+@pytest.mark.parametrize("until", ["pull-off", "detached"])
+def test_surfaces_that_did_not_touch_were_never_in_contact(moves, until):
+    result = solve(sphere(Apart(20.0), *moves, rate=10.0), until=until)
+    assert result.outcome == "never in contact"
+    assert result.error_estimate is None and result.events == ()
+    with pytest.raises(ValueError, match="never in contact, there is no pull-off"):
+        pull_off_force(result)
+
+
+def test_a_jump_of_an_earlier_cycle_is_not_how_the_test_ended():
+    moves = (Retract(50.0, AtDepth(-30.0)), LoadTo(0.5, 1.0))
+    result = run(sphere(AtDepth(2.0), *moves, rate=1.0))
+    assert kinds(result)[0] == "jump out of contact" and result.time[-1] > 5
+    assert result.status == "detached"
+
+
+@pytest.mark.parametrize(("make", "span"), [(sphere, 4.0), (punch, 1.0)], ids=["sphere", "punch"])
+def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
+    # apart long enough, nothing is remembered
+    tap = (Approach(5.0, AtDepth(span)), Retract(5.0, AtDepth(-12.0)), Dwell(50.0))
+    found = cycles(run(make(Apart(12.0), *3 * tap)))
+    alone = cycles(run(make(Apart(12.0), Approach(5.0, AtDepth(span)), rate=5.0)))
+    assert (len(found), len(alone)) == (3, 1)
+    for cycle in found:
+        # the minimum is flat, so that its place, and the work to it, are less certain
+        errors = {"pull_off_force": 1e-3, "peak_force": 1e-2, "snap_in_force": 1e-2}
+        errors |= {"pull_off_depth": 1e-2, "work_to_pull_off": 1e-2, "snap_in_depth": 0.1}
+        for name, error in errors.items():
+            one = getattr(alone[0], name)
+            assert getattr(cycle, name) == pytest.approx(one, rel=error, abs=0), name
+        assert cycle.begin < cycle.end
+    assert found[0].end == found[1].begin
+
+
+def test_the_hysteresis_of_a_cycle_is_what_solid_and_jumps_have_lost():
+    tap = (Approach(5.0, AtDepth(4.0)), Retract(5.0, AtDepth(-24.0)), Dwell(50.0))
+    for material in (SOLID, ELASTIC):
+        result = run(sphere(Apart(24.0), *2 * tap, tabor=3.0, material=material))
+        energy = result.energy
+        assert energy is not None
+        lost = energy.heat[-1] + energy.jumps[-1] + energy.transfer[-1]
+        found = sum(cycle.hysteresis for cycle in cycles(result))
+        assert found == pytest.approx(lost, rel=5e-3, abs=0)
+
+
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
+def test_where_the_machine_turns_is_no_pull_off(material):
+    # it turns in tension before the force minimum, where the force is the least of the cycle
+    rub = (Approach(50.0, AtDepth(5.0)), Retract(50.0, AtDepth(1.0)))
+    result = run(sphere(AtDepth(3.0), *3 * rub, tabor=3.0, material=material))
+    assert result.force[-1] < 0
+    assert all(np.isnan(cycle.pull_off_force) for cycle in cycles(result))
+    with pytest.raises(ValueError, match="still falls at the end"):
+        pull_off_force(result)
+    pulled = run(sphere(AtDepth(3.0), *3 * rub, rate=50.0, tabor=3.0, material=material))
+    end = pull_off(pulled)
+    assert end.crack_speed > 0
+    turns = pulled.time[np.flatnonzero(np.diff(pulled.move))]
+    assert end.time > turns[-1]
+
+
+def test_a_stop_on_the_way_out_is_no_pull_off_of_a_rigid_machine():
+    # pulled fast, it bears more at the stop than at the slow pull-off after it
+    moves = (Retract(100.0, AtDepth(3.5)), Dwell(20.0))
+    result = run(sphere(AtDepth(5.0), *moves, rate=0.1))
+    slow = run(sphere(AtDepth(5.0), rate=0.1))
+    assert -result.force.min() > 1.2 * pull_off_force(slow)
+    assert pull_off_force(result) == pytest.approx(pull_off_force(slow), rel=0.05, abs=0)
+
+
 def test_moves_end_where_they_are_to_end():
     history = [
         (Approach(5.0, AtForce(2.0)), "force", 2.0),
@@ -292,6 +443,17 @@ def test_moves_end_where_they_are_to_end():
         moves = [move for move, *_ in history[:number]]
         end = getattr(run(sphere(Apart(10.0), *moves)), quantity)[-1]
         assert end == pytest.approx(value, rel=1e-3, abs=0)
+
+
+@pytest.mark.parametrize(
+    "before",
+    [(), (MoveTo(8.0, 1.0),), (LoadTo(3.0, 1.0),), (Dwell(1.0, hold="depth"),)],
+    ids=["start", "spring", "dead-load", "rigid"],
+)
+def test_a_drive_ends_where_it_is_to_end_whatever_held_the_contact_before(before):
+    result = run(sphere(AtDepth(5.0), *before, MoveTo(2.0, 0.5), stiffness=0.5))
+    drive = result.depth[-1] + result.force[-1] / 0.5
+    assert drive == pytest.approx(2.0, rel=1e-5, abs=0)
 
 
 def test_a_move_to_where_the_contact_is_beyond_already_takes_no_time():

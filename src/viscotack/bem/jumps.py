@@ -117,8 +117,12 @@ def _on_new_nodes(run: Run, at: Place) -> Place:
 def _let_go(run: Run, now: Snapshot, time: float) -> None:
     """End with a contact that a dead load pulls apart: nothing stops it, and nothing is kept.
 
-    The elastic energy is lost; what the load gains by falling further has no bound.
+    The elastic energy is lost; what the load gains by falling further has no bound. Where there was
+    no contact, there was nothing that bore the load.
     """
+    if not now.edge > 0:
+        run.history.outcome = "unheld"
+        return
     gone = replace(now, time=time, edge=float("nan"))
     run.history.events.append(_event(now, gone, now.elastic))
     run.history.outcome = "detached"

@@ -72,7 +72,8 @@ class Leg:
         """Return the leg with its rate, for the instant at which it begins."""
         if not isnan(self.rate):
             return self
-        now = began.force if self.dead_load else began.drive
+        # the drive is where this machine's spring puts it, whatever held the contact before
+        now = began.force if self.dead_load else began.depth + began.force / self.stiffness
         return replace(self, rate=(self.drive - now) / self.duration)
 
     def hold(self, began: Snapshot, elapsed: float, unit: float) -> Hold:

@@ -47,7 +47,8 @@ def march(
 
     `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
     apart). The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
-    on steps was met, or "lost" when no equilibrium was found.
+    on steps was met, "lost" when no equilibrium was found, or "unheld" where a dead load has no
+    contact that bears it.
     """
     history = History(least_energy=SMALLEST_ENERGY * contact.span)
     body = Body(contact, modes, np.asarray(modes.weights))
@@ -94,6 +95,9 @@ def _begun(run: Run, at: Place, number: int) -> Place:
         dt=leg.least_step,
         lowest=Lowest(),
     )
+    if leg.dead_load and leg.rate == 0 and not before.edge > 0:
+        run.history.outcome = "unheld"  # attraction grows as the surfaces near: it tips either way
+        return begun
     turns = number > 0 and leg.outwards and not at.leg.outwards
     if turns and begun.seen.edge > 0:
         lattice = replace(begun.mesh, lattice=begun.seen.edge)

@@ -16,8 +16,8 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import Unit
-from viscotack.result import Result
-from viscotack.result.observables import pull_off
+from viscotack.result import Outcome, Result
+from viscotack.result.cycles import pull_offs
 from viscotack.theory.punch import REGIMES, RegimeMap
 
 if TYPE_CHECKING:
@@ -66,10 +66,12 @@ def draw_overview(result: Result) -> "Figure":
 
 
 def draw_energy(result: Result) -> "Figure":
-    """Return where the work of the drive went, over the depth, and the heat by retardation time.
+    """Return where the work of the drive went, and the heat by retardation time.
 
-    Elastic and interface energy are drawn as their change since the start; drive work is their
-    sum with the heat in the solid and what was lost in jumps.
+    Over the depth where the test is one retraction; over the time where it has moves, which go
+    through a depth more than once, or wait at it. Elastic and interface energy are drawn as their
+    change since the start; drive work is their sum with the heat in the solid and what was lost in
+    jumps.
 
     Raises
     ------
@@ -79,19 +81,21 @@ def draw_energy(result: Result) -> "Figure":
     if result.energy is None:
         raise InputError("the result keeps no energies to draw; simulate it anew")
     energy = result.energy
-    depth, _, depth_label = _series(result, "depth")
+    moved = bool(result.groups.moves)
+    along, _, label = _series(result, "time" if moved else "depth")
     factor, unit = _work_unit(result)
     with _style():
         figure = _figure(figsize=(13.0, 5.2))
         left, right = figure.subplots(1, 2, width_ratios=(1.5, 1.0))
-        left.plot(depth, energy.drive * factor, color="k", label="work of the drive")
+        left.plot(along, energy.drive * factor, color="k", label="work of the drive")
         for name, words in _ENERGIES.items():
             values = getattr(energy, name)
             series = (values - values[0]) * factor
             if np.any(series != 0):
-                left.plot(depth, series, label=words)
-        left.invert_xaxis()  # time goes to the right
-        left.set_xlabel(depth_label)
+                left.plot(along, series, label=words)
+        if not moved:
+            left.invert_xaxis()  # time goes to the right
+        left.set_xlabel(label)
         left.set_ylabel(f"energy {unit}")
         left.legend()
         scales = result.scales
@@ -228,10 +232,10 @@ def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
         _series(result, x),
         _series(result, y),
     )
-    known = np.isfinite(horizontal) & np.isfinite(vertical)
+    drawn = _drawn_steps(np.isfinite(horizontal) & np.isfinite(vertical))
     axes.plot(
-        horizontal[known],
-        vertical[known],
+        horizontal[drawn],
+        vertical[drawn],
         "-o",
         lw=0.8,
         mfc="white",
@@ -245,21 +249,28 @@ def _curve(axes: "Axes", result: Result, x: str, y: str) -> None:
     axes.set_ylabel(ylabel)
 
 
+def _drawn_steps(known: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Return the steps that are drawn: the known ones, and one between them where a line breaks."""
+    later = np.flip(np.logical_or.accumulate(np.flip(known)))
+    return known | (np.append(False, known[:-1]) & later)
+
+
 def _mark_pull_off(
     axes: "Axes", result: Result, x: str, xfactor: float, yfactor: float, ylabel: str
 ) -> None:
-    try:
-        found = pull_off(result)
-    except ValueError:
+    """Mark the pull-off of every cycle that has one; the words are of the last."""
+    if result.outcome is Outcome.STOPPED:
+        return
+    found = [end for end in pull_offs(result) if end is not None]
+    if not found:
         return  # nothing to mark
-    force = -found.force * yfactor
+    force = [-end.force * yfactor for end in found]
     unit = ylabel.rpartition(" [")[2].rstrip("]")
-    words = (
-        f"pull-off, {abs(force):.4g}"
-        if result.scales is None
-        else f"pull-off, {abs(force):.3g} {unit}"
-    )
-    axes.plot(getattr(found, x) * xfactor, force, "s", color="C1", ms=9, label=words, zorder=3)
+    last = abs(force[-1])
+    words = f"{last:.4g}" if result.scales is None else f"{last:.3g} {unit}"
+    label = f"pull-off, {words}" if len(found) == 1 else f"pull-offs, the last {words}"
+    places = [getattr(end, x) * xfactor for end in found]
+    axes.plot(places, force, "s", color="C1", ms=9, label=label, zorder=3)
 
 
 def _work_unit(result: Result) -> tuple[float, str]:

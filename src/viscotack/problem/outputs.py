@@ -75,6 +75,8 @@ class Kind:
         The columns of its table, by name.
     observables : mapping
         The numbers of its summary, by name.
+    cycles : mapping
+        The columns of the table of its cycles, by name.
     units : mapping
         What a force, a depth, a radius, a speed, a work, a time and a pure number are given in.
     energy : Unit
@@ -85,6 +87,7 @@ class Kind:
 
     series: Mapping[str, Series]
     observables: Mapping[str, Output]
+    cycles: Mapping[str, Series]
     units: Mapping[str, Unit]
     energy: Unit
     energy_factor: Factor = _as_it_is
@@ -111,6 +114,23 @@ _SPEED = Unit(
 )
 _WORK = Unit("1.5 pi R dg0 h0", r"$1.5\,\pi R\,\Delta\gamma_0 h_0$", "work", "J")
 
+
+def _cycles(force: str, unit: Unit, work: Unit, factor: Factor = _as_it_is) -> dict[str, Series]:
+    """Return the columns of a table of cycles, of :class:`viscotack.result.cycles.Cycle`."""
+    return {
+        "begin": Series("begin", "begin", _TIME),
+        "end": Series("end", "end", _TIME),
+        "snap_in_depth": Series("snap_in_depth", "snap-in at", _LENGTH),
+        f"snap_in_{force}": Series("snap_in_force", "snap-in", unit),
+        f"peak_{force}": Series("peak_force", "peak", unit),
+        f"pull_off_{force}": Series("pull_off_force", "pull-off", unit),
+        "pull_off_depth": Series("pull_off_depth", "at depth", _LENGTH),
+        "work_to_pull_off": Series("work_to_pull_off", "work", work, factor),
+        "hysteresis": Series("hysteresis", "hysteresis", work, factor),
+        "time_to_detachment": Series("time_to_detachment", "time to detachment", _TIME),
+    }
+
+
 REVOLUTION = Kind(
     series={
         "time": Series("time", "time", _TIME),
@@ -126,7 +146,9 @@ REVOLUTION = Kind(
         "pull_off_depth": Output("depth at pull-off", _LENGTH),
         "contact_radius_at_pull_off": Output("contact radius there", _RADIUS),
         "crack_speed_at_pull_off": Output("crack speed there", _SPEED),
+        "time_to_detachment": Output("time to detachment", _TIME),
     },
+    cycles=_cycles("force", _FORCE, _WORK),
     units={
         "force": _FORCE,
         "depth": _LENGTH,
@@ -177,7 +199,9 @@ PLANE = Kind(
         "ligament_at_pull_off": Output("ligament there", _WIDTH),
         "crack_speed_at_pull_off": Output("crack speed there", _CRACK),
         "effective_surface_energy": Output("surface energy there", _ENERGY, noted=True),
+        "time_to_detachment": Output("time to detachment", _TIME),
     },
+    cycles=_cycles("stress", _STRESS, _ENERGY, _per_work_of_adhesion),
     units={
         "force": _STRESS,
         "depth": _LENGTH,

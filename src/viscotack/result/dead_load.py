@@ -3,21 +3,22 @@
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.protocol import Dwell
 
 from . import Outcome, Result
+from .parts import move_numbers, moves_of, waits
 
-# The hold begins where the force is this near to the one held, beside it and the unit of force.
+# Where a result does not know its moves, the hold begins where the force is this near to the one
+# held, beside it and the unit of force.
 _HELD = 1e-3
 
 
 def time_to_detachment(result: Result) -> float:
-    """Return how long the last move, a dwell at constant force, held until the contact let go.
+    """Return how long a dwell at constant force held until the contact let go.
 
     Parameters
     ----------
     result : Result
-        Of a test whose last move is ``Dwell(duration, hold="force")``, without a retraction.
+        Of a test that ended in a ``Dwell(duration, hold="force")``, usually its last move.
 
     Returns
     -------
@@ -28,7 +29,8 @@ def time_to_detachment(result: Result) -> float:
     Raises
     ------
     ValueError
-        If the test ends otherwise, or the contact still bore the load at the end of the dwell.
+        If the test ends otherwise, or the contact let go before, or still bore the load at the
+        end of the dwell.
 
     Notes
     -----
@@ -49,21 +51,32 @@ def time_to_detachment(result: Result) -> float:
     >>> f"{time_to_detachment(solve(groups, estimate_error=False)):.1f} tau0"
     '11.6 tau0'
     """
-    problem = result.groups
-    last = problem.moves[-1] if problem.moves else None
-    if problem.rate is not None or not isinstance(last, Dwell) or last.hold != "force":
+    scales = result.scales
+    return time_held(result) * (1.0 if scales is None else scales.time)
+
+
+def time_held(result: Result) -> float:
+    """Return the same without dimensions, in the time unit of the groups."""
+    moves, number = moves_of(result), move_numbers(result)
+    last, gone = int(number[-1]), result.outcome in (Outcome.JUMPED, Outcome.DETACHED)
+    if not waits(moves[last], "force"):
+        if gone and any(waits(move, "force") for move in moves[last:]):
+            raise InputError(
+                "the contact let go before the force was held; hold less, or load more slowly"
+            )
         raise InputError(
             "the test must end with a dwell at constant force: Dwell(duration, hold='force') as "
             "the last move, and no speed"
         )
-    if result.outcome not in (Outcome.JUMPED, Outcome.DETACHED):
+    if not gone:
         raise InputError(
             f"the contact has not let go, the run ended: {result.status}; dwell longer, or pull "
             "harder than the elastic pull-off force"
         )
-    held = float(result.force[-1])
-    other = np.flatnonzero(np.abs(result.force - held) > _HELD * (abs(held) + 1))
-    begin = int(other[-1]) + 1 if other.size else 0
-    scales = result.scales
-    unit = 1.0 if scales is None else scales.time
-    return float(result.time[-1] - result.time[begin]) * unit
+    if result.move is None:
+        held = float(result.force[-1])
+        before = np.flatnonzero(np.abs(result.force - held) > _HELD * (abs(held) + 1))
+        begin = int(before[-1]) + 1 if before.size else 0
+    else:
+        begin = max(int(np.searchsorted(number, last)) - 1, 0)
+    return float(result.time[-1] - result.time[begin])

@@ -1,8 +1,4 @@
-"""Numbers of a result: what a tack test would report. All dimensionless.
-
-The curve between two steps is a cubic; where it breaks, at a jump, it is not drawn across. So the
-force minimum and the zero crossing are located between steps, and a jump adds no work.
-"""
+"""Numbers of a result: what a tack test would report. All dimensionless."""
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping
@@ -10,9 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
-from scipy.interpolate import CubicHermiteSpline
-from scipy.optimize import brentq
 
 from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
@@ -21,78 +14,29 @@ from viscotack.problem.record import run_id, to_dict
 from viscotack.theory.punch.curve import thin_layer_surface_energy
 
 from . import Outcome, Result
-
-Array = npt.NDArray[np.float64]
-# Steps of equal length are equal but for round-off.
-_EQUAL = 1 + 1e-9
-# Steps after the pull-off within which an edge that is gone counts as running out.
-_GONE = 3
-
-
-@dataclass(frozen=True)
-class PullOff:
-    """The force minimum of a retraction, located between steps; dimensionless as in `Result`.
-
-    Attributes
-    ----------
-    force : float
-        Pull-off force, the positive number -min(force).
-    depth, time : float
-        Where and when.
-    contact_radius : float
-        Contact radius there; nan without an edge.
-    crack_speed : float
-        Speed at which the edge recedes there, positive; nan without an edge.
-    """
-
-    force: float
-    depth: float
-    time: float
-    contact_radius: float
-    crack_speed: float
+from .cycles import cycle_rows
+from .dead_load import time_held
+from .opening import PullOff, pull_off_in, tension_work
+from .parts import spans
 
 
 def pull_off(result: Result) -> PullOff:
-    """Return the state at the force minimum of the retraction.
+    """Return the state at the force minimum of the retraction; of several, that of the last one.
 
     The minimum is that of a cubic through the four steps around the lowest one (a parabola where
-    there are three), so its value is of fourth and its place of third order in the steps.
+    there are three), so its value is of fourth and its place of third order in the steps. Where
+    the machine turns, stops or holds a force, the force is no minimum of the contact.
+    :func:`viscotack.result.cycles.cycles` has the pull-offs of all cycles.
 
     Raises
     ------
     ValueError
-        If the force is nowhere tensile, or still falls where a run ended without a jump: the
-        minimum has not been seen.
+        If the surfaces were never in contact, the force is nowhere tensile, or it has no minimum:
+        it still falls where a run ended without a jump, or was what the machine set.
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no observables: {result.status}")
-    pieces = _pieces(result)
-    piece = min(pieces, key=lambda p: result.force[p].min())
-    # The motion is a retraction without a break: travel, minus the depth, orders the steps.
-    x, force = -result.depth[piece], result.force[piece]
-    lowest = int(np.argmin(force))
-    if force[lowest] >= 0:
-        raise InputError(
-            f"the force is nowhere tensile, there is no pull-off; the run ended: {result.status}"
-        )
-    unfinished = lowest == len(piece) - 1 and piece is pieces[-1]
-    if unfinished and result.outcome is not Outcome.JUMPED:
-        raise InputError(
-            f"the force still falls at the end of the run ({result.status}), the pull-off is not "
-            "in it; run further"
-        )
-    place, smallest = _minimum(x, force, lowest)
-    edge, time = result.contact_radius[piece], result.time[piece]
-    found = _running_out(x, edge, time, place) if isinstance(result.groups, PunchGroups) else None
-    if found is None:
-        found = _between(x, edge, place), _between(x, result.edge_speed[piece], place)
-    return PullOff(
-        force=-smallest,
-        depth=-place,
-        time=_between(x, time, place),
-        contact_radius=found[0],
-        crack_speed=found[1],
-    )
+    return pull_off_in(result, spans(result)[-1])
 
 
 def pull_off_force(result: Result) -> float:
@@ -137,7 +81,8 @@ def work_to_pull_off(result: Result) -> float:
     minimum is flat, so this number is less certain than the pull-off force.
     """
     found = pull_off(result)
-    return _given(result, _work(result, found, until=-found.depth))
+    work = tension_work(result, spans(result)[-1], found, until=-found.depth)
+    return _given(result, work)
 
 
 def work_of_separation(result: Result) -> float:
@@ -160,7 +105,8 @@ def work_of_separation(result: Result) -> float:
         )
     interface = np.zeros(1) if result.energy is None else result.energy.interface
     left = -float(interface[-1]) if interface[0] < 0 else 0.0
-    return _given(result, _work(result, pull_off(result), until=-float(result.depth[-1])) + left)
+    found, end = pull_off(result), -float(result.depth[-1])
+    return _given(result, tension_work(result, spans(result)[-1], found, until=end) + left)
 
 
 def pull_off_stress(result: Result) -> float:
@@ -220,7 +166,7 @@ def effective_surface_energy(result: Result) -> float:
 
 # What summaries and rows of campaigns say beside the observables.
 _TAKEN = frozenset(
-    "status outcome error_estimate error_estimate_work energy_residual events wall_time_s "
+    "status outcome cycles error_estimate error_estimate_work energy_residual events wall_time_s "
     "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
     "size thickness cohesion preload preload_force preload_radius steps nodes modes "
     "newton_iterations jumps travel_to_pull_off accuracy until".split()
@@ -273,7 +219,8 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
 
     Dimensionless, with the names and units of :mod:`viscotack.problem.outputs`; for a problem in SI
     the same names with a unit in addition. A number that the result does not contain is None. Every
-    key is there in every summary of the same kind, and those of `also` after them.
+    key is there in every summary of the same kind, and those of `also` after them. `cycles` has a
+    row for each cycle of the test, see :mod:`viscotack.result.cycles`.
     """
     kind, scales = result.problem.outputs, result.scales
     answer: dict[str, Any] = {"status": result.status, "outcome": str(result.outcome)}
@@ -298,6 +245,7 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
                 answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
     return answer | {
         **result.groups.inputs,
+        "cycles": [] if result.outcome is Outcome.STOPPED else cycle_rows(result),
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
         "events": [_plain(vars(event)) for event in result.events],
@@ -322,7 +270,7 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = {
         work_to_pull_off,
         work_of_separation,
     )
-}
+} | {"time_to_detachment": time_held}
 
 
 def _number(
@@ -351,126 +299,6 @@ def _punch(result: Result) -> PunchGroups:
 def _given(result: Result, work: float) -> float:
     """Return a work in the unit of its kind of problem."""
     return work * result.problem.outputs.energy_factor(result.groups)
-
-
-def _pieces(result: Result) -> list[npt.NDArray[np.intp]]:
-    """Return the retraction as runs of step numbers between jumps."""
-    first = int(np.flatnonzero(result.depth == result.depth.max())[-1])
-    steps = np.arange(first, len(result.depth))
-    broken = np.diff(result.depth) >= 0
-    for event in result.events:
-        if event.kind.startswith("jump"):
-            broken |= (result.time[:-1] < event.time) & (event.time <= result.time[1:])
-    return np.split(steps, np.flatnonzero(broken[first:]) + 1)
-
-
-def _nearest(x: Array, i: int) -> slice:
-    """Return the up to four entries around number i: its neighbours, and the nearer of the next."""
-    low, high = max(i - 1, 0), min(i + 2, len(x))
-    before = x[i] - x[low - 1] if low > 0 else np.inf
-    after = x[high] - x[i] if high < len(x) else np.inf
-    if min(before, after) < np.inf:
-        # of two equally far the earlier, and not that which round-off makes the nearer
-        low, high = (low - 1, high) if before <= after * _EQUAL else (low, high + 1)
-    return slice(low, high)
-
-
-def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
-    """Return where the curve is lowest, near the lowest of its points i, and its value there."""
-    if 0 < i < len(x) - 1:
-        scale = x[i + 1] - x[i - 1]
-        for points in (_nearest(x, i), slice(i - 1, i + 2)):
-            u = (x[points] - x[i]) / scale
-            taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
-            at = _valley(*taylor[1:])
-            if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
-                value = float(np.polynomial.polynomial.polyval(at, taylor))
-                return float(x[i] + scale * at), value
-    return float(x[i]), float(y[i])
-
-
-def _valley(c: float, b: float, a: float = 0.0) -> float:
-    """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a; nan for none."""
-    root = b * b - 3 * a * c
-    if root < 0 or (a == 0 and b <= 0):
-        return np.nan
-    if b > 0:
-        return -c / (b + root**0.5)
-    return (root**0.5 - b) / (3 * a)
-
-
-def _between(x: Array, y: Array, at: float) -> float:
-    """Return a value between two steps by a straight line; nan where one of them is unknown."""
-    i = int(np.searchsorted(x, at))
-    if x[i] == at:
-        return float(y[i])
-    return float(np.interp(at, x[i - 1 : i + 1], y[i - 1 : i + 1]))
-
-
-def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, float] | None:
-    """Return place and speed of an edge that is gone within a few steps.
-
-    It runs faster and faster, so that its place is no smooth function of the travel; but the travel
-    is one of the place: a cubic through the last four up to there. None where the edge goes on, or
-    has not moved.
-    """
-    i = int(np.searchsorted(x, at))
-    known = np.isfinite(edge)
-    last = i if known[i] else i - 1
-    if last < 3 or np.all(known[last : i + 2 + _GONE]):
-        return None
-    points = slice(last - 3, last + 1)
-    # nan where there was no edge, which is no fall either
-    if not np.all(np.diff(edge[points]) < 0):
-        return None
-    scale = edge[last - 3] - edge[last]
-    u = (edge[points] - edge[last]) / scale
-    travel = np.polynomial.Polynomial(np.linalg.solve(np.vander(u, increasing=True), x[points]))
-    roots = (travel - at).roots()
-    roots = roots[
-        (roots.imag == 0) & (roots.real <= 1) & (edge[last] + scale * roots.real > 0)
-    ].real
-    roots = roots[travel.deriv()(roots) < 0]
-    if not roots.size:
-        return None
-    nearest = float(roots[np.argmin(np.abs(roots))])
-    drive = (x[i] - x[i - 1]) / (time[i] - time[i - 1])
-    return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
-
-
-def _work(result: Result, found: PullOff, *, until: float) -> float:
-    """Return the integral of -force over the travel in tension around the pull-off."""
-    total, tension = 0.0, True
-    # Backwards from the end, so that the first crossing met before the minimum is the last one.
-    for piece in reversed(_pieces(result)):
-        if len(piece) < 2:
-            continue  # a single step between two jumps spans no work
-        x, force = -result.depth[piece], result.force[piece]
-        before = x < -found.depth
-        if before.any() and force[before][-1] > 0 and x[-1] < -found.depth:
-            tension = False  # the crossing was the jump behind this piece
-        if not tension:
-            break
-        begin = x[0]
-        positive = np.flatnonzero(before & (force >= 0))
-        curve = _curve(x, force)
-        if positive.size and positive[-1] + 1 < len(x):
-            i = int(positive[-1])
-            begin, tension = _root(curve, x[i], x[i + 1]), False
-        end = min(x[-1], until)
-        if begin < end:
-            total -= float(curve.integrate(begin, end))
-    return total
-
-
-def _curve(x: Array, y: Array) -> CubicHermiteSpline:
-    """Return the cubics through the points, with slopes of second order."""
-    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
-    return CubicHermiteSpline(x, y, slope)
-
-
-def _root(curve: CubicHermiteSpline, low: float, high: float) -> float:
-    return float(brentq(curve, low, high))  # type: ignore[arg-type]
 
 
 def _plain(values: Mapping[str, Any] | None) -> dict[str, Any] | None:

@@ -57,6 +57,8 @@ class Outcome(StrEnum):
     """The surfaces have separated."""
     IN_CONTACT = "still in contact"
     """The run ended as asked while the surfaces touch, for example just past the pull-off."""
+    NEVER = "never in contact"
+    """The surfaces did not touch in the whole test."""
     JUMPED = "jumped"
     """The equilibrium ended in a jump out of contact: "jumped at depth ..."."""
     STOPPED = "stopped"
@@ -119,13 +121,17 @@ class Result:
     statistics : dict
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
     error_estimate : dict or None
-        Relative error of ``force`` and ``work`` at pull-off; None while there is no estimate.
+        Relative error of ``force`` and ``work`` at pull-off, or of the ``time`` for which a load
+        was borne; None while there is no estimate.
     energy : Energies or None
         Where the work of the drive has gone, at every step.
     energy_residual : float or None
         Largest imbalance of the energies over the largest term so far.
     fields : dict of ndarray, or None
         On request: time (m,), and radius, pressure, gap (m, n); pressure positive in compression.
+    move : ndarray of int, or None
+        Number of the move that led to each step, from 0; the retraction is one more than the last
+        move. None in results of version 0.1.
     versions : dict
         Versions of this package, numpy and scipy that made it.
     """
@@ -143,6 +149,7 @@ class Result:
     energy: Energies | None = None
     energy_residual: float | None = None
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
+    move: npt.NDArray[np.intp] | None = None
     versions: Mapping[str, str] = field(default_factory=_versions)
 
     def __post_init__(self) -> None:
@@ -151,6 +158,8 @@ class Result:
         if self.fields is not None:
             arrays = {k: _frozen(v) for k, v in self.fields.items()}
             object.__setattr__(self, "fields", arrays)
+        if self.move is not None:
+            object.__setattr__(self, "move", _frozen(self.move, int))
         object.__setattr__(self, "events", tuple(self.events))
         self._check()
 
@@ -167,6 +176,9 @@ class Result:
         for name in ("time", "depth", "force"):
             if not np.all(np.isfinite(getattr(self, name))):
                 raise InputError(f"the {name} of a result must be finite, got nan or infinity")
+        move = self.move
+        if move is not None and (move.shape != self.time.shape or np.any(np.diff(move) < 0)):
+            raise InputError("the moves of a result must be as many as its steps, and ascend")
         if np.any(np.diff(self.time) < 0):
             raise InputError("the time of a result must not go back")
         if not any(self.status.startswith(o) for o in Outcome):
@@ -194,8 +206,8 @@ class Result:
         return next(o for o in Outcome if self.status.startswith(o))
 
 
-def _frozen(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    array = np.array(values, dtype=float)
+def _frozen(values: npt.ArrayLike, dtype: type = float) -> npt.NDArray[Any]:
+    array = np.array(values, dtype=dtype)
     array.setflags(write=False)
     return array
 
@@ -276,6 +288,8 @@ def save(result: Result, path: Target) -> None:
         "fields": result.fields is not None,
     }
     arrays = {name: getattr(result, name) for name in _SERIES}
+    if result.move is not None:
+        arrays["move"] = result.move
     if result.energy is not None:
         arrays |= {f"energy/{k}": v for k, v in vars(result.energy).items()}
     arrays |= {f"fields/{k}": v for k, v in (result.fields or {}).items()}
@@ -347,5 +361,6 @@ def _from_parts(
         energy=None if (found := group("energy")) is None else Energies(**found),
         energy_residual=header["energy_residual"],
         fields=group("fields"),
+        move=arrays.get("move"),
         versions=header["versions"],
     )

@@ -10,6 +10,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
@@ -30,8 +31,10 @@ from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
+from viscotack.result.cycles import write_cycles
 from viscotack.result.observables import Observable, summary
 
+from .cycle_table import table_of_cycles
 from .writing import Writing, check_files
 
 application = typer.Typer(
@@ -83,6 +86,15 @@ PlotWhat = Annotated[
 CsvFile = Annotated[
     Path | None,
     Option("--csv", metavar="FILE", help="Write the curve as a table; - is standard output."),
+]
+CyclesFile = Annotated[
+    Path | None,
+    Option(
+        "--cycles",
+        metavar="FILE",
+        help="Write a table with a row for each cycle of the test: snap-in, peak, pull-off, work, "
+        "hysteresis, time to detachment; - is standard output.",
+    ),
 ]
 SaveFile = Annotated[
     Path | None,
@@ -138,12 +150,14 @@ def _simulate(
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
+    cycles_file: CyclesFile = None,
     save_file: SaveFile = None,
     as_json: AsJson = False,
 ) -> None:
     door = _DOORS.get(context.info_name or "")
     with wrong_input():
-        named = {"--plot": plot_file, "--csv": csv_file, "--save": save_file}
+        files = Files(plot_file, plot_kind, csv_file, cycles_file)
+        named = files.named | {"--save": save_file}
         # the file that states the problem is never written
         check_files(named, as_json=as_json, reads=(case,))
         problem = stated_problem(case, context, door, own)
@@ -155,7 +169,7 @@ def _simulate(
             )
     write = Writing()
     write("saved", save_file, lambda file: save(result, file))
-    _report(result, write, as_json, plot_file, plot_kind, csv_file, own)
+    _report(result, write, as_json, files, own)
     if result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
 
@@ -240,6 +254,7 @@ def show(
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
+    cycles_file: CyclesFile = None,
     own: With = None,
     as_json: AsJson = False,
 ) -> None:
@@ -248,26 +263,38 @@ def show(
     Prints its summary; writes its curve as a table or draws it if wanted.
     """
     with wrong_input():
-        check_files({"--plot": plot_file, "--csv": csv_file}, as_json=as_json, reads=(file,))
+        files = Files(plot_file, plot_kind, csv_file, cycles_file)
+        check_files(files.named, as_json=as_json, reads=(file,))
         if file.is_dir():
             raise InputError(f"{file} is a folder; give the name of a file")
         result = load(file, also=own_nouns(own or ()))
-    _report(result, Writing(), as_json, plot_file, plot_kind, csv_file, own)
+    _report(result, Writing(), as_json, files, own)
+
+
+@dataclass(frozen=True)
+class Files:
+    """The files that are wanted beside the answer."""
+
+    plot: Path | None
+    kind: PlotKind
+    curve: Path | None
+    cycles: Path | None
+
+    @property
+    def named(self) -> dict[str, Path | None]:
+        """The files by their flags."""
+        return {"--plot": self.plot, "--csv": self.curve, "--cycles": self.cycles}
 
 
 def _report(
-    result: Result,
-    write: Writing,
-    as_json: bool,
-    plot_file: Path | None,
-    kind: PlotKind,
-    csv_file: Path | None,
-    own: Iterable[Path] | None,
+    result: Result, write: Writing, as_json: bool, files: Files, own: Iterable[Path] | None
 ) -> None:
     with wrong_input():
         also = known(own_nouns(own or ())).observables
-        write("wrote", csv_file, lambda file: write_csv(result, file))
-        write.picture(plot_file, lambda: _DRAW[kind](result))
+        write("wrote", files.curve, lambda file: write_csv(result, file))
+        if result.outcome is not Outcome.STOPPED:
+            write("wrote", files.cycles, lambda file: write_cycles(result, file))
+        write.picture(files.plot, lambda: _DRAW[files.kind](result))
         answer = summary(result, also)
     write.answer(
         json.dumps(answer, indent=2, allow_nan=False) if as_json else _words(result, answer, also)
@@ -290,6 +317,7 @@ def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -
         lines.append(line.rstrip())
         if answer.get(f"{name}_note"):
             lines.append(f"  {'':<21}  {answer[f'{name}_note']}")
+    lines += table_of_cycles(result, answer["cycles"])
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")
     for name, share in (answer["error_estimate"] or {}).items():

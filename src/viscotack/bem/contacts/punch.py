@@ -13,10 +13,10 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import brentq
 
 from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.contacts.search import depth_where
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.interface import interface
 from viscotack.bem.machine import Hold
@@ -128,25 +128,22 @@ class PunchContact:
             return self._at_depth(start.depth, settings)
         assert isinstance(start, AtForce)
 
-        def error(depth: float) -> float:
-            return self._at_depth(depth, settings).force - start.force
+        resolved = self.size - self.grading(settings, 0.0).half_width
 
-        low = high = 0.0
-        span = 0.1 * self.travel
-        try:
-            while error(low) > 0:
-                low, span = low - span, 1.5 * span
-            while error(high) < 0:
-                high, span = high + span, 1.5 * span
-        except ValueError:
+        def excess(depth: float) -> float:
+            found = self._at_depth(depth, settings)
+            if found.edge < resolved:
+                # by a force a crack so long runs on; only coarse nodes would hold it
+                raise InputError("the punch has let go")
+            return found.force - start.force
+
+        depth = depth_where(excess, 0.0, self.travel, _DEPTH_TOLERANCE * self.travel)
+        if depth is None:
             raise InputError(
                 f"no relaxed contact bears a mean stress of {start.force:g} sigma0: the punch lets "
                 "go before; start with more"
-            ) from None
-        if low < high:
-            tolerance = _DEPTH_TOLERANCE * self.travel
-            low: float = brentq(error, low, high, xtol=tolerance)  # type: ignore[assignment]
-        return self._at_depth(low, settings)
+            )
+        return self._at_depth(depth, settings)
 
     def deepest(self, start: Start) -> float:
         """Return the depth [h0] of a start, about: a foundation of the layer's compliance."""

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq, minimize_scalar
 
 from viscotack.bem.bodies.halfspace import half_space
 from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.contacts.search import depth_where
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
@@ -213,60 +213,20 @@ class SphereContact:
         """Return the contact at which a quantity that grows with depth has the wanted value."""
         found: dict[float, Relaxed] = {}
 
-        def error(depth: float) -> float:
-            if depth not in found:
-                # The mesh shifts edges by about the same at all depths: look where the last was.
-                last = list(found.values())[-1:]
-                offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
-                offset = offset if self.tabor > 1 else 0.0
-                found[depth] = self._at_depth(depth, settings, offset)
+        def excess(depth: float) -> float:
+            # The mesh shifts edges by about the same at all depths: look where the last was.
+            last = list(found.values())[-1:]
+            offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
+            offset = offset if self.tabor > 1 else 0.0
+            found[depth] = self._at_depth(depth, settings, offset)
             return quantity(found[depth]) - wanted
 
         scale = self.travel
-        low = high = first_depth
-        try:
-            span = 0.05 * scale
-            while error(low) > 0:
-                if low < high and error(low) > error(high):
-                    raise InputError  # past the least there is
-                high, low, span = low, low - span, 1.6 * span
-            span = 0.05 * scale
-            while error(high) < 0:
-                low, high, span = high, high + span, 1.6 * span
-        except ValueError:
-            low, high = self._least(error, found, scale)
-            if low == high:
-                least = min((quantity(contact) for contact in found.values()), default=np.nan)
-                raise InputError(
-                    f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
-                    f"there is, at the end of the branch in contact, is {least:.4g}"
-                ) from None
-        if low == high:
-            return found[low]
-        depth: float = brentq(error, low, high, xtol=_DEPTH_TOLERANCE * scale, maxiter=100)  # type: ignore[assignment]
-        error(depth)
+        depth = depth_where(excess, first_depth, scale, _DEPTH_TOLERANCE * scale)
+        if depth is None:
+            least = min((quantity(contact) for contact in found.values()), default=np.nan)
+            raise InputError(
+                f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
+                f"there is, at the end of the branch in contact, is {least:.4g}"
+            )
         return found[depth]
-
-    @staticmethod
-    def _least(
-        error: Callable[[float], float], found: dict[float, Relaxed], scale: float
-    ) -> tuple[float, float]:
-        """Return a bracket that begins at the least of a quantity, empty where that is too much."""
-        depths = sorted(found)
-        if len(depths) < 2:
-            return (0.0, 0.0)
-        best = min(depths, key=error)
-        above = next((d for d in depths if d > best), best)
-        below = next((d for d in reversed(depths) if d < best), 2 * best - above)
-
-        def bounded(depth: float) -> float:
-            try:
-                return error(depth)
-            except ValueError:
-                return 1e9  # no contact: larger than any, and finite for the parabolas
-
-        options = {"xatol": 1e-3 * scale, "maxiter": 40}
-        minimize_scalar(bounded, bounds=(below, above), method="bounded", options=options)
-        best = min(found, key=error)
-        high = min((d for d in found if d > best and error(d) > 0), default=best)
-        return (best, high) if error(best) <= 0 else (best, best)

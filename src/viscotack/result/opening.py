@@ -1,0 +1,265 @@
+"""The opening part of a cycle as a curve: its force minimum, and the work that it takes.
+
+The curve between two steps is a cubic; where it breaks, at a jump, it is not drawn across. So the
+force minimum and the zero crossing are located between steps, and a jump adds no work.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
+
+from viscotack.errors import InputError
+from viscotack.problem import PunchGroups
+
+from . import Outcome, Result
+from .parts import Span, move_numbers, moves_of, touches, waits
+
+Array = npt.NDArray[np.float64]
+# Steps of equal length are equal but for round-off.
+_EQUAL = 1 + 1e-9
+# Steps after the pull-off within which an edge that is gone counts as running out.
+_GONE = 3
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """The force minimum of a retraction, located between steps; dimensionless as in `Result`.
+
+    Attributes
+    ----------
+    force : float
+        Pull-off force, the positive number -min(force).
+    depth, time : float
+        Where and when.
+    contact_radius : float
+        Contact radius there; nan without an edge.
+    crack_speed : float
+        Speed at which the edge recedes there, positive; nan without an edge.
+    """
+
+    force: float
+    depth: float
+    time: float
+    contact_radius: float
+    crack_speed: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    """Steps over which the depth falls without a break.
+
+    A force that is least at its end is a minimum where it `snaps` there, and one that is least
+    at its beginning where it `starts` there: with the test itself, or after a jump that left some
+    contact. Where the machine turns or stops, it is not.
+    """
+
+    steps: npt.NDArray[np.intp]
+    starts: bool
+    snaps: bool
+    held: bool
+
+    def has_minimum(self, lowest: int) -> bool:
+        """Return whether the force minimum of the contact can be at one of its steps."""
+        begins, ends = lowest == 0, lowest == len(self.steps) - 1
+        free = not self.held
+        return free and (self.starts or not begins) and (self.snaps or not ends)
+
+
+def pull_off_in(result: Result, span: Span) -> PullOff:
+    """Return the state at the force minimum of the opening part of a cycle.
+
+    Raises
+    ------
+    ValueError
+        If there is none: nothing is pulled in it, or the force was lowest where the machine turned
+        or stopped, or was itself what the machine set.
+    """
+    if not touches(result, span):
+        raise InputError("the surfaces were never in contact, there is no pull-off")
+    found, pieces = None, _pieces(result, span)
+    for piece in pieces:
+        lowest = int(np.argmin(result.force[piece.steps]))
+        least = float(result.force[piece.steps][lowest])
+        if least < 0 and piece.has_minimum(lowest) and (found is None or least < found[0]):
+            found = least, piece.steps, lowest
+    if found is None:
+        raise InputError(_why_none(result, span, pieces))
+    _, steps, lowest = found
+    # The motion is a retraction without a break: travel, minus the depth, orders the steps.
+    x = -result.depth[steps]
+    place, smallest = _minimum(x, result.force[steps], lowest)
+    edge, time = result.contact_radius[steps], result.time[steps]
+    at_edge = _running_out(x, edge, time, place) if isinstance(result.groups, PunchGroups) else None
+    if at_edge is None:
+        at_edge = _between(x, edge, place), _between(x, result.edge_speed[steps], place)
+    return PullOff(
+        force=-smallest,
+        depth=-place,
+        time=_between(x, time, place),
+        contact_radius=at_edge[0],
+        crack_speed=at_edge[1],
+    )
+
+
+def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:
+    steps = np.arange(span.turn, span.last + 1)
+    ended = f"the run ended: {result.status}"
+    if not span.opens:
+        return f"nothing is pulled in the test, there is no pull-off; {ended}"
+    if not np.any(result.force[steps] < 0):
+        return f"the force is nowhere tensile, there is no pull-off; {ended}"
+    if any(p.held for p in pieces):
+        return "the force is what the machine held, there is no pull-off force"
+    lowest = steps[int(np.argmin(result.force[steps]))]
+    if lowest == len(result.force) - 1:
+        return (
+            f"the force still falls at the end of the run ({result.status}), the pull-off is not "
+            "in it; run further"
+        )
+    return f"the force was least where the machine turned or stopped, not at a pull-off; {ended}"
+
+
+def tension_work(result: Result, span: Span, found: PullOff, *, until: float) -> float:
+    """Return the integral of -force over the travel in tension around the pull-off."""
+    total, tension = 0.0, True
+    # Backwards from the end, so that the first crossing met before the minimum is the last one.
+    for piece in reversed(_pieces(result, span)):
+        steps = piece.steps
+        if len(steps) < 2:
+            continue  # a single step between two jumps spans no work
+        x, force = -result.depth[steps], result.force[steps]
+        before = x < -found.depth
+        if before.any() and force[before][-1] > 0 and x[-1] < -found.depth:
+            tension = False  # the crossing was the jump behind this piece
+        if not tension:
+            break
+        begin = x[0]
+        positive = np.flatnonzero(before & (force >= 0))
+        curve = _curve(x, force)
+        if positive.size and positive[-1] + 1 < len(x):
+            i = int(positive[-1])
+            begin, tension = _root(curve, x[i], x[i + 1]), False
+        end = min(x[-1], until)
+        if begin < end:
+            total -= float(curve.integrate(begin, end))
+    return total
+
+
+def _pieces(result: Result, span: Span) -> list[_Piece]:
+    """Return the opening part of a cycle as runs of steps between jumps, stops and turns."""
+    part = np.arange(span.turn, span.last + 1)
+    depth, time = result.depth, result.time
+    first = span.turn + int(np.flatnonzero(depth[part] == depth[part].max())[-1])
+    moves, number = moves_of(result), move_numbers(result)
+    waiting = np.array([waits(move) for move in moves])[number]
+    # Of each step but the last: whether the next one is behind a break, a jump, or another move.
+    broken = np.diff(depth) >= 0
+    jumped = np.zeros(len(broken), dtype=bool)
+    for event in result.events:
+        if event.kind.startswith("jump"):
+            jumped |= (time[:-1] < event.time) & (event.time <= time[1:])
+    # where the drive goes on, and only the clock stands still, it is a jump as well
+    goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
+    jumped |= (np.diff(depth) == 0) & goes_on
+    stopped = (number[1:] != number[:-1]) & (waiting[1:] | waiting[:-1])
+    stopped[:first] = False
+    ends = [i for i in range(first, span.last) if broken[i] or jumped[i] or stopped[i]]
+    pieces, begin, starts = [], first, first == 0
+    for end in [*ends, span.last]:
+        over = end == len(depth) - 1
+        snaps = result.outcome is Outcome.JUMPED if over else end < span.last and bool(jumped[end])
+        held = end > begin and waits(moves[number[end]], "force")
+        pieces.append(_Piece(np.arange(begin, end + 1), starts, snaps, held))
+        if not over and end < span.last:
+            # a curve that a stop bends goes on from there; behind a break the next one begins
+            bends = stopped[end] and not (broken[end] or jumped[end])
+            begin = end + (not bends)
+            starts = bool(jumped[end]) and bool(np.isfinite(result.contact_radius[begin]))
+    return pieces
+
+
+def _nearest(x: Array, i: int) -> slice:
+    """Return the up to four entries around number i: its neighbours, and the nearer of the next."""
+    low, high = max(i - 1, 0), min(i + 2, len(x))
+    before = x[i] - x[low - 1] if low > 0 else np.inf
+    after = x[high] - x[i] if high < len(x) else np.inf
+    if min(before, after) < np.inf:
+        # of two equally far the earlier, and not that which round-off makes the nearer
+        low, high = (low - 1, high) if before <= after * _EQUAL else (low, high + 1)
+    return slice(low, high)
+
+
+def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
+    """Return where the curve is lowest, near the lowest of its points i, and its value there."""
+    if 0 < i < len(x) - 1:
+        scale = x[i + 1] - x[i - 1]
+        for points in (_nearest(x, i), slice(i - 1, i + 2)):
+            u = (x[points] - x[i]) / scale
+            taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
+            at = _valley(*taylor[1:])
+            if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
+                value = float(np.polynomial.polynomial.polyval(at, taylor))
+                return float(x[i] + scale * at), value
+    return float(x[i]), float(y[i])
+
+
+def _valley(c: float, b: float, a: float = 0.0) -> float:
+    """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a; nan for none."""
+    root = b * b - 3 * a * c
+    if root < 0 or (a == 0 and b <= 0):
+        return np.nan
+    if b > 0:
+        return -c / (b + root**0.5)
+    return (root**0.5 - b) / (3 * a)
+
+
+def _between(x: Array, y: Array, at: float) -> float:
+    """Return a value between two steps by a straight line; nan where one of them is unknown."""
+    i = int(np.searchsorted(x, at))
+    if x[i] == at:
+        return float(y[i])
+    return float(np.interp(at, x[i - 1 : i + 1], y[i - 1 : i + 1]))
+
+
+def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, float] | None:
+    """Return place and speed of an edge that is gone within a few steps.
+
+    It runs faster and faster, so that its place is no smooth function of the travel; but the travel
+    is one of the place: a cubic through the last four up to there. None where the edge goes on, or
+    has not moved.
+    """
+    i = int(np.searchsorted(x, at))
+    known = np.isfinite(edge)
+    last = i if known[i] else i - 1
+    if last < 3 or np.all(known[last : i + 2 + _GONE]):
+        return None
+    points = slice(last - 3, last + 1)
+    # nan where there was no edge, which is no fall either
+    if not np.all(np.diff(edge[points]) < 0):
+        return None
+    scale = edge[last - 3] - edge[last]
+    u = (edge[points] - edge[last]) / scale
+    travel = np.polynomial.Polynomial(np.linalg.solve(np.vander(u, increasing=True), x[points]))
+    roots = (travel - at).roots()
+    roots = roots[
+        (roots.imag == 0) & (roots.real <= 1) & (edge[last] + scale * roots.real > 0)
+    ].real
+    roots = roots[travel.deriv()(roots) < 0]
+    if not roots.size:
+        return None
+    nearest = float(roots[np.argmin(np.abs(roots))])
+    drive = (x[i] - x[i - 1]) / (time[i] - time[i - 1])
+    return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
+
+
+def _curve(x: Array, y: Array) -> CubicHermiteSpline:
+    """Return the cubics through the points, with slopes of second order."""
+    slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
+    return CubicHermiteSpline(x, y, slope)
+
+
+def _root(curve: CubicHermiteSpline, low: float, high: float) -> float:
+    return float(brentq(curve, low, high))  # type: ignore[arg-type]

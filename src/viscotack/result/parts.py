@@ -1,0 +1,112 @@
+"""The parts of a test: its cycles, each a closing part and an opening one, and what held it when.
+
+A cycle begins where the machine turns to close the contact again. Its closing part has all moves
+into the solid and the waiting before, between and after them; the opening part begins with the
+first move out of the solid and lasts until the next turn.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
+
+from . import Outcome, Result
+
+
+@dataclass(frozen=True)
+class Span:
+    """A cycle, by numbers of steps.
+
+    Attributes
+    ----------
+    first, turn, last : int
+        The state in which it begins, that in which its opening begins, and the last one of it.
+    closes, opens : bool
+        Whether the machine moves into the solid in it, and out of it.
+    """
+
+    first: int
+    turn: int
+    last: int
+    closes: bool
+    opens: bool
+
+    @property
+    def closing(self) -> slice:
+        """The states of the closing part, with those at both ends."""
+        return slice(self.first, self.turn + 1)
+
+    @property
+    def opening(self) -> slice:
+        """The states of the opening part, with those at both ends."""
+        return slice(self.turn, self.last + 1)
+
+
+def moves_of(result: Result) -> tuple[Move | None, ...]:
+    """Return the moves of a test; None is the retraction after them."""
+    groups = result.groups
+    return (*groups.moves, *((None,) if groups.rate is not None else ()))
+
+
+def move_numbers(result: Result) -> npt.NDArray[np.intp]:
+    """Return the number of the move that led to each step.
+
+    A result that does not know has the last one for all: what came before it is then not told from
+    it.
+    """
+    if result.move is None:
+        return np.full(len(result.time), len(moves_of(result)) - 1)
+    return result.move
+
+
+def waits(move: Move | None, hold: str = "") -> bool:
+    """Return whether a move is a dwell, that holds what is named if something is."""
+    return isinstance(move, Dwell) and hold in ("", move.hold)
+
+
+def touches(result: Result, span: Span) -> bool:
+    """Return whether there is contact in a cycle; a result without edges says it by its outcome."""
+    known = np.isfinite(result.contact_radius)
+    if not known.any():
+        return result.outcome is not Outcome.NEVER
+    return bool(known[span.first : span.last + 1].any())
+
+
+def spans(result: Result) -> list[Span]:
+    """Return the cycles of a test; one that only pulls is one cycle."""
+    moves, number = moves_of(result), move_numbers(result)
+    end = len(number) - 1
+    if result.move is None:
+        deepest = int(np.flatnonzero(result.depth == result.depth.max())[-1])
+        return [Span(0, deepest, end, closes=deepest > 0, opens=not waits(moves[-1]))]
+    found, first, turn, closes = [], 0, -1, False
+    for move in np.unique(number):
+        begin = max(int(np.searchsorted(number, move)) - 1, 0)
+        way = _way(result, moves[move], begin)
+        if way > 0 and turn >= 0:
+            found.append(Span(first, turn, begin, closes, opens=True))
+            first, turn, closes = begin, -1, True
+        elif way < 0 and turn < 0:
+            turn = begin
+        closes |= way > 0
+    opens = turn >= 0
+    return [*found, Span(first, turn if opens else end, end, closes, opens)]
+
+
+def _way(result: Result, move: Move | None, begin: int) -> float:
+    """Return a positive number for a move into the solid, a negative one for one out of it."""
+    match move:
+        case Approach():
+            return 1.0
+        case Retract() | None:
+            return -1.0
+        case MoveTo():
+            k = result.groups.stiffness
+            bent = 0.0 if k is None else float(result.force[begin]) / k
+            return move.depth - (float(result.depth[begin]) + bent)
+        case LoadTo():
+            return move.force - float(result.force[begin])
+        case Dwell():
+            return 0.0
