@@ -39,6 +39,9 @@ _UNBALANCED = 1e-6
 _CURVED = 30.0
 # A dead load that has opened the smallest gap so far [h0] is held by nothing.
 _RELEASED = 30.0
+# A gap [h0] that is gone: a law that repels without bound lets none come near, and where another is
+# pressed harder than it repels, every step closes the gap further.
+GONE = 1e-6
 # A step may close at most this part of the gap at a node: beyond, the ninth power explodes.
 _LARGEST_CLOSING = 0.3
 
@@ -187,6 +190,9 @@ def descend(
         little = stable and part == 1.0 and -slope < least_gain * size
         if (last and part == 1.0) or (little and _balanced(pull, A * law.traction(gap), largest)):
             return Balance(gap, solid.depth(gap), iteration, True)
-        if hold.stiffness == 0 and np.min(gap) > _RELEASED:
+        least = np.min(gap)
+        if least < GONE:
+            return Balance(gap, solid.depth(gap), iteration, False)
+        if hold.stiffness == 0 and least > _RELEASED:
             return Balance(gap, solid.depth(gap), iteration, False, released=True)
     return Balance(gap, solid.depth(gap), most_iterations, False)

@@ -49,7 +49,8 @@ def march(
 
     `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
     apart). The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
-    on steps was met, or "lost" when no equilibrium was found.
+    on steps was met, "shut" when the surfaces were pressed together harder than the law repels, or
+    "lost" when no equilibrium was found.
     """
     history = History()
     body = Body(contact, modes, np.asarray(modes.weights))

@@ -19,6 +19,7 @@ from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.settings import Settings
+from viscotack.bem.shut import why
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
@@ -26,6 +27,7 @@ from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
+from viscotack.traction import Traction
 
 _UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
@@ -236,7 +238,7 @@ def _result(
         force=np.array([s.force for s in states]),
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
-        status=_status(history, residual),
+        status=_status(history, residual, contact.law),
         events=tuple(history.events),
         statistics={
             "steps": len(states) - 1,
@@ -262,12 +264,17 @@ def _result(
     ).posed(groups)
 
 
-def _status(history: History, residual: float) -> str:
+def _status(history: History, residual: float, law: Traction) -> str:
     last = history.snapshots[-1]
     if residual > _LARGEST_RESIDUAL:
         return (
             f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
             "ask for a better accuracy, and mind that Tabor numbers above 10 are not tested"
+        )
+    if history.outcome == "shut":
+        return (
+            f"{Outcome.STOPPED} because beyond a depth of {last.depth:.4g} h0 "
+            f"{why(law, history.pressed)}"
         )
     if history.outcome == "lost":
         return (
