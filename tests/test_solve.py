@@ -7,10 +7,10 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
-from viscotack.materials import Elastic, StandardSolid
+from viscotack.materials import Elastic, Material, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
-from viscotack.result.observables import pull_off_force
+from viscotack.result.observables import pull_off_force, summary, work_to_pull_off
 from viscotack.traction import Exponential
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
@@ -18,7 +18,7 @@ SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisso
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
-def case(start=None, tabor=1.0, rate=10.0, material=SOLID):
+def case(start=None, tabor=1.0, rate=10.0, material: Material = SOLID):
     return Groups(tabor=tabor, material=material, start=start or AtDepth(1.0), rate=rate)
 
 
@@ -138,6 +138,37 @@ def test_better_accuracy_costs_more_and_estimates_less():
     assert fine.statistics["nodes"] > 1.5 * coarse.statistics["nodes"]
     assert fine.statistics["steps"] > 1.5 * coarse.statistics["steps"]
     assert fine.error_estimate["force"] < coarse.error_estimate["force"]
+
+
+@pytest.mark.parametrize(
+    ("tabor", "depth", "material"),
+    [(0.01, 0.0, ELASTIC), (0.001, 0.003, ELASTIC), (0.03, 0.0, ELASTIC), (0.1, -0.03, SOLID)],
+    ids=["0.01", "0.001", "0.03", "viscoelastic"],
+)
+def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
+    # the way to the force minimum is short, and the minimum is flat
+    groups = case(AtDepth(depth), tabor, rate=1.0, material=material)
+    coarse = solve(groups, until="pull-off")
+    fine = solve(groups, accuracy=2e-4, until="pull-off", estimate_error=False)
+    work, estimate = work_to_pull_off(coarse), coarse.error_estimate["work"]
+    # the fine run has about half of the error: the minimum moves with that of the force
+    error = 1.7 * abs(work - work_to_pull_off(fine)) / work
+    assert error < estimate < 5 * error
+
+
+@pytest.mark.parametrize(
+    ("tabor", "depth"), [(1e-5, 0.0), (1e-3, 0.0), (0.01, -0.1)], ids=["0", "near", "behind"]
+)
+def test_a_work_that_is_lost_in_its_error_is_not_told(tabor, depth):
+    result = solve(case(AtDepth(depth), tabor, material=ELASTIC), until="pull-off")
+    with pytest.raises(ValueError, match="begins at the force minimum or next to it.*start deep"):
+        work_to_pull_off(result)
+    answer = summary(result)
+    assert answer["work_to_pull_off"] is None
+    assert "not known to half of it" in answer["work_to_pull_off_note"]
+    assert answer["error_estimate"]["work"] > 0.5
+    assert answer["pull_off_force"] == pytest.approx(4 / 3, rel=0.06)
+    assert pull_off_force(result) == answer["pull_off_force"]
 
 
 def test_fields_are_kept_on_request_and_agree_with_the_force():

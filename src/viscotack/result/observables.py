@@ -23,6 +23,8 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 
 Array = npt.NDArray[np.float64]
+# A work to pull-off whose stated error is larger than this part of it means nothing.
+_MEANINGLESS = 0.5
 # Steps of equal length are equal but for round-off.
 _EQUAL = 1 + 1e-9
 
@@ -127,9 +129,54 @@ def work_to_pull_off(result: Result) -> float:
     retraction, or from the start where that is in tension already, to the minimum
     [1.5 pi R Delta-gamma_0 h_0; for a punch Delta-gamma_0, of unit area]. Jumps add nothing. The
     minimum is flat, so this number is less certain than the pull-off force.
+
+    Raises
+    ------
+    ValueError
+        If there is no pull-off, or the work means nothing: a retraction that begins next to the
+        force minimum does next to no work on its way there, and the stated error is half of it or
+        more.
     """
     found = pull_off(result)
-    return _given(result, _work(result, found, until=-found.depth))
+    work = _given(result, _work(result, found, until=-found.depth))
+    error = (result.error_estimate or {}).get("work", 0.0)
+    if error > _MEANINGLESS:
+        raise InputError(
+            f"the retraction begins at the force minimum or next to it, and the work to it, "
+            f"{work:.2g}, is not known to half of it; start deeper, or ask for a better accuracy"
+        )
+    return work
+
+
+def work_lost(result: Result, force_error: float) -> float:
+    r"""Return the work to pull-off that an error of the force may take or add, in its unit.
+
+    Where the force :math:`P` is least its slope is zero. An error :math:`\epsilon P` that changes
+    over a length :math:`\ell` has a slope, and moves the minimum by that over the curvature of the
+    force; at the end of the way the drive works with the whole pull-off force:
+
+    .. math:: \Delta W = P \cdot \frac{\epsilon P / \ell}{P''}
+
+    Parameters
+    ----------
+    result : Result
+        The simulation.
+    force_error : float
+        Relative error of the force over the length over which it changes [1/h_0].
+
+    Returns
+    -------
+    float
+        Zero where the minimum is no valley: the first step, or the last one before a jump.
+    """
+    piece = min(_pieces(result), key=lambda p: result.force[p].min())
+    x, force = -result.depth[piece], result.force[piece]
+    i = int(np.argmin(force))
+    if not 0 < i < len(x) - 1:
+        return 0.0
+    before, after = np.diff(force[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
+    curvature = 2 * (after - before) / (x[i + 1] - x[i - 1])
+    return _given(result, float(force_error * force[i] ** 2 / curvature))
 
 
 def work_of_separation(result: Result) -> float:
