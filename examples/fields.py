@@ -43,10 +43,9 @@ def draw(result: vt.Result, path: Path) -> None:
         figure = Figure(figsize=(13.0, 5.6))
         left, right = figure.subplots(1, 2)
         for (words, step), color in zip(moments.items(), colors, strict=True):
-            # The node on the axis has next to no area and a pressure that is not to be trusted.
-            radius = fields["radius"][step][1:]
-            left.plot(radius, fields["pressure"][step][1:], color=color, label=words)
-            right.plot(radius, fields["gap"][step][1:], color=color, label=words)
+            radius = fields["radius"][step]
+            left.plot(radius, fields["pressure"][step], color=color, label=words)
+            right.plot(radius, fields["gap"][step], color=color, label=words)
         widest = 1.25 * result.contact_radius[0]
         for axes in (left, right):
             axes.set_xlim(0, widest)

@@ -1,11 +1,13 @@
 """Fits to measured moduli: constants found again, intervals that hold, honesty at the ends."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from reference_data import DMA
-from viscotack.lab import fit, master_curve, read_dma, read_relaxation
+from viscotack.lab import fit, master_curve, nonnegative, read_dma, read_relaxation
 from viscotack.lab.fit_passport import issued
 from viscotack.lab.fit_power_law import fit_constants
 from viscotack.lab.fit_prony import fit_series
@@ -21,6 +23,9 @@ PDMS = published("pdms-10-1").material
 TRUTH = (1.458e6, 3.089e9, 0.2207, 0.01876)
 # The points of the thesis's DMA: 1 Hz, -130 to 20 C in steps of 10 K.
 CELSIUS = np.arange(-130, 21, 10.0)
+SMOOTH = RetardationPowerLaw(
+    rubbery_modulus=1e6, glassy_modulus=1e9, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
+)
 WLF_PDMS = WLF.from_glass_transition(158.15).at_reference(293.15)
 OMEGA = 2 * np.pi * 10 ** np.asarray(WLF_PDMS.log10_shift(CELSIUS + 273.15))
 
@@ -197,6 +202,37 @@ def test_a_series_is_the_best_in_logarithms():
         # the slope of the sum of squares against ln E_i
         slope = np.sum(residuals * E * np.array([arm.real, arm.imag]) / predicted)
         assert abs(slope) < 1e-3 * np.sum(residuals**2)
+
+
+@pytest.mark.parametrize("exponent", [0.2, 0.5])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_a_long_sweep_with_little_noise_has_a_series(seed, exponent):
+    # neighbouring arms look alike, and the search for moduli goes in and out among them
+    sweep = curve(
+        seed,
+        noise=0.005,
+        material=replace(SMOOTH, exponent=exponent),
+        omega=np.geomspace(1e-2, 1e5, 43),
+    )
+    series = fit_series(observed(sweep, poisson_ratio=0.5), arms=None, level=0.9, draws=0, seed=0)
+    assert 0.0025 < series.scatter.deviation < 0.0075
+    assert min(modulus for modulus, _ in series.material.branches) > 0
+
+
+def test_amplitudes_that_may_not_be_negative_are_the_best_there_are(monkeypatch):
+    random = np.random.default_rng(0)
+    x, times = np.geomspace(1e-3, 1e3, 90), np.geomspace(1e-3, 1e3, 30)
+    columns = 1 / (1 + x[:, None] * times)
+    numbers = columns @ random.exponential(size=30) * (1 + 1e-3 * random.normal(size=90))
+    found = nonnegative.nonnegative(columns, numbers)
+    gain = columns.T @ (numbers - columns @ found)  # what more of each would bring
+    assert np.min(found) == 0
+    assert np.max(gain) < 1e-8
+    assert_allclose(gain[found > 0], 0, atol=1e-8)
+    monkeypatch.setattr(nonnegative, "_PATIENCE", 1)
+    sweep = curve(material=SMOOTH, noise=0.005, omega=np.geomspace(1e-2, 1e5, 43))
+    with pytest.raises(ValueError, match="none negative, was found for .* fewer arms"):
+        fit_series(observed(sweep, poisson_ratio=0.5), arms=60, level=0.9, draws=0, seed=0)
 
 
 def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():

@@ -26,6 +26,7 @@ from viscotack.result.observables import (
     pull_off_depth,
     pull_off_force,
     summary,
+    work_lost,
     work_of_separation,
     work_to_pull_off,
 )
@@ -190,7 +191,9 @@ def test_a_failed_run_has_no_observables():
     answer = summary(failed)
     assert answer["status"] == "stopped because the step became too small"
     assert answer["outcome"] == "stopped"
-    assert all(answer[name] is None for name in answer if "pull_off" in name or "work_" in name)
+    names = [name for name in answer if "pull_off" in name or "work_" in name]
+    assert all(answer[name] is None for name in names if not name.endswith("_note"))
+    assert "the run failed" in answer["work_to_pull_off_note"]
 
 
 def test_a_force_that_still_falls_has_no_pull_off():
@@ -227,6 +230,37 @@ def test_pull_off_without_an_edge_has_no_radius():
     assert np.isnan(crack_speed_at_pull_off(result))
     assert summary(result)["contact_radius_at_pull_off"] is None
     assert summary(result)["pull_off_force"] == pytest.approx(1, rel=1e-5)
+
+
+def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimum():
+    a, error = PULL_OFF_RADIUS, 1e-3
+    by_radius = DISPLACEMENT * (2 * a - 1 / np.sqrt(2 * a))
+    curvature = (8 * a - 0.75 * np.sqrt(8 / a)) / 1.5 / by_radius**2
+    found = work_lost(jkr_result(steps=400), error)
+    assert found == pytest.approx(error / curvature, rel=0.02)
+    # the minimum of a force with that slope is where it says; there the drive works with force 1
+    travel = -jkr_result(steps=400).depth
+    tilted = jkr_result(steps=400)
+    tilted = jkr_result(steps=400, force=tilted.force - error * (travel + PULL_OFF_DEPTH))
+    assert abs(pull_off_depth(tilted) - PULL_OFF_DEPTH) == pytest.approx(found, rel=0.05)
+
+
+def test_no_work_is_lost_where_the_minimum_is_no_valley():
+    assert work_lost(jkr_result(start=0.9), 1e-3) == 0
+    assert work_lost(jkr_detachment(until_jump=True), 1e-3) > 0
+
+
+@pytest.mark.parametrize("error", [0.4, 0.6])
+def test_a_work_that_is_not_known_to_half_of_it_is_not_told(error):
+    result = jkr_result(error_estimate={"force": 1e-3, "work": error})
+    answer = summary(result)
+    if error < 0.5:
+        assert answer["work_to_pull_off"] == pytest.approx(WORK_TO_PULL_OFF, rel=1e-3)
+        assert answer["work_to_pull_off_note"] is None
+    else:
+        assert answer["work_to_pull_off"] is None
+        assert "is not known to half of it; start deeper" in answer["work_to_pull_off_note"]
+        assert answer["pull_off_force"] == pytest.approx(1.0, rel=1e-3)
 
 
 def test_summary_of_groups_has_the_promised_keys_and_is_json():

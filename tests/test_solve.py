@@ -1,18 +1,24 @@
 """What the solver says when it is asked for something it cannot do, and what it keeps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
-from viscotack.materials import Elastic, StandardSolid
+from viscotack.materials import Elastic, Material, StandardSolid
 from viscotack.problem import Groups
-from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
+from viscotack.result.observables import pull_off_force, summary, work_to_pull_off
+from viscotack.traction import Exponential
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
-def case(start=None, tabor=1.0, rate=10.0, material=SOLID):
+
+def case(start=None, tabor=1.0, rate=10.0, material: Material = SOLID):
     return Groups(tabor=tabor, material=material, start=start or AtDepth(1.0), rate=rate)
 
 
@@ -28,6 +34,60 @@ def case(start=None, tabor=1.0, rate=10.0, material=SOLID):
 def test_a_start_that_does_not_exist_is_refused(start, words):
     with pytest.raises(ValueError, match=words):
         solve(case(start))
+
+
+def soft_law(start, *moves, **changes):
+    """Return a test with a law that repels with no more than 4 exp(2) dg0/h0, at a gap of 0."""
+    return Groups(
+        tabor=0.1,
+        material=ELASTIC,
+        start=start,
+        rate=1.0,
+        traction=Exponential(1.0, 1.0, decay=0.5),
+        moves=moves,
+        **changes,
+    )
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (AtDepth(4.0), "at a depth of 4 h0 .* presses with up to 31.8"),
+        (AtDepth(8.0), "at a depth of 8 h0 .* presses with up to 51.3"),
+        (AtDepth(40.0), "at a depth of 40 h0 .* presses with up to 12[56]"),
+        (AtForce(45.0), "a force of 45 .dimensionless. is not reached: .* presses with up to 29.5"),
+        (AtRadius(8.0), "a contact radius of 8 .dimensionless. is not reached"),
+    ],
+    ids=str,
+)
+def test_a_start_that_presses_harder_than_the_law_repels_is_told_so(start, words):
+    with pytest.raises(ValueError, match=words + ".*repels with 29.56 dg0/h0 at most, at a gap of"):
+        solve(soft_law(start))
+
+
+@pytest.mark.parametrize("start", [AtDepth(3.5), AtForce(40.0), AtRadius(5.0)], ids=str)
+def test_a_start_that_presses_nearly_as_hard_as_the_law_repels_exists(start):
+    # Bradley's force and that of DMT: such a contact is nearly rigid
+    found = pull_off_force(solve(soft_law(start), until="pull-off", estimate_error=False))
+    assert found == pytest.approx(4 / 3, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),)},
+        {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),), "start": Apart(3.0)},
+        {"moves": (LoadTo(force=80.0, duration=10.0),)},
+        {"moves": (Approach(speed=1.0, to=AtDepth(6.0)),), "stiffness": 10.0},
+    ],
+    ids=["pressed", "from apart", "loaded", "through a spring"],
+)
+def test_a_march_that_presses_harder_than_the_law_repels_says_where_it_stopped(changes):
+    result = solve(replace(soft_law(AtDepth(1.0)), **changes), throw=False)
+    assert result.outcome == "stopped"
+    # where the start by depth ends too
+    assert "beyond a depth of 3.6" in result.status
+    assert "repels with 29.56 dg0/h0 at most, at a gap of 0" in result.status
 
 
 @pytest.mark.parametrize("accuracy", [0.0, -1.0, 0.5, float("nan"), 1e-9])
@@ -78,6 +138,37 @@ def test_better_accuracy_costs_more_and_estimates_less():
     assert fine.statistics["nodes"] > 1.5 * coarse.statistics["nodes"]
     assert fine.statistics["steps"] > 1.5 * coarse.statistics["steps"]
     assert fine.error_estimate["force"] < coarse.error_estimate["force"]
+
+
+@pytest.mark.parametrize(
+    ("tabor", "depth", "material"),
+    [(0.01, 0.0, ELASTIC), (0.001, 0.003, ELASTIC), (0.03, 0.0, ELASTIC), (0.1, -0.03, SOLID)],
+    ids=["0.01", "0.001", "0.03", "viscoelastic"],
+)
+def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
+    # the way to the force minimum is short, and the minimum is flat
+    groups = case(AtDepth(depth), tabor, rate=1.0, material=material)
+    coarse = solve(groups, until="pull-off")
+    fine = solve(groups, accuracy=2e-4, until="pull-off", estimate_error=False)
+    work, estimate = work_to_pull_off(coarse), coarse.error_estimate["work"]
+    # the fine run has about half of the error: the minimum moves with that of the force
+    error = 1.7 * abs(work - work_to_pull_off(fine)) / work
+    assert error < estimate < 5 * error
+
+
+@pytest.mark.parametrize(
+    ("tabor", "depth"), [(1e-5, 0.0), (1e-3, 0.0), (0.01, -0.1)], ids=["0", "near", "behind"]
+)
+def test_a_work_that_is_lost_in_its_error_is_not_told(tabor, depth):
+    result = solve(case(AtDepth(depth), tabor, material=ELASTIC), until="pull-off")
+    with pytest.raises(ValueError, match="begins at the force minimum or next to it.*start deep"):
+        work_to_pull_off(result)
+    answer = summary(result)
+    assert answer["work_to_pull_off"] is None
+    assert "not known to half of it" in answer["work_to_pull_off_note"]
+    assert answer["error_estimate"]["work"] > 0.5
+    assert answer["pull_off_force"] == pytest.approx(4 / 3, rel=0.06)
+    assert pull_off_force(result) == answer["pull_off_force"]
 
 
 def test_fields_are_kept_on_request_and_agree_with_the_force():

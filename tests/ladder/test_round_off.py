@@ -171,10 +171,10 @@ def test_noise_changes_neither_outcome_nor_events_nor_force(name):
 
 
 def test_a_way_down_that_takes_too_long_is_looked_for_later(monkeypatch):
-    # just past the end of its branch this one takes more than 40 iterations, hundreds if need be
+    # just past the end of its branch this one takes more than 30 iterations, hundreds if need be
     case = behind_spring(1e-3, material=ELASTIC)
     patient = solve(case, accuracy=5e-3, estimate_error=False)
-    monkeypatch.setattr(jumps, "_PATIENCE", 40)
+    monkeypatch.setattr(jumps, "_PATIENCE", 30)
     hasty = solve(case, accuracy=5e-3, estimate_error=False)
     assert hasty.statistics["newton_iterations"] > patient.statistics["newton_iterations"]
     assert [e.kind for e in hasty.events] == ["jump out of contact"]

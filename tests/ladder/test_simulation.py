@@ -9,6 +9,8 @@ from reference_data import VALUES
 from viscotack.bem import Settings, solve
 from viscotack.bem.bodies.halfspace import half_space, influence, nodal_areas
 from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
+from viscotack.bem.contacts.profile import ProfileContact
+from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.surface import stiffness
 from viscotack.bem.twins.plain import hat_matrix, mean_compliance, plain_solve
@@ -25,7 +27,7 @@ from viscotack.result.observables import (
     work_of_separation,
     work_to_pull_off,
 )
-from viscotack.theory import bradley, jkr
+from viscotack.theory import bradley, hertz, jkr
 from viscotack.traction import Dugdale, LennardJones
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
@@ -143,6 +145,52 @@ def _sphere(radius):
     from viscotack.geometry import Sphere
 
     return Sphere(radius=radius)
+
+
+@pytest.mark.parametrize("accuracy", [2e-2, DEFAULT, 2e-4])
+@pytest.mark.parametrize("tabor", [0.3, 3.24, 10.0])
+def test_what_hertz_does_to_the_surface_is_held_by_his_pressure_at_the_axis(tabor, accuracy):
+    contact = SphereContact(tabor, LennardJones(1.0, 1.0))
+    grading = contact.grading(Settings.for_accuracy(accuracy), 100.0)
+    edge = contact.bare_radius(100.0)
+    for nodes in (grading.nodes(edge, edge), grading.nodes(0.1 * edge, edge)):
+        surface = contact.surface(nodes)
+        given = {"contact_radius": 0.7 * nodes[-1], "radius": 1.0}
+        moved = tabor**2 * hertz.surface_displacement(nodes, **given)
+        exact = hertz.pressure(nodes, contact_modulus=1.0, **given)
+        found = surface.stiffness @ moved / surface.area
+        assert found[:8] == pytest.approx(exact[:8], rel=0.02, abs=0)
+
+
+@pytest.mark.parametrize("accuracy", [2e-2, DEFAULT, 2e-4])
+@pytest.mark.parametrize("tabor", [3.24, 10.0])
+def test_pressure_at_the_axis_is_that_of_jkr(tabor, accuracy):
+    contact = SphereContact(tabor, LennardJones(1.0, 1.0))
+    found = contact.relaxed(AtDepth(100.0), Settings.for_accuracy(accuracy))
+    pressure = found.surface.nodal(contact.law, found.gap) / found.surface.area
+    # E* beta/R is dg/(mu^2 h0) in pressure; the rest of 1 % is the range of adhesion
+    exact = jkr.pressure(
+        found.surface.position[:8],
+        contact_radius=found.edge,
+        radius=1.0,
+        contact_modulus=1.0,
+        work_of_adhesion=1.0,
+    )
+    assert pressure[:8] == pytest.approx(exact / tabor, rel=0.02, abs=0)
+
+
+@pytest.mark.parametrize("exponent", [1.5, 3.0, 4.0])
+def test_pressure_of_a_power_law_tip_at_the_axis_continues_that_around_it(exponent):
+    contact = ProfileContact(3.24, LennardJones(1.0, 1.0), exponent)
+    found = contact.relaxed(AtDepth(100.0), Settings.for_accuracy(DEFAULT))
+    pressure = found.surface.nodal(contact.law, found.gap) / found.surface.area
+    r = found.surface.position / found.surface.position[20]
+    # what is singular in the pressure at the tip grows like the slope of the tip
+    slope_like = np.log(np.maximum(r, 1e-9)) * r**2 if exponent == 3 else r ** (exponent - 1)
+    terms = np.column_stack([np.ones_like(r), r**2, r**4, slope_like])
+    around = slice(5, 20)
+    smooth = terms @ np.linalg.lstsq(terms[around], pressure[around], rcond=None)[0]
+    assert pressure[:5] == pytest.approx(smooth[:5], rel=0.05, abs=0)
 
 
 # --- limits ---------------------------------------------------------------------------------

@@ -97,7 +97,8 @@ class History:
     """What the march passed through: a snapshot and the books after each step.
 
     `legs` has the number of the leg that led to each snapshot, `least_energy` what the imbalance of
-    the energies is measured by at least [output force times h0].
+    the energies is measured by at least [output force times h0], `pressed` the pressure [dg/h0]
+    that no law withstood, where the outcome is "shut".
     """
 
     least_energy: float
@@ -107,6 +108,7 @@ class History:
     profiles: list[Profile] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
     outcome: str = ""
+    pressed: float = 0.0
     iterations: int = 0
     rejected: int = 0
     meshes: int = 1

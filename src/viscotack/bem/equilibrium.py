@@ -39,6 +39,9 @@ _SLIGHT = 1e-9
 # change, which the audit of the energies would take for a jump.
 _UNBALANCED = 1e-6
 _CURVED = 30.0
+# A gap [h0] that is gone: a law that repels without bound lets none come near, and where another is
+# pressed harder than it repels, every step closes the gap further.
+GONE = 1e-6
 # A step may close at most this part of the room at a node: beyond, the repulsion explodes.
 _LARGEST_CLOSING = 0.3
 
@@ -191,6 +194,8 @@ def descend(
         little = stable and part == 1.0 and -slope < least_gain * size
         if (last and part == 1.0) or (little and _balanced(pull, face.tension(law, gap), largest)):
             return Balance(gap, solid.depth(gap), iteration, True)
+        if np.min(gap) < GONE:
+            return Balance(gap, solid.depth(gap), iteration, False)
         if hold.stiffness == 0 and released(gap, span):
             return Balance(gap, solid.depth(gap), iteration, False, released=True)
     return Balance(gap, solid.depth(gap), most_iterations, False)

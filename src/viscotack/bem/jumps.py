@@ -15,6 +15,7 @@ from viscotack.bem.books import Snapshot
 from viscotack.bem.memory import Step, step
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import around_edge
+from viscotack.bem.shut import pressed_shut
 from viscotack.bem.steps import Attempt, arrived, force_change, instant, tried, weighed
 from viscotack.result import Event
 
@@ -36,7 +37,9 @@ def shortest_step(run: Run, at: Place, s: Step) -> Place:
         _let_go(run, at.seen, trial.after.seen.time)
         return at
     if trial.lost:  # however short the step, no equilibrium was found
-        run.history.outcome = "lost"
+        after = trial.after
+        run.history.pressed = pressed_shut(after.surface, after.gap, after.relaxed)
+        run.history.outcome = "shut" if run.history.pressed else "lost"
         return at
     attempt = weighed(run, at, s, trial)
     after = _jumped(run, at, attempt) if attempt.too_long else arrived(at, attempt)

@@ -2,7 +2,7 @@ r"""A Prony series fitted to measured numbers: as many arms as the data can carr
 
 The relaxation times stand on a logarithmic grid over the measured range, and the moduli, none
 negative, make the sum of squares of ln(measured/fitted) smallest: a few steps of Gauss and Newton,
-each a linear problem with bounds, solved by :func:`scipy.optimize.nnls`. Creep is fitted by
+each a linear problem with bounds (:mod:`.nonnegative`). Creep is fitted by
 retardation times in the same way, and interconverted exactly. Grids of more and more arms are
 tried; the information criterion chooses. Arms that get no modulus are left out.
 """
@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import nnls
 
 from viscotack.errors import InputError
 from viscotack.materials import Prony
@@ -19,6 +18,7 @@ from viscotack.materials.conversion import RetardationSeries, relaxation_series
 from viscotack.materials.modes import maxwell
 
 from .fit_report import Interval, Scatter, information_criterion, scatter
+from .nonnegative import nonnegative
 from .observed import Observed, only
 
 Array = npt.NDArray[np.float64]
@@ -160,13 +160,13 @@ def _fitted(
     noise = np.repeat(data.noise, data.at.size)
     x = start
     if x is None:
-        x, _ = nnls(basis / (values * noise)[:, None], (1 - base / values) / noise)
+        x = nonnegative(basis / (values * noise)[:, None], (1 - base / values) / noise)
     for _ in range(8):
         model = base + basis @ x
         model = np.maximum(model, 1e-3 * values)  # as if: a number no arm reaches yet
         # ln(model + d) to first order in the change: Gauss and Newton, with bounds
         target = 1 + np.log(values / model) - base / model
-        new, _ = nnls(basis / (model * noise)[:, None], target / noise)
+        new = nonnegative(basis / (model * noise)[:, None], target / noise)
         change = np.max(np.abs(basis @ (new - x)) / model)
         x = new
         if change < 1e-6:

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import nnls
 from scipy.special import spence
 
 from viscotack.errors import InputError
 
+from .nonnegative import nonnegative
 from .sweeps import MasterCurve
 
 Array = npt.NDArray[np.float64]
@@ -133,7 +133,7 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
         # the triangle of all rows says the same as the rows, which may be thousands
         weighted = sides * (trust * np.sqrt(tail))[:, None]
         triangle = np.asarray(np.linalg.qr(weighted, mode="r"))
-        part, _misfit = nnls(triangle[:, :-1], triangle[:, -1])
+        part = nonnegative(triangle[:, :-1], triangle[:, -1])
         residual = columns @ part - 1
         scatter = [float(np.mean(half)) for half in np.split(tail * residual**2, 2)]
         scatter = np.repeat(scatter, omega.size) + _FINEST**2

@@ -57,7 +57,7 @@ class Series:
 class Output:
     """A number of a summary: the function of that name in :mod:`viscotack.result.observables`.
 
-    A `noted` one has a note beside it, what the function warned of.
+    A `noted` one has a note beside it: what the function warned of, or why there is none.
     """
 
     words: str
@@ -141,7 +141,7 @@ REVOLUTION = Kind(
     },
     observables={
         "pull_off_force": Output("pull-off force", _FORCE),
-        "work_to_pull_off": Output("work to pull-off", _WORK),
+        "work_to_pull_off": Output("work to pull-off", _WORK, noted=True),
         "work_of_separation": Output("work of separation", _WORK),
         "pull_off_depth": Output("depth at pull-off", _LENGTH),
         "contact_radius_at_pull_off": Output("contact radius there", _RADIUS),
@@ -193,7 +193,7 @@ PLANE = Kind(
     },
     observables={
         "pull_off_stress": Output("pull-off stress", _STRESS),
-        "work_to_pull_off": Output("work to pull-off", _ENERGY),
+        "work_to_pull_off": Output("work to pull-off", _ENERGY, noted=True),
         "work_of_separation": Output("work of separation", _ENERGY),
         "pull_off_depth": Output("depth at pull-off", _LENGTH),
         "ligament_at_pull_off": Output("ligament there", _WIDTH),

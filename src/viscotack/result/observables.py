@@ -16,8 +16,11 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 from .cycles import cycle_rows
 from .dead_load import time_held
-from .opening import PullOff, pull_off_in, tension_work
+from .opening import PullOff, lost_beside, pull_off_in, tension_work
 from .parts import spans
+
+# A work to pull-off whose stated error is larger than this part of it means nothing.
+_MEANINGLESS = 0.5
 
 
 def pull_off(result: Result) -> PullOff:
@@ -79,10 +82,48 @@ def work_to_pull_off(result: Result) -> float:
     retraction, or from the start where that is in tension already, to the minimum
     [1.5 pi R Delta-gamma_0 h_0; for a punch Delta-gamma_0, of unit area]. Jumps add nothing. The
     minimum is flat, so this number is less certain than the pull-off force.
+
+    Raises
+    ------
+    ValueError
+        If there is no pull-off, or the work means nothing: a retraction that begins next to the
+        force minimum does next to no work on its way there, and the stated error is half of it or
+        more.
     """
     found = pull_off(result)
-    work = tension_work(result, spans(result)[-1], found, until=-found.depth)
-    return _given(result, work)
+    last = spans(result)[-1]
+    work = _given(result, tension_work(result, last, found, until=-found.depth))
+    error = (result.error_estimate or {}).get("work", 0.0)
+    if error > _MEANINGLESS:
+        raise InputError(
+            f"the retraction begins at the force minimum or next to it, and the work to it, "
+            f"{work:.2g}, is not known to half of it; start deeper, or ask for a better accuracy"
+        )
+    return work
+
+
+def work_lost(result: Result, force_error: float) -> float:
+    r"""Return the work to pull-off that an error of the force may take or add, in its unit.
+
+    Where the force :math:`P` is least its slope is zero. An error :math:`\epsilon P` that changes
+    over a length :math:`\ell` has a slope, and moves the minimum by that over the curvature of the
+    force; at the end of the way the drive works with the whole pull-off force:
+
+    .. math:: \Delta W = P \cdot \frac{\epsilon P / \ell}{P''}
+
+    Parameters
+    ----------
+    result : Result
+        The simulation.
+    force_error : float
+        Relative error of the force over the length over which it changes [1/h_0].
+
+    Returns
+    -------
+    float
+        Zero where the minimum is no valley: the first step, or the last one before a jump.
+    """
+    return _given(result, force_error * lost_beside(result, spans(result)[-1]))
 
 
 def work_of_separation(result: Result) -> float:

@@ -77,17 +77,7 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
         If there is none: nothing is pulled in it, or the force was lowest where the machine turned
         or stopped, or was itself what the machine set.
     """
-    if not touches(result, span):
-        raise InputError("the surfaces were never in contact, there is no pull-off")
-    found, pieces = None, _pieces(result, span)
-    for piece in pieces:
-        lowest = int(np.argmin(result.force[piece.steps]))
-        least = float(result.force[piece.steps][lowest])
-        if least < 0 and piece.has_minimum(lowest) and (found is None or least < found[0]):
-            found = least, piece.steps, lowest
-    if found is None:
-        raise InputError(_why_none(result, span, pieces))
-    _, steps, lowest = found
+    steps, lowest = _valley_of(result, span)
     # The motion is a retraction without a break: travel, minus the depth, orders the steps.
     x = -result.depth[steps]
     place, smallest = _minimum(x, result.force[steps], lowest)
@@ -102,6 +92,36 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
         contact_radius=at_edge[0],
         crack_speed=at_edge[1],
     )
+
+
+def lost_beside(result: Result, span: Span) -> float:
+    """Return the square of the least force over its curvature; 0 where it is least in no valley.
+
+    What the drive does in vain, or saves, where the slope of the force is wrong by a part of the
+    least force is this times that part: the minimum moves by slope over curvature.
+    """
+    steps, i = _valley_of(result, span)
+    x, force = -result.depth[steps], result.force[steps]
+    if not 0 < i < len(x) - 1:
+        return 0.0
+    before, after = np.diff(force[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
+    curvature = 2 * (after - before) / (x[i + 1] - x[i - 1])
+    return float(force[i] ** 2 / curvature)
+
+
+def _valley_of(result: Result, span: Span) -> tuple[npt.NDArray[np.intp], int]:
+    """Return the steps of the piece with the force minimum, and which of them is the lowest."""
+    if not touches(result, span):
+        raise InputError("the surfaces were never in contact, there is no pull-off")
+    found, pieces = None, _pieces(result, span)
+    for piece in pieces:
+        lowest = int(np.argmin(result.force[piece.steps]))
+        least = float(result.force[piece.steps][lowest])
+        if least < 0 and piece.has_minimum(lowest) and (found is None or least < found[0]):
+            found = least, piece.steps, lowest
+    if found is None:
+        raise InputError(_why_none(result, span, pieces))
+    return found[1:]
 
 
 def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:

@@ -306,17 +306,20 @@ def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -
     """Return a summary as lines a person reads."""
     lines, kind = [answer["status"]], result.problem.outputs
     said = {name: (output.words, output.unit) for name, output in kind.observables.items()}
+    seen = answer[next(iter(said))] is not None
     said |= {own.name: (own.words, kind.units[own.measure]) for own in also}
     for name, (words, unit) in said.items():
-        value = answer[name]
+        value, note = answer[name], answer.get(f"{name}_note")
         if value is None:
+            if note and seen:  # of all numbers this one is missing
+                lines.append(f"  {words:<21}  not known: {note}")
             continue
         line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
         if f"{name}_{unit.tail}" in answer:
             line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
         lines.append(line.rstrip())
-        if answer.get(f"{name}_note"):
-            lines.append(f"  {'':<21}  {answer[f'{name}_note']}")
+        if note:
+            lines.append(f"  {'':<21}  {note}")
     lines += table_of_cycles(result, answer["cycles"])
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")

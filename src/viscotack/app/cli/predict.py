@@ -252,7 +252,8 @@ def _comparison_words(answer: dict[str, Any]) -> list[str]:
     for name in _COMPARED:
         words, true = REVOLUTION.observables[name].words, simulated[name]
         if true is None:
-            lines.append(f"  {words:<21}{'none':>12}  {simulated['status']}")
+            why = simulated.get(f"{name}_note") or simulated["status"]
+            lines.append(f"  {words:<21}{'none':>12}  {why}")
             continue
         line = f"  {words:<21}{true:>12.5g}"
         if (off := answer["difference"][name]) is not None:

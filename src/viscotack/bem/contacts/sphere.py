@@ -23,6 +23,7 @@ from viscotack.bem.equilibrium import descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
+from viscotack.bem.shut import pressed_shut, why
 from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
@@ -44,6 +45,12 @@ _RISING = 0.2 / np.sqrt(2)
 _FIRM = 0.2
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
+# What stands for a quantity where there is no contact: larger than any, finite for the search.
+_NONE = 1e9
+
+
+class _Shut(InputError):
+    """Deeper than the traction law can hold the surfaces apart."""
 
 
 @dataclass(frozen=True)
@@ -191,8 +198,16 @@ class SphereContact:
             surface = self.surface(nodes)
             balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
             gap = balance.gap
+            if not balance.stable:
+                pressure = pressed_shut(surface, gap, gap - surface.rigid_gap + depth)
+                if pressure:
+                    raise _Shut(
+                        f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number "
+                        f"{self.tabor:g}): {why(law, pressure)}"
+                    )
+                break
             found = surface.edge(gap, law.edge_gap)
-            if not balance.stable or np.isnan(found):
+            if np.isnan(found):
                 break
             if abs(found - edge) < _CENTRED * grading.half_width:
                 return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
@@ -212,13 +227,18 @@ class SphereContact:
     ) -> Relaxed:
         """Return the contact at which a quantity that grows with depth has the wanted value."""
         found: dict[float, Relaxed] = {}
+        shut: dict[float, _Shut] = {}
 
         def excess(depth: float) -> float:
             # The mesh shifts edges by about the same at all depths: look where the last was.
             last = list(found.values())[-1:]
             offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
             offset = offset if self.tabor > 1 else 0.0
-            found[depth] = self._at_depth(depth, settings, offset)
+            try:
+                found[depth] = self._at_depth(depth, settings, offset)
+            except _Shut as reason:
+                shut[depth] = reason
+                return _NONE
             return quantity(found[depth]) - wanted
 
         scale = self.travel
@@ -229,4 +249,9 @@ class SphereContact:
                 f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
                 f"there is, at the end of the branch in contact, is {least:.4g}"
             )
+        for deeper, reason in shut.items():
+            if deeper - depth < 2 * _DEPTH_TOLERANCE * scale:  # the search ran into it
+                raise InputError(
+                    f"a {name} of {wanted:g} (dimensionless) is not reached: {reason}"
+                ) from reason
         return found[depth]

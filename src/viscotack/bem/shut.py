@@ -1,0 +1,43 @@
+"""Surfaces that are pressed together harder than their law repels.
+
+The repulsion of a law may be finite at a gap of 0 (exponential, Dugdale, tabulated). A contact that
+presses harder drives the gap to 0, where the law ends: there is no balance, and it is not adhesion
+that is missing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.bem.equilibrium import GONE
+from viscotack.bem.surface import Surface
+from viscotack.traction import Traction
+
+
+def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> float:
+    """Return the pressure [dg/h0] with which the solid closes the gap for good, 0 if it does not.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface.
+    gap : ndarray, shape (N,)
+        Gap at the end of a search that has found no balance [h0].
+    relaxed : ndarray, shape (N,)
+        Displacement that its pressure causes in the relaxed solid [h0].
+    """
+    gone = gap < GONE
+    if not gone.any():
+        return 0.0
+    return float(np.max((surface.stiffness @ relaxed / surface.area)[gone]))
+
+
+def why(law: Traction, pressure: float) -> str:
+    """Return the reason in words."""
+    most = -float(law.traction(GONE * law.equilibrium_gap))
+    return (
+        f"the contact presses with up to {pressure:.4g} dg0/h0, and the traction law repels with "
+        f"{most:.4g} dg0/h0 at most, at a gap of 0, where it ends; press less, or take a law that "
+        "repels more strongly, such as lennard-jones or one of shorter range"
+    )
