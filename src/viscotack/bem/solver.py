@@ -10,6 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
+from viscotack.bem.bounds import check_bounds, check_clock
 from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
@@ -24,6 +25,7 @@ from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 
@@ -39,8 +41,6 @@ _MARGIN = 2.2
 # in the median 1.9 and 3.3 times as large.
 _FLOOR = {"force": 0.2, "work": 1.0}
 
-# Tabor numbers that the mesh can serve; tested from 0.01 to 10.
-_TABOR_RANGE = (1e-6, 300.0)
 # A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
 _LARGEST_RESIDUAL = 1e-2
 
@@ -165,9 +165,11 @@ def _run(
     progress: Callable[[float], None] | None,
 ) -> Result:
     contact = contact_of(groups)
+    check_bounds(problem, groups, contact)
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     depths = reached(start, groups.moves, contact)
+    check_clock(legs, groups.moves, depths, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact)
     modes = _modes(groups.material, legs, longest, settings)
     grading = contact.grading(settings, max(depths))
@@ -191,7 +193,7 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
     """Return the contact that dimensionless groups describe."""
     if isinstance(groups, PunchGroups):
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
-    low, high = _TABOR_RANGE
+    low, high = SIMULATED_TABOR
     if not low <= groups.tabor <= high:
         raise InputError(
             f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
