@@ -96,7 +96,7 @@ class Profile:
 class History:
     """What the march passed through: a snapshot and the books after each step.
 
-    `legs` has the number of the leg that led to each snapshot.
+    `legs` has the number of the leg that led to each snapshot, `reason` what the time limit says.
     """
 
     snapshots: list[Snapshot] = field(default_factory=list)
@@ -105,6 +105,7 @@ class History:
     profiles: list[Profile] = field(default_factory=list)
     events: list[Event] = field(default_factory=list)
     outcome: str = ""
+    reason: str = ""
     iterations: int = 0
     rejected: int = 0
     meshes: int = 1

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
+from viscotack.bem.clock import look
 from viscotack.bem.machine import Hold
 from viscotack.bem.surface import Surface
 from viscotack.traction import Traction
@@ -160,6 +161,7 @@ def descend(
     # Near the minimum the round-off of the two sums decides, not the slope.
     size = abs(elastic) + abs(interface)
     for iteration in range(1, most_iterations + 1):
+        look()
         curvature = A * law.stiffness(gap)
         factor = _factor(solid.matrix, curvature)
         stable = factor is not None

@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
 from viscotack.bem.bounds import check_bounds, check_clock
+from viscotack.bem.clock import TimeUp, limited, met
 from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
@@ -20,11 +21,12 @@ from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.settings import Settings
+from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
-from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
@@ -34,6 +36,8 @@ _UNTIL = ("pull-off", "detached")
 _FASTEST = 0.2
 # The coarse companion of a run is less accurate by this factor; every error is of second order.
 _COARSER = 4.0
+# Share of the work in a run that has one.
+_MAIN = 0.8
 # The estimate is the difference to the companion over _COARSER - 1, times this margin ...
 _MARGIN = 2.2
 # ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
@@ -67,6 +71,7 @@ def solve(
     fields: bool = False,
     throw: bool = True,
     progress: Callable[[float], None] | None = None,
+    time_limit: float | None = None,
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
 
@@ -94,7 +99,11 @@ def solve(
     throw : bool
         Raise when the run stops before its end; else the result's status says so.
     progress : callable, optional
-        Called after every step with the done share of the way, from 0 to 1.
+        Called after every step with the done share of the way, from 0 to 1, that of the coarser
+        companion being the last part.
+    time_limit : float, optional
+        Longest time [s] for the run and its companion. A run that meets it is stopped: it keeps
+        what there is, and its status says so.
 
     Returns
     -------
@@ -104,7 +113,8 @@ def solve(
     Raises
     ------
     ValueError
-        If the relaxed start does not exist, or an argument is out of range.
+        If the relaxed start does not exist, or is not found within the time limit; if an argument,
+        or a number of the problem, is out of range.
     SimulationError
         If the run stops before its end, unless throw is False.
 
@@ -128,18 +138,37 @@ def solve(
         raise InputError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
+    if time_limit is not None:
+        time_limit = card_of(TimeLimit).checked("time_limit", time_limit)
+    share = _MAIN if estimate_error else 1.0
     # The matrices are small: a second BLAS thread costs many times what it brings.
-    with threadpool_limits(limits=1, user_api="blas"):
+    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         groups = problem.groups()
-        result = _run(problem, groups, chosen, until, fields, progress)
+        try:
+            result = _run(problem, groups, chosen, until, fields, _part(progress, 0.0, share))
+        except TimeUp as limit:
+            raise InputError(
+                f"{limit} before the relaxed start was found; give more time, or ask for less "
+                "accuracy"
+            ) from None
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = _estimate(problem, result, chosen)
+            estimate = _estimate(problem, result, chosen, _part(progress, share, 1.0))
+            if estimate is None and (limit := met()):
+                status = _out_of_time(limit, "while the error was estimated")
+                result = replace(result, status=status)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     result = replace(result, error_estimate=estimate, statistics=statistics).posed(groups)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
+
+
+def _part(
+    progress: Callable[[float], None] | None, begin: float, end: float
+) -> Callable[[float], None] | None:
+    """Return what tells the progress of a part of the work."""
+    return None if progress is None else lambda done: progress(begin + (end - begin) * done)
 
 
 def has_start(problem: Case) -> bool:
@@ -266,6 +295,8 @@ def _result(
 
 def _status(history: History, residual: float) -> str:
     last = history.snapshots[-1]
+    if history.outcome == "time":
+        return _out_of_time(history.reason, f"at a depth of {last.depth:.4g} h0")
     if residual > _LARGEST_RESIDUAL:
         return (
             f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
@@ -291,6 +322,10 @@ def _status(history: History, residual: float) -> str:
     return str(Outcome.DETACHED)
 
 
+def _out_of_time(limit: TimeUp | str, where: str) -> str:
+    return f"{Outcome.STOPPED} because {limit} {where}; give more time, or ask for less accuracy"
+
+
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
     """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
     longest = max(len(p.gap) for p in history.profiles)
@@ -306,12 +341,18 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
     }
 
 
-def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
+def _estimate(
+    problem: Case,
+    result: Result,
+    settings: Settings,
+    progress: Callable[[float], None] | None,
+) -> dict[str, float] | None:
     """Return the relative errors of force and work from a coarser companion, None without one."""
+    coarser = settings.coarser(_COARSER)
     try:
-        coarse = _run(problem, result.groups, settings.coarser(_COARSER), "pull-off", False, None)
+        coarse = _run(problem, result.groups, coarser, "pull-off", False, progress)
         values = [(pull_off_force(r), work_to_pull_off(r)) for r in (result, coarse)]
-    except ValueError:  # the companion has no start or no pull-off: nothing is known
+    except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
         return None
     estimate = {}
     for name, value, other in zip(("force", "work"), *values, strict=True):
