@@ -260,3 +260,27 @@ def test_the_documented_case_is_the_lens(tmp_path):
     assert series
     (tmp_path / "series.csv").write_text(series[1])
     assert read_prony(tmp_path / "series.csv") == (((5.0, 1e-3), (4.0, 1.0)), "s")
+
+
+@pytest.mark.parametrize(
+    ("edit", "said"),
+    [
+        (
+            lambda text: text.replace("glassy_", "glasy_").replace("tau0 =", "# tau0 ="),
+            r"\[material\] glassy_modulus \(is glasy_modulus meant\?\) and tau0 are missing; "
+            r'write for example glassy_modulus = "[^"]+", tau0 = "[^"]+"$',
+        ),
+        (
+            lambda text: text.partition("[sphere]")[0],
+            r"the tables \[protocol\] and \[sphere\] are missing; see docs/input.md",
+        ),
+        (
+            lambda text: text.replace("work_of", "# ").replace("equilibrium_gap", "gap"),
+            r"\[interface\] work_of_adhesion and equilibrium_gap are missing; write for",
+        ),
+    ],
+    ids=["keys", "tables", "law"],
+)
+def test_all_that_is_missing_is_named_at_once(edit, said, tmp_path):
+    with pytest.raises(ValueError, match=said):
+        read_case(written(tmp_path, edit(POWER_LAW)))

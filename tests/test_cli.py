@@ -161,12 +161,12 @@ def test_scales_with_units_turn_groups_into_si(fake, capsys):
         ("--material elastic --tabor 2 --preload-radius 0", "--preload-radius must be .* got 0.0$"),
         (
             "--material elastic --tabor 2 --preload 1e300",
-            "--preload 1e.300 is a contact of radius .* a simulation takes up to 1000",
+            "--preload 1e.300, at --tabor 2, is a contact of radius .* takes up to 1000",
         ),
         ("--material elastic --tabor 2 --preload-force 1e300", "up to 1000"),
         ("--material elastic --tabor 2 --preload-force 1e12", "up to 1000"),
         ("--material elastic --tabor 2 --preload-radius 1e10", "up to 1000"),
-        ("--material elastic --tabor 1e-300 --preload 3", "up to 1000"),
+        ("--material elastic --tabor 1e-300 --preload 3", "--tabor must be at least 1e-06"),
         (
             "--tabor 2 --modulus-ratio 10 --exponent 1 --preload 3 --rate 1",
             "rubbery over the glassy modulus, in .0, 1., got 10; perhaps 0.1 is meant",

@@ -228,7 +228,10 @@ def test_a_law_may_be_a_table(tmp_path):
 @pytest.mark.parametrize(
     ("interface", "said"),
     [
-        ('law = "exponential"\nwork_of_adhesion = "1 J/m^2"', r"decay is missing; .* decay = 0.25"),
+        (
+            'law = "exponential"\nwork_of_adhesion = "1 J/m^2"',
+            r"equilibrium_gap and decay are missing; .* decay = 0.25",
+        ),
         ('law = "table"', r"file is missing; write for example file = \"table.csv\""),
         (
             'law = "dugdale"\nwork_of_adhesion = "1 J/m^2"\nstrength = "1 MPa"\n'

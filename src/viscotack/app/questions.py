@@ -30,7 +30,7 @@ from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
 from viscotack.problem.table import OWN
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start, check_number_of_moves
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
 from viscotack.traction import LennardJones
 from viscotack.units import parse, positive
@@ -216,6 +216,7 @@ def stated(
     _refuse_missing(door, given, in_si, nouns)
     solid, unit = material_from({"material": door.material, **given}, nouns)
     elastic = isinstance(solid, Elastic)
+    check_number_of_moves(len(given.get("move", ())))
     moves = tuple(move_from_words(words, PURE_NUMBERS) for words in given.get("move", ()))
     numbers = {
         name.replace("-", "_"): card.checked(f"--{name}", given[name], "1")
@@ -388,10 +389,15 @@ def _refuse_large(name: str, kind: Any, value: float, tabor: float, exponent: fl
         AtRadius: value,
         Apart: 0.0,
     }[kind]
+    if radius > _LARGEST_START and tabor < (least := revolution.SIMULATED_TABOR[0]):
+        raise InputError(
+            f"--tabor must be at least {least:g} for a simulation, got {tabor:g}; below take "
+            "theory.bradley"
+        )
     if radius > _LARGEST_START:
         raise InputError(
-            f"--{name} {value:g} is a contact of radius {radius:.3g} (pi R^2 dg0/E0*)^(1/3), and "
-            f"a simulation takes up to {_LARGEST_START:g}; give less"
+            f"--{name} {value:g}, at --tabor {tabor:g}, is a contact of radius {radius:.3g} "
+            f"(pi R^2 dg0/E0*)^(1/3), and a simulation takes up to {_LARGEST_START:g}; give less"
         )
 
 

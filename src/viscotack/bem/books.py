@@ -98,7 +98,7 @@ class History:
 
     `legs` has the number of the leg that led to each snapshot, `least_energy` what the imbalance of
     the energies is measured by at least [output force times h0], `pressed` the pressure [dg/h0]
-    that no law withstood, where the outcome is "shut".
+    that no law withstood, where the outcome is "shut", `reason` what the time limit says.
     """
 
     least_energy: float
@@ -109,6 +109,7 @@ class History:
     events: list[Event] = field(default_factory=list)
     outcome: str = ""
     pressed: float = 0.0
+    reason: str = ""
     iterations: int = 0
     rejected: int = 0
     meshes: int = 1

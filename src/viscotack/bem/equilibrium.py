@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
+from viscotack.bem.clock import look
 from viscotack.bem.interface import Band
 from viscotack.bem.machine import Hold
 from viscotack.bem.span import released, room
@@ -166,6 +167,7 @@ def descend(
     # Near the minimum the round-off of the two sums decides, not the slope.
     size = abs(elastic) + abs(adhesion)
     for iteration in range(1, most_iterations + 1):
+        look()
         curvature = face.tangent(law, gap)
         factor = _factor(solid.matrix, curvature)
         stable = factor is not None

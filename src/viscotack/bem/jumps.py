@@ -13,6 +13,7 @@ from dataclasses import replace
 from viscotack.bem.body import Trial
 from viscotack.bem.books import Snapshot
 from viscotack.bem.memory import Step, step
+from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import around_edge
 from viscotack.bem.shut import pressed_shut
@@ -89,9 +90,13 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
         books=replace(attempt.entry, jumps=attempt.entry.jumps + missing),
         dt=at.leg.least_step,
     )
+    left: list[Mesh] = []
     for _ in range(_MOST_MESHES):
-        if not after.mesh.left_by(after.seen.edge):
+        edge = after.seen.edge
+        # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
+        if not after.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
             break
+        left.append(after.mesh)
         now, after = after.seen, _on_new_nodes(run, after)
         if after.seen is now:
             break

@@ -93,10 +93,14 @@ def longest_time(
     """Return how long a test takes, about, and rather more: what its solid must remember."""
     total = 0.0
     for before, after, move in zip(depths[:-1], depths[1:], moves, strict=True):
-        if isinstance(move, Approach | Retract):
-            total += (abs(after - before) + 5 * contact.travel) / move.speed
-        else:
-            total += move.duration
+        total += lasting(before, after, move, contact)
     if rate is not None:
         total += (max(depths[-1], 0.0) + 5 * contact.travel) / rate
     return total
+
+
+def lasting(before: float, after: float, move: Move, contact: Contact) -> float:
+    """Return how long a move takes from one depth to another, about, and rather more."""
+    if isinstance(move, Approach | Retract):
+        return (abs(after - before) + 5 * contact.travel) / move.speed
+    return move.duration

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import isfinite
 
 import numpy as np
 
 from viscotack.bem.body import Body
 from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest
+from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
 from viscotack.bem.machine import Leg
@@ -47,22 +49,25 @@ def march(
 
     `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
     apart). The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
-    on steps was met, "shut" when the surfaces were pressed together harder than the law repels,
-    "lost" when no equilibrium was found, or "unheld" where a dead load has no contact that bears
-    it.
+    on steps was met, "time" when that on time was, "shut" when the surfaces were pressed together
+    harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a dead load
+    has no contact that bears it.
     """
     history = History(least_energy=SMALLEST_ENERGY * contact.span)
     body = Body(contact, modes, np.asarray(modes.weights))
     run = Run(body, settings, legs, profiles, history)
     at = _first(run, start, grading)
     run.keep(at)
-    at = _begun(run, at, 0)
-    while not history.outcome:
-        at = _stepped(run, at)
-        if not history.outcome:
-            at = _judged(run, at, until)
-        if progress is not None:
-            progress(_share(run, at))
+    try:
+        at = _begun(run, at, 0)
+        while not history.outcome:
+            at = _stepped(run, at)
+            if not history.outcome:
+                at = _judged(run, at, until)
+            if progress is not None:
+                progress(_share(run, at))
+    except TimeUp as limit:
+        history.outcome, history.reason = "time", str(limit)
     return history
 
 
@@ -141,7 +146,12 @@ def _judged(run: Run, at: Place, until: str) -> Place:
 
 
 def _share(run: Run, at: Place) -> float:
-    """Return the done share of the way, from 0 to 1."""
-    edge, first = at.seen.edge, at.began.edge
-    part = 1 - (edge / first if edge > 0 else 0.0) if at.leg.outwards and first > 0 else 0.0
-    return (at.number + part) / len(run.legs)
+    """Return the done share of the way, from 0 to 1: of its legs, all being alike."""
+    edge, leg, whole = at.seen.edge, at.leg, at.leg.missing(at.began)
+    if isfinite(leg.duration):
+        part = 1 - at.left / leg.duration
+    elif isfinite(whole):
+        part = 1 - at.ahead / whole if whole > 0 else 1.0
+    else:
+        part = 1 - (edge / at.began.edge if edge > 0 else 0.0) if at.began.edge > 0 else 0.0
+    return (at.number + min(max(part, 0.0), 1.0)) / len(run.legs)

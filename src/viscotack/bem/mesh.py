@@ -25,6 +25,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
+# Of a mesh: a matrix of these has 130 MB, and a run holds several.
+MOST_NODES = 4000
+
 
 @dataclass(frozen=True)
 class Grading:
@@ -61,6 +66,8 @@ class Grading:
         """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
         h = self.spacing
         edge = first_edge + h * round((edge - first_edge) / h)
+        ways = min(self.half_width, edge) + min(self.half_width, self.outer_radius - edge)
+        check_count(ways / h + 2 * self.scar_half_width / self.scar_spacing)
         inward = int(min(self.half_width, edge) / h)
         outward = int(min(self.half_width, self.outer_radius - edge + h / 4) / h)
         fine = edge + h * np.arange(-inward, outward + 1)
@@ -80,7 +87,9 @@ class Grading:
             parts.append(scar[scar > end + self.scar_spacing / 2])
             end, last_step = scar[-1], self.scar_spacing
         outwards = self._growing(self.outer_radius - end, self.growth_outside, first=last_step)
-        return np.concatenate([*parts, end + outwards])
+        nodes = np.concatenate([*parts, end + outwards])
+        check_count(len(nodes))
+        return nodes
 
     def _growing(
         self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf
@@ -100,6 +109,16 @@ class Grading:
             step = self.spacing + self.growth_outside * points[-1]
             points.append(points[-1] + min(step, self.scar_spacing + self.growth_outside * left))
         return start + np.array(points[1:-1]) * (length / points[-1])
+
+
+def check_count(nodes: float) -> None:
+    """Refuse a mesh with too many nodes, before there is a matrix of them."""
+    if not nodes <= MOST_NODES:
+        raise InputError(
+            f"the mesh would have {nodes:.3g} nodes, and a simulation takes up to {MOST_NODES}: "
+            "ask for less accuracy, a law of longer range, or a punch that is less wide beside its "
+            "layer"
+        )
 
 
 @dataclass(frozen=True)
@@ -143,8 +162,11 @@ class Mesh:
 
     def left_by(self, edge: float) -> bool:
         """Return whether an edge is half out of the fine nodes, and not about to vanish."""
-        away = abs(edge - self.edge) > 0.5 * self.grading.half_width
-        return away and edge > 2 * self.grading.spacing
+        return not self.had(edge) and edge > 2 * self.grading.spacing
+
+    def had(self, edge: float) -> bool:
+        """Return whether an edge is well within the fine nodes."""
+        return not abs(edge - self.edge) > 0.5 * self.grading.half_width
 
     def strain(self, before: float, after: float) -> float:
         """Return 1 where the edge goes so far in a step that it might leave the fine nodes."""

@@ -10,6 +10,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
+from viscotack.bem.bounds import check_bounds, check_clock
+from viscotack.bem.clock import TimeUp, limited, met
 from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
@@ -20,22 +22,26 @@ from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.settings import Settings
 from viscotack.bem.shut import why
+from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
-from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
+from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.dead_load import time_held
 from viscotack.result.observables import pull_off_force, work_lost, work_to_pull_off
 from viscotack.result.parts import moves_of, waits
-from viscotack.traction import Traction
+from viscotack.traction import Traction, effective_range
 
 _UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
 _FASTEST = 0.2
 # The coarse companion of a run is less accurate by this factor; every error is of second order.
 _COARSER = 4.0
+# Share of the work in a run that has one.
+_MAIN = 0.8
 # The estimate is the difference to the companion over _COARSER - 1, times this margin ...
 _MARGIN = 2.2
 # ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
@@ -51,8 +57,6 @@ _MOVED = 2.5
 # An error as large as the number: nothing is known of it.
 _ALL = 1.0
 
-# Tabor numbers that the mesh can serve; tested from 0.01 to 10.
-_TABOR_RANGE = (1e-6, 300.0)
 # A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
 _LARGEST_RESIDUAL = 1e-2
 
@@ -79,6 +83,7 @@ def solve(
     fields: bool = False,
     throw: bool = True,
     progress: Callable[[float], None] | None = None,
+    time_limit: float | None = None,
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
 
@@ -106,7 +111,11 @@ def solve(
     throw : bool
         Raise when the run stops before its end; else the result's status says so.
     progress : callable, optional
-        Called after every step with the done share of the way, from 0 to 1.
+        Called after every step with the done share of the way, from 0 to 1, that of the coarser
+        companion being the last part.
+    time_limit : float, optional
+        Longest time [s] for the run and its companion. A run that meets it is stopped: it keeps
+        what there is, and its status says so.
 
     Returns
     -------
@@ -116,7 +125,8 @@ def solve(
     Raises
     ------
     ValueError
-        If the relaxed start does not exist, or an argument is out of range.
+        If the relaxed start does not exist, or is not found within the time limit; if an argument,
+        or a number of the problem, is out of range.
     SimulationError
         If the run stops before its end, unless throw is False.
 
@@ -140,18 +150,37 @@ def solve(
         raise InputError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()
     chosen = Settings.for_accuracy(accuracy) if settings is None else settings
+    if time_limit is not None:
+        time_limit = card_of(TimeLimit).checked("time_limit", time_limit)
+    share = _MAIN if estimate_error else 1.0
     # The matrices are small: a second BLAS thread costs many times what it brings.
-    with threadpool_limits(limits=1, user_api="blas"):
+    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         groups = problem.groups()
-        result = _run(problem, groups, chosen, until, fields, progress)
+        try:
+            result = _run(problem, groups, chosen, until, fields, _part(progress, 0.0, share))
+        except TimeUp as limit:
+            raise InputError(
+                f"{limit} before the relaxed start was found; give more time, or ask for less "
+                "accuracy"
+            ) from None
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = _estimate(problem, result, chosen)
+            estimate = _estimate(problem, result, chosen, _part(progress, share, 1.0))
+            if estimate is None and (limit := met()):
+                status = _out_of_time(limit, "while the error was estimated")
+                result = replace(result, status=status)
     statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     result = replace(result, error_estimate=estimate, statistics=statistics).posed(groups)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
+
+
+def _part(
+    progress: Callable[[float], None] | None, begin: float, end: float
+) -> Callable[[float], None] | None:
+    """Return what tells the progress of a part of the work."""
+    return None if progress is None else lambda done: progress(begin + (end - begin) * done)
 
 
 def has_start(problem: Case) -> bool:
@@ -177,9 +206,11 @@ def _run(
     progress: Callable[[float], None] | None,
 ) -> Result:
     contact = contact_of(groups)
+    check_bounds(problem, groups, contact)
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     depths = reached(start, groups.moves, contact)
+    check_clock(legs, groups.moves, depths, contact)
     longest = longest_time(depths, groups.moves, groups.rate, contact)
     modes = _modes(groups.material, legs, longest, settings)
     grading = contact.grading(settings, max(depths))
@@ -203,11 +234,12 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
     """Return the contact that dimensionless groups describe."""
     if isinstance(groups, PunchGroups):
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
-    low, high = _TABOR_RANGE
+    low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high:
         raise InputError(
-            f"the Tabor number must be between {low:g} and {high:g} for a simulation, got "
-            f"{groups.tabor:g}; below take theory.bradley, above theory.jkr"
+            f"the Tabor number over the law's range ({effective_range(groups.traction):.3g} h0) "
+            f"must be between {low:g} and {high:g} for a simulation, got "
+            f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr"
         )
     match groups.geometry:
         case Sphere():
@@ -277,6 +309,8 @@ def _result(
 
 def _status(history: History, residual: float, law: Traction) -> str:
     last = history.snapshots[-1]
+    if history.outcome == "time":
+        return _out_of_time(history.reason, f"at a depth of {last.depth:.4g} h0")
     if residual > _LARGEST_RESIDUAL:
         return (
             f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
@@ -318,6 +352,10 @@ def _status(history: History, residual: float, law: Traction) -> str:
     return str(Outcome.DETACHED)
 
 
+def _out_of_time(limit: TimeUp | str, where: str) -> str:
+    return f"{Outcome.STOPPED} because {limit} {where}; give more time, or ask for less accuracy"
+
+
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
     """Return the profiles, padded with nan to the longest mesh; radius in the outputs' unit."""
     longest = max(len(p.gap) for p in history.profiles)
@@ -333,12 +371,18 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
     }
 
 
-def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
+def _estimate(
+    problem: Case,
+    result: Result,
+    settings: Settings,
+    progress: Callable[[float], None] | None,
+) -> dict[str, float] | None:
     """Return the relative errors by name from a coarser companion, None without one."""
+    coarser = settings.coarser(_COARSER)
     try:
-        coarse = _run(problem, result.groups, settings.coarser(_COARSER), "pull-off", False, None)
+        coarse = _run(problem, result.groups, coarser, "pull-off", False, progress)
         values, others = _measures(result), _measures(coarse)
-    except ValueError:  # the companion has no start, or one of them no end: nothing is known
+    except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
         return None
     if values.keys() != others.keys():
         return None

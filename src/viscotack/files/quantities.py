@@ -9,9 +9,12 @@ from viscotack.units import finite, parse
 
 from .text import read_rows
 
+# Rows of a table that states a curve; more of them say no more.
+MOST_ROWS = 10_000
+
 
 def read_quantities(
-    path: str | os.PathLike[str], units: Mapping[str, str]
+    path: str | os.PathLike[str], units: Mapping[str, str], *, most: int = MOST_ROWS
 ) -> dict[str, tuple[float, ...]]:
     """Return the columns of a CSV file in SI.
 
@@ -22,6 +25,8 @@ def read_quantities(
         then a row of numbers for each point. Lines that begin with ``#`` are skipped.
     units : mapping
         Name of each wanted column, without its unit -> SI unit of the answer.
+    most : int
+        How many rows of numbers there may be.
 
     Returns
     -------
@@ -33,12 +38,17 @@ def read_quantities(
     FileNotFoundError
         If there is no such file.
     ValueError
-        If a column is missing, has no unit or the wrong one, or a row is not as long as the header
-        or has something that is not a number; with the line.
+        If a column is missing, has no unit or the wrong one, a row is not as long as the header
+        or has something that is not a number, or there are too many rows; with the line.
     """
     path = Path(path)
     header, rows = read_rows(path)
     places = {name: _place(path, header, name, unit) for name, unit in units.items()}
+    if len(rows) > most:
+        raise InputError(
+            f"{path}: at most {most:,} rows below the header are taken, got {len(rows):,}; leave "
+            "out rows"
+        )
     columns: dict[str, list[float]] = {name: [] for name in units}
     for line, row in rows:
         try:

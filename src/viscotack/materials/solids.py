@@ -20,6 +20,8 @@ from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import Modes, compressed, maxwell, voigt
 
+_MOST_BRANCHES = 1000
+
 
 @dataclass(frozen=True, kw_only=True)
 class Elastic:
@@ -341,6 +343,11 @@ def _branches(given) -> tuple[tuple[float, float], ...]:
         pairs = [tuple(pair) for pair in given]
     except TypeError:
         raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
+    if len(pairs) > _MOST_BRANCHES:
+        raise InputError(
+            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten a decade "
+            "of time describe any solid"
+        )
     if not pairs:
         raise InputError("branches must not be empty; describe a solid without any by Elastic")
     for pair in pairs:

@@ -1,4 +1,4 @@
-"""How accurate an answer is wanted: what a simulation is asked beside its problem."""
+"""How accurate an answer is wanted, and how soon: what a simulation is asked beside its problem."""
 
 from typing import Annotated
 
@@ -17,5 +17,16 @@ Accuracy = Annotated[
         least=1e-6,
         most=LOOSEST_ACCURACY,
         example="2e-3",
+    ),
+]
+
+TimeLimit = Annotated[
+    float,
+    Quantity(
+        "s",
+        "",
+        "longest wall time of a run and of the coarser one beside it",
+        above=0,
+        example="90 s",
     ),
 ]

@@ -53,6 +53,11 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
     names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
     refuse_unknown(f"{path}", tables, names, "table", more)
+    if len(missing := [f"[{name}]" for name in names if name not in tables]) > 1:
+        raise InputError(
+            f"{path}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
+            "docs/input.md"
+        )
     found = {name: Table(path, name, tables) for name in names}
     if "layer" in found and not plain:
         raise InputError(

@@ -18,6 +18,11 @@ def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
     if kind is Tabulated:
         return _tabulated(table.path.parent / str(table.get("file", '"table.csv"')))
     scales = cards(kind)
+    table.require(
+        field
+        for name, field in scales.items()
+        if field.needed and not (name == "equilibrium_gap" and "strength" in table.values)
+    )
     constants = {
         field.name: table.number(field)
         for field in _constants(kind)

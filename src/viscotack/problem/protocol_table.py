@@ -6,7 +6,16 @@ from typing import Any
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.problem.table import Table
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Move, Retraction, Start
+from viscotack.protocol import (
+    Apart,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Move,
+    Retraction,
+    Start,
+    check_number_of_moves,
+)
 from viscotack.protocol.words import history_from_file, move_from_words, start_from_words
 
 _TEST = cards(Retraction)
@@ -26,7 +35,9 @@ def protocol_from_table(
         start, moves = _history(table, units, equilibrium_gap)
     else:
         start, moves = _start(table, units), _moves(table, units)
-    moves *= _cycles(table)
+    cycles = _cycles(table)
+    table.make(check_number_of_moves, cycles * len(moves))
+    moves *= cycles
     speed = stiffness = None
     if "speed" in table.values or not moves:
         speed = table.number(_TEST["speed"])
@@ -76,6 +87,7 @@ def _moves(table: Table, units: Mapping[str, str]) -> tuple[Move, ...]:
             f"{table.name} moves must be a list, got {moves!r}; write for example "
             'moves = ["approach 10 um/s to 1.5 mN", "dwell 60 s"]'
         )
+    table.make(check_number_of_moves, len(moves))
     return tuple(table.make(move_from_words, move, units) for move in moves)
 
 

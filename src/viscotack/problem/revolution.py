@@ -37,6 +37,8 @@ from viscotack.traction import Traction
 # sphere's and strains are of order a/R: linear elasticity of the half-space ends about here. For
 # another shape it is the steepest flank at the edge of a contact.
 LARGEST_CONTACT = STEEPEST_FLANK = 0.5
+# Tabor numbers that the mesh of a simulation can serve; tested from 0.01 to 10.
+SIMULATED_TABOR = (1e-6, 300.0)
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
 # What a protocol's numbers are in, in SI and dimensionless.

@@ -30,18 +30,38 @@ class Table:
         """Return what a key says, or say how it is written."""
         self.known.add(key)
         if key not in self.values:
-            close = difflib.get_close_matches(
-                key, self.values.keys() - self.known, n=1, cutoff=0.75
-            )
-            hint = f" (is {close[0]} meant?)" if close else ""
             raise InputError(
-                f"{self.name} {key} is missing{hint}; write for example {key} = {example}"
+                f"{self.name} {key} is missing{self._meant(key)}; write for example "
+                f"{key} = {example}"
             )
         return self.values[key]
 
+    def require(self, fields: Iterable[Field]) -> None:
+        """Name all at once where several of the keys are missing that some cards describe."""
+        asked = {f.name: f.card for f in fields}
+        missing = {name: card for name, card in asked.items() if name not in self.values}
+        if len(missing) < 2:
+            return
+        self.known |= asked.keys()
+        names = [f"{name}{self._meant(name)}" for name in missing]
+        examples = [
+            f"{name} = {card.example if isinstance(card, Pairs) else _example_of(card)}"
+            for name, card in missing.items()
+        ]
+        raise InputError(
+            f"{self.name} {', '.join(names[:-1])} and {names[-1]} are missing; write for example "
+            f"{', '.join(examples)}"
+        )
+
+    def _meant(self, key: str) -> str:
+        """Return which key may have been meant, in words."""
+        given = self.values.keys() - self.known
+        close = difflib.get_close_matches(key, given, n=1, cutoff=0.75)
+        return f" (is {close[0]} meant?)" if close else ""
+
     def quantity(self, key: str, unit: str, example: str = "") -> float:
         """Return the number of a key in an SI unit."""
-        example = example or ("1" if unit == "1" else f'"1 {unit}"')
+        example = example or _any(unit)
         value = self.get(key, example)
         if unit != "1" and not isinstance(value, str):
             raise InputError(
@@ -80,9 +100,11 @@ class Table:
 
     def numbers(self, noun: type) -> dict[str, Any]:
         """Return the numbers of a noun that the table states; all that have no default must be."""
+        plain = cards(noun).values()
+        self.require([*(f for f in plain if f.needed), *cards(noun, Pairs).values()])
         found: dict[str, Any] = {
             field.name: self.number(field)
-            for field in cards(noun).values()
+            for field in plain
             if field.needed or field.name in self.values
         }
         return found | {f.name: self.pairs(f) for f in cards(noun, Pairs).values()}
@@ -125,6 +147,14 @@ def _pair(given: Any, words: str) -> tuple[Any, Any]:
     if not isinstance(given, list) or len(given) != 2:
         raise InputError(f"each entry is a pair, {words}, got {given!r}")
     return given[0], given[1]
+
+
+def _any(unit: str) -> str:
+    return "1" if unit == "1" else f'"1 {unit}"'
+
+
+def _example_of(card: Any) -> str:
+    return _example(card.example, card.unit) or _any(card.unit)
 
 
 def _example(text: str, unit: str) -> str:

@@ -2,6 +2,7 @@
 
 from .moves import (
     HOLDS,
+    MOST_MOVES,
     Apart,
     Approach,
     AtDepth,
@@ -16,6 +17,7 @@ from .moves import (
     Start,
     Units,
     check_moves,
+    check_number_of_moves,
     states,
 )
 
@@ -27,6 +29,7 @@ __all__ = [
     "AtRadius",
     "Dwell",
     "HOLDS",
+    "MOST_MOVES",
     "LoadTo",
     "Move",
     "MoveTo",
@@ -35,5 +38,6 @@ __all__ = [
     "Start",
     "Units",
     "check_moves",
+    "check_number_of_moves",
     "states",
 ]

@@ -117,6 +117,8 @@ class AtRadius:
 
 
 Start = AtDepth | AtForce | AtRadius
+# Of a test; each takes tens of steps, and a simulation ends after 200,000.
+MOST_MOVES = 10_000
 
 
 @dataclass(frozen=True)
@@ -310,8 +312,18 @@ class Retraction:
         conform(self)
 
 
+def check_number_of_moves(number: int) -> None:
+    """Refuse a test of so many moves."""
+    if number > MOST_MOVES:
+        raise InputError(
+            f"a test has at most {MOST_MOVES:,} moves, got {number:,}; leave out rows of its "
+            "history, make fewer cycles, or part it into several tests"
+        )
+
+
 def check_moves(moves: tuple[Move, ...], speed: float | None, name: str) -> None:
-    """Refuse moves that are none, and a test in which nothing moves."""
+    """Refuse moves that are none or too many, and a test in which nothing moves."""
+    check_number_of_moves(len(moves))
     for move in moves:
         if not isinstance(move, Move):
             raise InputError(

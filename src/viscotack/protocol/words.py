@@ -14,6 +14,7 @@ from viscotack.units import parse
 
 from . import (
     HOLDS,
+    MOST_MOVES,
     Apart,
     Approach,
     AtDepth,
@@ -142,7 +143,7 @@ def history_from_file(
     ValueError
         If the file is not such a table, or its times do not ascend.
     """
-    columns = read_quantities(path, {"time": "s", "displacement": "m"})
+    columns = read_quantities(path, {"time": "s", "displacement": "m"}, most=MOST_MOVES + 1)
     time, displacement = columns["time"], columns["displacement"]
     if len(time) < 2 or np.any(np.diff(time) <= 0):
         raise InputError(

@@ -16,6 +16,8 @@ from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 # What the table says of its own work and zero may miss 1 by this.
 _ROUND_OFF = 1e-9
+# A finer table says nothing more of a law, and each look at it takes longer.
+_MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,7 @@ class Tabulated:
 
     def __post_init__(self) -> None:
         conform(self)
+        _check_number(len(self.points))
         points = tuple((float(gap), float(traction)) for gap, traction in self.points)
         object.__setattr__(self, "points", points)
         _check(*np.array(points, dtype=float).reshape(-1, 2).T)
@@ -82,6 +85,7 @@ class Tabulated:
         Work of adhesion and equilibrium gap are those of the curve through the points.
         """
         h, t = np.asarray(gap, dtype=float), np.asarray(traction, dtype=float)
+        _check_number(len(h))
         _check(h, t)
         curve = PchipInterpolator(h, t)
         after = int(np.argmax(t > 0))
@@ -163,6 +167,13 @@ def _zero_at_end(curve: PPoly) -> PPoly:
     gained = np.sum([c * step**power for power, c in enumerate(moved[::-1])], axis=0)
     moved[-1] = -np.cumsum(gained[::-1])[::-1]
     return PPoly(moved, curve.x)
+
+
+def _check_number(points: int) -> None:
+    if points > _MOST_POINTS:
+        raise InputError(
+            f"a table has at most {_MOST_POINTS:,} gaps, got {points:,}; leave out rows"
+        )
 
 
 def _check(gap: npt.NDArray, traction: npt.NDArray) -> None:

@@ -26,13 +26,14 @@ from viscotack.errors import InputError
 from viscotack.geometry import Cone
 from viscotack.pictures import plot
 from viscotack.problem import Case, Problem
-from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
 from viscotack.result.cycles import write_cycles
 from viscotack.result.observables import Observable, summary
+from viscotack.units import parse
 
 from .cycle_table import table_of_cycles
 from .writing import Writing, check_files
@@ -106,6 +107,11 @@ HowFar = Annotated[
 ]
 _ACCURACY = question_of(card_of(AccuracyCard))
 Accuracy = Annotated[float, Option("--accuracy", metavar="RELATIVE", help=_ACCURACY)]
+_TIME_LIMIT = question_of(card_of(TimeLimit))
+HowLong = Annotated[
+    str | None,
+    Option("--time-limit", metavar="TIME", help=_TIME_LIMIT, show_default=False),
+]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
 ]
@@ -147,6 +153,7 @@ def _simulate(
     own: With = None,
     until: HowFar = Until.DETACHED,
     accuracy: Accuracy = DEFAULT_ACCURACY,
+    time_limit: HowLong = None,
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
@@ -160,12 +167,18 @@ def _simulate(
         named = files.named | {"--save": save_file}
         # the file that states the problem is never written
         check_files(named, as_json=as_json, reads=(case,))
+        seconds = _seconds(time_limit)
         problem = stated_problem(case, context, door, own)
         from viscotack.bem import solve
 
         with _progress() as progress:
             result = solve(
-                problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
+                problem,
+                accuracy=accuracy,
+                until=str(until),
+                throw=False,
+                progress=progress,
+                time_limit=seconds,
             )
     write = Writing()
     write("saved", save_file, lambda file: save(result, file))
@@ -241,6 +254,16 @@ def stated_problem(
         f"{case} states a {found}, which has commands of its own: viscotack simulate "
         f"{found if found in _DOORS else 'case'} {case}"
     )
+
+
+def _seconds(time_limit: str | None) -> float | None:
+    """Return the time limit [s] of a flag."""
+    if time_limit is None:
+        return None
+    try:
+        return card_of(TimeLimit).checked("it", parse(time_limit, "s"))
+    except InputError as error:
+        raise InputError(f'--time-limit: {error}; for example --time-limit "90 s"') from None
 
 
 def _door_of(problem: Problem) -> str:
@@ -339,9 +362,23 @@ def _progress() -> Iterator[Callable[[float], None] | None]:
         yield None
         return
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
-    looks = (TextColumn("pulling"), BarColumn(), TimeElapsedColumn())
+    # the forecast takes the share of the way for that of the work, which it is about
+    looks = (
+        TextColumn("pulling"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("gone, about"),
+        TimeRemainingColumn(),
+        TextColumn("to go"),
+    )
     with Progress(*looks, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("pulling", total=1.0)
         yield lambda done: bar.update(task, completed=done)

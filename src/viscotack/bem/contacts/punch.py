@@ -20,7 +20,7 @@ from viscotack.bem.contacts.search import depth_where
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.interface import interface
 from viscotack.bem.machine import Hold
-from viscotack.bem.mesh import Grading
+from viscotack.bem.mesh import Grading, check_count
 from viscotack.bem.settings import Settings
 from viscotack.bem.surface import Surface, stiffness
 from viscotack.errors import InputError
@@ -51,7 +51,8 @@ class _EndedGrading(Grading):
         if self.outer_radius - nodes[-1] < 0.5 * (nodes[-1] - nodes[-2]):
             nodes = nodes[:-1]  # a short panel after long ones would not be resolved
         nodes = np.append(nodes, self.outer_radius)
-        parts = np.ceil(np.diff(nodes) / self.coarsest - 1e-9).clip(min=1).astype(int)
+        parts = np.ceil(np.diff(nodes) / self.coarsest - 1e-9).clip(min=1)
+        check_count(float(parts.sum()))
         return np.interp(np.arange(parts.sum() + 1), np.append(0, np.cumsum(parts)), nodes)
 
 
@@ -111,7 +112,9 @@ class PunchContact:
         spacing = min(crack.spacing, self.size / 8)
         squeezed = self.base.foundation < _INCOMPRESSIBLE
         coarsest = _SQUEEZED * self.thickness / settings.nodes_per_zone if squeezed else np.inf
+        scar = min(crack.scar_half_width, self.size)  # none of it lies beyond the middle
         finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
+        finest |= {"scar_half_width": scar}
         return _EndedGrading(**finest, coarsest=coarsest)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:

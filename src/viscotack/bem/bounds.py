@@ -1,0 +1,158 @@
+"""What a simulation takes: refusals in words, before any work is done.
+
+Numbers may be large or small beyond anything physical, and answers are those of the limits; but not
+so large that arithmetic, the clock, the nodes or the patience of whoever waits come to an end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from viscotack.bem.contacts.contact import Contact
+from viscotack.bem.legs import lasting
+from viscotack.bem.machine import Leg
+from viscotack.cards import cards
+from viscotack.errors import InputError
+from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    LoadTo,
+    Move,
+    MoveTo,
+    Retract,
+    Start,
+)
+from viscotack.traction import effective_range
+
+# The size of the numbers of a test; their squares and cubes are numbers still.
+_SMALLEST, _LARGEST = 1e-100, 1e100
+# A softer machine is a dead load to all digits, and is marched as one by name only.
+_SOFTEST = 1e-9
+# Half width and thickness of a punch, and one beside the other.
+_NARROWEST, _WIDEST = 1e-9, 1e9
+# Range of a law beside that of Lennard-Jones.
+_SHORTEST, _LONGEST = 1e-6, 1e6
+# Radius [that of the outputs] of a contact of revolution; depth [h0] of a punch, which has none.
+LARGEST_RADIUS = 1000.0
+_DEEPEST_PUNCH = 1e7
+# So many first steps of a leg may have gone before it: the clock has 16 digits.
+_TICKS = 1e14
+
+
+def check_bounds(problem: Case, groups: Groups | PunchGroups, contact: Contact) -> None:
+    """Refuse a problem with a number that no simulation takes, naming it.
+
+    Raises
+    ------
+    ValueError
+        With the number as it was given, and the range.
+    """
+    _check_numbers(problem, groups)
+    reach = effective_range(groups.traction)
+    if not _SHORTEST <= reach <= _LONGEST:
+        raise InputError(
+            f"the range of the traction law must lie between {_SHORTEST:g} and {_LONGEST:g} of "
+            f"that of Lennard-Jones for a simulation, got {reach:g} for {groups.traction}"
+        )
+    if isinstance(groups, PunchGroups):
+        sizes = {
+            "size": groups.size,
+            "thickness": groups.thickness,
+            "thickness over size": groups.thickness / groups.size,
+        }
+        for name, value in sizes.items():
+            if not _NARROWEST <= value <= _WIDEST:
+                raise InputError(
+                    f"{name} must lie between {_NARROWEST:g} and {_WIDEST:g} for a simulation of "
+                    f"a punch, got {value:g}"
+                )
+    _check_depths(groups, contact)
+
+
+def check_clock(
+    legs: tuple[Leg, ...], moves: tuple[Move, ...], depths: list[float], contact: Contact
+) -> None:
+    """Refuse a test of which a part is so long that a later one is lost in its last digit."""
+    elapsed = 0.0
+    for number, leg in enumerate(legs):
+        if elapsed > _TICKS * leg.least_step:
+            what = f"move {number + 1}" if number < len(moves) else "the retraction"
+            raise InputError(
+                f"{what} begins with steps of {leg.least_step:.3g} time units when about "
+                f"{elapsed:.3g} have passed, and no clock has the digits for both; let the moves "
+                "before it take less, or make it slower"
+            )
+        if number < len(moves):
+            elapsed += lasting(depths[number], depths[number + 1], moves[number], contact)
+
+
+def _check_numbers(problem: Case, groups: Groups | PunchGroups) -> None:
+    """Refuse numbers of the test that are out of the range of arithmetic."""
+    stated = problem.protocol if isinstance(problem, Problem) else groups
+    for (name, value, measure), (_, given, _) in zip(
+        _numbers(groups), _numbers(stated), strict=True
+    ):
+        signed = measure in ("depth", "force")
+        least = {"stiffness": _SOFTEST}.get(measure, 0.0 if signed else _SMALLEST)
+        size = abs(value) if signed else value
+        if least <= size <= _LARGEST:
+            continue
+        unit = groups.units[measure]
+        of = f", which is {given:g} {problem.units[measure]}" if stated is not groups else ""
+        low = f"-{_LARGEST:g}" if signed else f"{least:g}"
+        raise InputError(
+            f"the {name} must lie between {low} and {_LARGEST:g} {unit} for a simulation, got "
+            f"{value:g} {unit}{of}"
+        )
+
+
+def _numbers(test: Any) -> Iterator[tuple[str, float, str]]:
+    """Yield the numbers of a test: name, value and what it measures."""
+    yield from _of("the start", test.start)
+    for number, move in enumerate(test.moves, 1):
+        yield from _of(f"move {number}", move)
+        if isinstance(move, Approach | Retract):
+            yield from _of(f"the end of move {number}", move.to)
+    for name in ("rate", "speed"):
+        if getattr(test, name, None) is not None:
+            yield f"{name} of the retraction", getattr(test, name), "speed"
+    if test.stiffness is not None:
+        yield "stiffness of the machine", test.stiffness, "stiffness"
+
+
+def _of(whose: str, noun: Any) -> Iterator[tuple[str, float, str]]:
+    for name, field in cards(type(noun)).items():
+        yield f"{name.replace('_', ' ')} of {whose}", getattr(noun, name), field.card.measure
+
+
+def _check_depths(groups: Groups | PunchGroups, contact: Contact) -> None:
+    """Refuse a contact that is pressed too deep."""
+    deepest = _DEEPEST_PUNCH
+    if isinstance(groups, Groups):
+        deepest = contact.deepest(AtRadius(LARGEST_RADIUS))
+    for whose, state in _states(groups):
+        depth = contact.deepest(state)
+        if depth > deepest:
+            raise InputError(
+                f"{whose}, {state}, presses to a depth of about {depth:.3g} h0, and a simulation "
+                f"takes up to {deepest:.3g} here; press less"
+            )
+
+
+def _states(groups: Groups | PunchGroups) -> Iterator[tuple[str, Start]]:
+    """Yield the states to which a test presses."""
+    if not isinstance(groups.start, Apart):
+        yield "the start", groups.start
+    for number, move in enumerate(groups.moves, 1):
+        match move:
+            case Approach() | Retract():
+                yield f"move {number}", move.to
+            case MoveTo():
+                yield f"move {number}", AtDepth(move.depth)
+            case LoadTo():
+                yield f"move {number}", AtForce(move.force)

@@ -1,0 +1,151 @@
+"""How long a simulation may take, and what it says of how long it will."""
+
+import io
+import json
+import re
+from dataclasses import replace
+from time import perf_counter, sleep
+
+import pytest
+
+from viscotack.app.cli import main
+from viscotack.bem import SimulationError, solve, solver
+from viscotack.errors import InputError
+from viscotack.materials import StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import Apart, Approach, AtDepth, Dwell
+from viscotack.result import Outcome, load
+
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
+WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
+
+
+def call(arguments):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    return end.value.code
+
+
+def refused(capsys, *arguments):
+    assert call([*WORDS, *arguments]) == 2
+    return capsys.readouterr().err
+
+
+class Terminal(io.StringIO):
+    """Standard error that somebody looks at."""
+
+    def isatty(self):
+        return True
+
+
+def slow(monkeypatch, seconds=0.01):
+    """Let every balance of the surface take a while."""
+    from viscotack.bem import body
+
+    quick = body.descend
+
+    def waiting(*arguments, **options):
+        end = perf_counter() + seconds
+        while perf_counter() < end:
+            pass
+        return quick(*arguments, **options)
+
+    monkeypatch.setattr(body, "descend", waiting)
+
+
+def test_a_run_that_meets_its_time_limit_stops_and_keeps_what_there_is(monkeypatch):
+    slow(monkeypatch, 0.03)
+    began = perf_counter()
+    result = solve(SPHERE, time_limit=0.3, throw=False)
+    assert perf_counter() - began < 1.5  # of some four seconds
+    assert result.outcome is Outcome.STOPPED
+    assert result.status.startswith(
+        "stopped because the time limit of 0.3 s was met at a depth of "
+    )
+    assert "give more time" in result.status
+    assert result.error_estimate is None
+    assert len(result.time) > 2
+    with pytest.raises(SimulationError, match="time limit of 0.3 s") as failure:
+        solve(SPHERE, time_limit=0.3)
+    assert len(failure.value.result.time) > 2
+
+
+def test_the_companion_is_within_the_limit_too(monkeypatch):
+    whole = solve(SPHERE, until="pull-off", estimate_error=False)
+    run, made = solver._run, []
+
+    def late(*arguments):
+        made.append(arguments)
+        if len(made) == 2:
+            sleep(2.0)
+        return run(*arguments)
+
+    monkeypatch.setattr(solver, "_run", late)
+    result = solve(SPHERE, until="pull-off", time_limit=2.0, throw=False)
+    assert result.outcome is Outcome.STOPPED
+    assert "limit of 2 s was met while the error was estimated; give" in result.status
+    assert result.error_estimate is None
+    assert result.force.tolist() == whole.force.tolist()
+
+
+def test_a_limit_that_is_not_met_changes_nothing():
+    assert solve(SPHERE, time_limit=600).status == solve(SPHERE).status
+
+
+def test_no_time_for_the_start_is_refused_in_words():
+    with pytest.raises(InputError, match="limit of 1e-09 s was met before the relaxed start"):
+        solve(SPHERE, time_limit=1e-9)
+
+
+@pytest.mark.parametrize("limit", [0.0, -1.0, float("nan")])
+def test_an_impossible_time_limit_is_refused(limit):
+    with pytest.raises(InputError, match="time_limit must be (positive|finite)"):
+        solve(SPHERE, time_limit=limit)
+
+
+def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, capsys, tmp_path):
+    slow(monkeypatch)
+    saved = tmp_path / "part.npz"
+    flags = ["--rate", "10", "--time-limit", "0.01 min", "--json", "--save", str(saved)]
+    assert call([*WORDS, *flags]) == 1
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["status"].startswith("stopped because the time limit of 0.6 s was met")
+    assert answer["pull_off_force"] is None
+    assert len(load(saved).time) > 2
+
+
+@pytest.mark.parametrize(
+    ("text", "said"), [("90", "'90' has no unit"), ("9 mm", "in s"), ("0 s", "must be positive")]
+)
+def test_a_time_limit_has_a_unit(text, said, capsys):
+    words = refused(capsys, "--rate", "10", "--time-limit", text)
+    assert words.startswith("viscotack: --time-limit: ") and said in words
+    assert '--time-limit "90 s"' in words
+
+
+def test_progress_counts_time_depth_and_edge_and_ends_with_the_companion():
+    seen = []
+    moves = (Approach(10.0, AtDepth(5.0)), Dwell(10.0))
+    solve(replace(SPHERE, start=Apart(8.0), moves=moves), progress=seen.append)
+    assert all(later >= before - 1e-12 for before, later in zip(seen[:-1], seen[1:], strict=True))
+    # of three legs, before a companion that is a fifth: the approach moves it all the way
+    assert sum(0.02 < share < 0.8 / 3 - 0.02 for share in seen) > 10
+    assert sum(0.8 / 3 + 0.02 < share < 1.6 / 3 - 0.02 for share in seen) > 3
+    assert sum(0.8 < share < 1 for share in seen) > 10
+
+
+def test_the_progress_line_forecasts_how_long_it_will_take(monkeypatch):
+    from viscotack.app.cli.commands import _progress
+
+    screen = Terminal()
+    monkeypatch.setattr("sys.stderr", screen)
+    for name, value in {"TERM": "xterm", "COLUMNS": "120"}.items():
+        monkeypatch.setenv(name, value)
+    with _progress() as moved:
+        for share in (0.01, 0.02, 0.03, 0.04):
+            moved(share)
+            sleep(0.1)
+    shown = re.sub(r"\x1b\[[^A-Za-z]*[A-Za-z]", "", screen.getvalue())
+    # a hundredth in a tenth of a second
+    assert re.search(r"0:00:00 gone, about 0:00:(0[89]|1\d) to go", shown)
