@@ -18,12 +18,14 @@ from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
+from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 
@@ -64,6 +66,7 @@ def solve(
     until: str = "detached",
     settings: Settings | None = None,
     estimate_error: bool = True,
+    whole: bool = False,
     fields: bool = False,
     throw: bool = True,
     progress: Callable[[float], None] | None = None,
@@ -89,6 +92,11 @@ def solve(
         Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
     estimate_error : bool
         Also run a coarser companion and state the errors of force and work from the difference.
+    whole : bool
+        March the whole retraction from the start that is asked for, however deep. Else one from
+        more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins
+        where light marches tell that the depth no longer matters
+        (:mod:`viscotack.bem.preload`); ``result.shallow_start`` says where.
     fields : bool
         Keep the profiles of pressure and gap at every step.
     throw : bool
@@ -104,7 +112,8 @@ def solve(
     Raises
     ------
     ValueError
-        If the relaxed start does not exist, or an argument is out of range.
+        If the relaxed start does not exist, or is too deep to be marched and none that is
+        shallower gives the same answer, or an argument is out of range.
     SimulationError
         If the run stops before its end, unless throw is False.
 
@@ -131,12 +140,22 @@ def solve(
     # The matrices are small: a second BLAS thread costs many times what it brings.
     with threadpool_limits(limits=1, user_api="blas"):
         groups = problem.groups()
-        result = _run(problem, groups, chosen, until, fields, progress)
+
+        def light(marched: Groups | PunchGroups) -> Result:
+            return _run(problem, marched, chosen.coarser(_COARSER), "pull-off", False, None)
+
+        beginning = None if whole else _beginning(groups, chosen, light)
+        marched = groups if beginning is None else _from(groups, beginning.start.depth)
+        result = _run(problem, marched, chosen, until, fields, progress)
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = _estimate(problem, result, chosen)
-    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
-    result = replace(result, error_estimate=estimate, statistics=statistics).posed(groups)
+            estimate = _estimate(result, lambda: light(groups), beginning, chosen.accuracy)
+    result = replace(
+        result,
+        error_estimate=estimate,
+        shallow_start=None if beginning is None else beginning.start,
+        statistics=dict(result.statistics) | {"wall_time_s": perf_counter() - began},
+    ).posed(groups)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
@@ -304,15 +323,41 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
     }
 
 
-def _estimate(problem: Case, result: Result, settings: Settings) -> dict[str, float] | None:
-    """Return the relative errors of force and work from a coarser companion, None without one."""
+def _beginning(
+    groups: Groups | PunchGroups,
+    settings: Settings,
+    light: Callable[[Groups | PunchGroups], Result],
+) -> Beginning | None:
+    """Return where the march begins instead of at a start that is too deep; None for the start."""
+    return shallower(
+        groups, contact_of(groups), settings, lambda depth: light(_from(groups, depth))
+    )
+
+
+def _from(groups: Groups | PunchGroups, depth: float) -> Groups | PunchGroups:
+    """Return the test from a relaxed contact at this depth [h0]."""
+    return replace(groups, start=AtDepth(depth))
+
+
+def _estimate(
+    result: Result,
+    companion: Callable[[], Result],
+    beginning: Beginning | None,
+    accuracy: float,
+) -> dict[str, float] | None:
+    """Return the relative errors of force and work from a coarser companion, None without one.
+
+    The depth of the start adds what it might change where the march began at another one.
+    """
     try:
-        coarse = _run(problem, result.groups, settings.coarser(_COARSER), "pull-off", False, None)
+        coarse = companion() if beginning is None else beginning.light
         values = [(pull_off_force(r), work_to_pull_off(r)) for r in (result, coarse)]
     except ValueError:  # the companion has no start or no pull-off: nothing is known
         return None
     estimate = {}
     for name, value, other in zip(("force", "work"), *values, strict=True):
         share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
-        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * settings.accuracy)
+        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * accuracy)
+        if beginning is not None:
+            estimate[name] += getattr(beginning.start, name)
     return estimate

@@ -31,7 +31,15 @@ Array = npt.NDArray[np.float64]
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
 # What the summary says for a reader, not for a table.
-_LEFT_OUT = ("problem", "versions", "run_id", "events", "statistics", "error_estimate")
+_LEFT_OUT = (
+    "problem",
+    "versions",
+    "run_id",
+    "events",
+    "statistics",
+    "error_estimate",
+    "shallow_start",
+)
 _COST = ("steps", "nodes", "modes", "newton_iterations")
 
 
@@ -144,7 +152,10 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     ValueError
         If the problem has no relaxed start, or its result no pull-off.
     """
-    result = solve(problem, accuracy=settings.accuracy, until=settings.until, throw=False)
+    # a trajectory begins at the start that the row states
+    result = solve(
+        problem, accuracy=settings.accuracy, until=settings.until, whole=True, throw=False
+    )
     if result.outcome is Outcome.STOPPED:
         raise Unsolved(result.status)
     found = pull_off(result)

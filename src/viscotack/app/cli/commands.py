@@ -94,6 +94,14 @@ HowFar = Annotated[
 ]
 _ACCURACY = question_of(card_of(AccuracyCard))
 Accuracy = Annotated[float, Option("--accuracy", metavar="RELATIVE", help=_ACCURACY)]
+Whole = Annotated[
+    bool,
+    Option(
+        "--whole",
+        help="March the whole retraction, however deep its start: one from more than 1000 h0 "
+        "begins else where its depth no longer matters.",
+    ),
+]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
 ]
@@ -135,6 +143,7 @@ def _simulate(
     own: With = None,
     until: HowFar = Until.DETACHED,
     accuracy: Accuracy = DEFAULT_ACCURACY,
+    whole: Whole = False,
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
@@ -151,7 +160,12 @@ def _simulate(
 
         with _progress() as progress:
             result = solve(
-                problem, accuracy=accuracy, until=str(until), throw=False, progress=progress
+                problem,
+                accuracy=accuracy,
+                until=str(until),
+                whole=whole,
+                throw=False,
+                progress=progress,
             )
     write = Writing()
     write("saved", save_file, lambda file: save(result, file))
@@ -290,6 +304,14 @@ def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -
         lines.append(line.rstrip())
         if answer.get(f"{name}_note"):
             lines.append(f"  {'':<21}  {answer[f'{name}_note']}")
+    if began := answer["shallow_start"]:
+        lines += [
+            f"  begun at depth       {began['depth']:>12.5g}  h0 and not {began['asked']:.4g} h0, "
+            "which changes the force",
+            f"  {'':<33}  by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, "
+            f"the depth by {began['shift']:.1g} h0;",
+            f"  {'':<33}  curve and time begin there (--whole marches all of it)",
+        ]
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")
     for name, share in (answer["error_estimate"] or {}).items():
