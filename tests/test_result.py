@@ -7,7 +7,16 @@ import pytest
 
 from synthetic import GROUPS, SI, energies, jkr_crack_speed, jkr_detachment, jkr_result
 from viscotack import __version__
-from viscotack.result import Event, Outcome, columns, load, receding_speed, save, write_csv
+from viscotack.result import (
+    Event,
+    Outcome,
+    ShallowStart,
+    columns,
+    load,
+    receding_speed,
+    save,
+    write_csv,
+)
 from viscotack.result import result as module
 
 
@@ -19,6 +28,7 @@ def full(**changes):
         energy_residual=3e-4,
         error_estimate={"force": 1e-3, "work": 5e-3},
         versions={"viscotack": "0.0.9", "numpy": "1.26.0", "scipy": "1.12.0"},
+        shallow_start=ShallowStart(1e6, 85.0, force=1e-4, work=5e-4, shift=0.01),
         events=(Event("jump out of contact", 1.0, -2.0, -0.8, 0.1),),
         fields={
             "time": np.linspace(0, 1, 3),
@@ -53,6 +63,7 @@ def test_a_saved_result_comes_back_whole(result, tmp_path):
         "statistics",
         "error_estimate",
         "energy_residual",
+        "shallow_start",
         "versions",
     ):
         assert getattr(back, name) == getattr(result, name)

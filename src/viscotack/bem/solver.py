@@ -20,6 +20,7 @@ from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
+from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.shut import why
 from viscotack.cards import card_of
@@ -29,11 +30,15 @@ from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.problem.revolution import SIMULATED_TABOR
+from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
 from viscotack.result.dead_load import time_held
 from viscotack.result.observables import pull_off_force, work_lost, work_to_pull_off
 from viscotack.result.parts import moves_of, waits
 from viscotack.traction import Traction, effective_range
+
+# Is told the done share of the work.
+Progress = Callable[[float], None] | None
 
 _UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
@@ -80,9 +85,10 @@ def solve(
     until: str = "detached",
     settings: Settings | None = None,
     estimate_error: bool = True,
+    whole: bool = False,
     fields: bool = False,
     throw: bool = True,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress = None,
     time_limit: float | None = None,
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
@@ -106,6 +112,11 @@ def solve(
         Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
     estimate_error : bool
         Also run a coarser companion and state the errors of force and work from the difference.
+    whole : bool
+        March the whole retraction from the start that is asked for, however deep. Else one from
+        more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins
+        where light marches tell that the depth no longer matters
+        (:mod:`viscotack.bem.preload`); ``result.shallow_start`` says where.
     fields : bool
         Keep the profiles of pressure and gap at every step.
     throw : bool
@@ -125,8 +136,9 @@ def solve(
     Raises
     ------
     ValueError
-        If the relaxed start does not exist, or is not found within the time limit; if an argument,
-        or a number of the problem, is out of range.
+        If the relaxed start does not exist, or is not found within the time limit; if it is too
+        deep to be marched and none that is shallower gives the same answer; if an argument, or a
+        number of the problem, is out of range.
     SimulationError
         If the run stops before its end, unless throw is False.
 
@@ -156,8 +168,17 @@ def solve(
     # The matrices are small: a second BLAS thread costs many times what it brings.
     with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         groups = problem.groups()
+        contact = contact_of(groups)
+        check_bounds(problem, groups, contact)
+
+        def light(marched: Groups | PunchGroups, seen: Progress = None) -> Result:
+            coarser = chosen.coarser(_COARSER)
+            return _run(problem, marched, coarser, "pull-off", False, seen)
+
         try:
-            result = _run(problem, groups, chosen, until, fields, _part(progress, 0.0, share))
+            beginning = None if whole else _beginning(groups, contact, chosen, light)
+            marched = groups if beginning is None else _from(groups, beginning.start.depth)
+            result = _run(problem, marched, chosen, until, fields, _part(progress, 0.0, share))
         except TimeUp as limit:
             raise InputError(
                 f"{limit} before the relaxed start was found; give more time, or ask for less "
@@ -165,20 +186,27 @@ def solve(
             ) from None
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = _estimate(problem, result, chosen, _part(progress, share, 1.0))
+            estimate = _estimate(
+                result,
+                lambda: light(groups, _part(progress, share, 1.0)),
+                beginning,
+                chosen.accuracy,
+            )
             if estimate is None and (limit := met()):
                 status = _out_of_time(limit, "while the error was estimated")
                 result = replace(result, status=status)
-    statistics = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
-    result = replace(result, error_estimate=estimate, statistics=statistics).posed(groups)
+    result = replace(
+        result,
+        error_estimate=estimate,
+        shallow_start=None if beginning is None else beginning.start,
+        statistics=dict(result.statistics) | {"wall_time_s": perf_counter() - began},
+    ).posed(groups)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
 
 
-def _part(
-    progress: Callable[[float], None] | None, begin: float, end: float
-) -> Callable[[float], None] | None:
+def _part(progress: Progress, begin: float, end: float) -> Progress:
     """Return what tells the progress of a part of the work."""
     return None if progress is None else lambda done: progress(begin + (end - begin) * done)
 
@@ -203,10 +231,9 @@ def _run(
     settings: Settings,
     until: str,
     fields: bool,
-    progress: Callable[[float], None] | None,
+    progress: Progress,
 ) -> Result:
     contact = contact_of(groups)
-    check_bounds(problem, groups, contact)
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     depths = reached(start, groups.moves, contact)
@@ -371,16 +398,33 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
     }
 
 
-def _estimate(
-    problem: Case,
-    result: Result,
+def _beginning(
+    groups: Groups | PunchGroups,
+    contact: Contact,
     settings: Settings,
-    progress: Callable[[float], None] | None,
+    light: Callable[[Groups | PunchGroups], Result],
+) -> Beginning | None:
+    """Return where the march begins instead of at a start that is too deep; None for the start."""
+    return shallower(groups, contact, settings, lambda depth: light(_from(groups, depth)))
+
+
+def _from(groups: Groups | PunchGroups, depth: float) -> Groups | PunchGroups:
+    """Return the test from a relaxed contact at this depth [h0]."""
+    return replace(groups, start=AtDepth(depth))
+
+
+def _estimate(
+    result: Result,
+    companion: Callable[[], Result],
+    beginning: Beginning | None,
+    accuracy: float,
 ) -> dict[str, float] | None:
-    """Return the relative errors by name from a coarser companion, None without one."""
-    coarser = settings.coarser(_COARSER)
+    """Return the relative errors by name from a coarser companion, None without one.
+
+    The depth of the start adds what it might change where the march began at another one.
+    """
     try:
-        coarse = _run(problem, result.groups, coarser, "pull-off", False, progress)
+        coarse = companion() if beginning is None else beginning.light
         values, others = _measures(result), _measures(coarse)
     except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
         return None
@@ -390,13 +434,16 @@ def _estimate(
     for name, value in values.items():
         other = others[name]
         share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
-        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * settings.accuracy)
+        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * accuracy)
     if work := values.get("work"):
         # without a way to the minimum nothing is known of the work on it
         lost = work_lost(result, estimate["force"] / contact_of(result.groups).travel)
         estimate["work"] = min(max(estimate["work"], _MOVED * lost / abs(work)), _ALL)
     elif "work" in values:
         estimate["work"] = _ALL
+    if beginning is not None:
+        for name in estimate:
+            estimate[name] += getattr(beginning.start, name)
     return estimate
 
 

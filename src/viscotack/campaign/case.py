@@ -33,7 +33,7 @@ KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
 # What the summary says for a reader or of a history, not for a table of pull-offs.
 _LEFT_OUT = (
     *("problem", "versions", "run_id", "events", "statistics", "error_estimate"),
-    *("cycles", "time_to_detachment", "time_to_detachment_s"),
+    *("shallow_start", "cycles", "time_to_detachment", "time_to_detachment_s"),
 )
 _COST = ("steps", "nodes", "modes", "newton_iterations")
 
@@ -147,7 +147,10 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     ValueError
         If the problem has no relaxed start, or its result no pull-off.
     """
-    result = solve(problem, accuracy=settings.accuracy, until=settings.until, throw=False)
+    # a trajectory begins at the start that the row states
+    result = solve(
+        problem, accuracy=settings.accuracy, until=settings.until, whole=True, throw=False
+    )
     if result.outcome is Outcome.STOPPED:
         raise Unsolved(result.status)
     found = pull_off(result)

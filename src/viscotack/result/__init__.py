@@ -1,13 +1,24 @@
 """What a simulation returns, its numbers, and how it is kept."""
 
 from .energies import Energies
-from .result import Event, Outcome, Result, columns, load, receding_speed, save, write_csv
+from .result import (
+    Event,
+    Outcome,
+    Result,
+    ShallowStart,
+    columns,
+    load,
+    receding_speed,
+    save,
+    write_csv,
+)
 
 __all__ = [
     "Energies",
     "Event",
     "Outcome",
     "Result",
+    "ShallowStart",
     "columns",
     "load",
     "receding_speed",

@@ -2,7 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -207,7 +207,8 @@ def effective_surface_energy(result: Result) -> float:
 
 # What summaries and rows of campaigns say beside the observables.
 _TAKEN = frozenset(
-    "status outcome cycles error_estimate error_estimate_work energy_residual events wall_time_s "
+    "status outcome cycles error_estimate error_estimate_work energy_residual shallow_start events "
+    "wall_time_s "
     "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
     "size thickness cohesion preload preload_force preload_radius steps nodes modes "
     "newton_iterations jumps travel_to_pull_off accuracy until".split()
@@ -289,6 +290,7 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
         "cycles": [] if result.outcome is Outcome.STOPPED else cycle_rows(result),
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
+        "shallow_start": result.shallow_start and asdict(result.shallow_start),
         "events": [_plain(vars(event)) for event in result.events],
         "wall_time_s": result.statistics.get("wall_time_s"),
         "statistics": _plain(result.statistics),

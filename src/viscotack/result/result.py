@@ -91,6 +91,34 @@ class Event:
             object.__setattr__(self, name, finite(f"{name} of an event", getattr(self, name), "1"))
 
 
+@dataclass(frozen=True)
+class ShallowStart:
+    """Where a retraction was begun because the depth of its start no longer matters there.
+
+    Attributes
+    ----------
+    asked : float
+        Depth of the start that was asked for [h_0]; of one by force or radius the JKR depth.
+    depth : float
+        Depth at which the series begin, at rest and at time 0 [h_0].
+    force, work : float
+        What the deeper start might change force and work at pull-off by, relative; contained in
+        the error estimate.
+    shift : float
+        By how much it might shift the depth at pull-off [h_0].
+    """
+
+    asked: float
+    depth: float
+    force: float
+    work: float
+    shift: float
+
+    def __post_init__(self) -> None:
+        for name in ("asked", "depth", "force", "work", "shift"):
+            object.__setattr__(self, name, finite(f"{name} of a start", getattr(self, name), "1"))
+
+
 def _versions() -> dict[str, str]:
     import scipy
 
@@ -108,7 +136,8 @@ class Result:
     problem : Problem or Groups
         What was solved.
     time, depth, force : ndarray
-        Time from the start of the retraction; depth and force at each step.
+        Time from the start of the retraction, or of what was marched of it (`shallow_start`);
+        depth and force at each step.
     contact_radius : ndarray
         Outermost place where the gap is that of peak tension; nan where there is no edge.
     edge_speed : ndarray
@@ -132,6 +161,9 @@ class Result:
     move : ndarray of int, or None
         Number of the move that led to each step, from 0; the retraction is one more than the last
         move. None in results of version 0.1.
+    shallow_start : ShallowStart or None
+        Where the series begin if not at the start that was asked for, which was so deep that its
+        depth does not matter.
     versions : dict
         Versions of this package, numpy and scipy that made it.
     """
@@ -150,6 +182,7 @@ class Result:
     energy_residual: float | None = None
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
     move: npt.NDArray[np.intp] | None = None
+    shallow_start: ShallowStart | None = None
     versions: Mapping[str, str] = field(default_factory=_versions)
 
     def __post_init__(self) -> None:
@@ -284,6 +317,7 @@ def save(result: Result, path: Target) -> None:
         "statistics": dict(result.statistics),
         "error_estimate": result.error_estimate and dict(result.error_estimate),
         "energy_residual": result.energy_residual,
+        "shallow_start": result.shallow_start and asdict(result.shallow_start),
         "energy": result.energy is not None,
         "fields": result.fields is not None,
     }
@@ -351,6 +385,7 @@ def _from_parts(
         found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
         return found if header[name] else None
 
+    began = header.get("shallow_start")  # results of 0.1 have none
     return Result(
         problem=from_dict(header["problem"], also),
         **{name: arrays[name] for name in _SERIES},
@@ -362,5 +397,6 @@ def _from_parts(
         energy_residual=header["energy_residual"],
         fields=group("fields"),
         move=arrays.get("move"),
+        shallow_start=None if began is None else ShallowStart(**began),
         versions=header["versions"],
     )

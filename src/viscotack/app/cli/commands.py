@@ -112,6 +112,14 @@ HowLong = Annotated[
     str | None,
     Option("--time-limit", metavar="TIME", help=_TIME_LIMIT, show_default=False),
 ]
+Whole = Annotated[
+    bool,
+    Option(
+        "--whole",
+        help="March the whole retraction, however deep its start: one from more than 1000 h0 "
+        "begins else where its depth no longer matters.",
+    ),
+]
 AsJson = Annotated[
     bool, Option("--json", help="Print one JSON object on standard output instead of words.")
 ]
@@ -154,6 +162,7 @@ def _simulate(
     until: HowFar = Until.DETACHED,
     accuracy: Accuracy = DEFAULT_ACCURACY,
     time_limit: HowLong = None,
+    whole: Whole = False,
     plot_file: PlotFile = None,
     plot_kind: PlotWhat = PlotKind.FORCE,
     csv_file: CsvFile = None,
@@ -176,6 +185,7 @@ def _simulate(
                 problem,
                 accuracy=accuracy,
                 until=str(until),
+                whole=whole,
                 throw=False,
                 progress=progress,
                 time_limit=seconds,
@@ -344,6 +354,14 @@ def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -
         if note:
             lines.append(f"  {'':<21}  {note}")
     lines += table_of_cycles(result, answer["cycles"])
+    if began := answer["shallow_start"]:
+        lines += [
+            f"  begun at depth       {began['depth']:>12.5g}  h0 and not {began['asked']:.4g} h0, "
+            "which changes the force",
+            f"  {'':<33}  by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, "
+            f"the depth by {began['shift']:.1g} h0;",
+            f"  {'':<33}  curve and time begin there (--whole marches all of it)",
+        ]
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")
     for name, share in (answer["error_estimate"] or {}).items():
