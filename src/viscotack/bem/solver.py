@@ -17,12 +17,13 @@ from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.contacts.sphere import SphereContact
+from viscotack.bem.estimate import COARSER, estimated
 from viscotack.bem.legs import legs_of, longest_time, reached
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
-from viscotack.bem.shut import why
+from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
@@ -32,10 +33,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeL
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
-from viscotack.result.dead_load import time_held
-from viscotack.result.observables import pull_off_force, work_lost, work_to_pull_off
-from viscotack.result.parts import moves_of, waits
-from viscotack.traction import Traction, effective_range
+from viscotack.traction import effective_range
 
 # Is told the done share of the work.
 Progress = Callable[[float], None] | None
@@ -43,27 +41,8 @@ Progress = Callable[[float], None] | None
 _UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
 _FASTEST = 0.2
-# The coarse companion of a run is less accurate by this factor; every error is of second order.
-_COARSER = 4.0
 # Share of the work in a run that has one.
 _MAIN = 0.8
-# The estimate is the difference to the companion over _COARSER - 1, times this margin ...
-_MARGIN = 2.2
-# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 64 cases
-# over the whole range the estimate then covers the true error in 62 (force) and 61 (work), and is
-# in the median 1.9 and 3.3 times as large. Of 11 dead loads (Tabor numbers 0.1 to 8, two solids) it
-# covers that of the time to detachment in all, and is 1.8 times as large.
-_FLOOR = {"force": 0.2, "work": 1.0, "time": 1.0}
-# An error of the force moves its minimum, and what the drive does beside it is lost or won: where
-# the work is small, that is its error. Of 80 cases of Tabor numbers up to 1, elastic and
-# viscoelastic, that start around the minimum, the estimate with this margin covers 79, and is in
-# the median 2.1 times the error.
-_MOVED = 2.5
-# An error as large as the number: nothing is known of it.
-_ALL = 1.0
-
-# A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
-_LARGEST_RESIDUAL = 1e-2
 
 
 class SimulationError(RuntimeError):
@@ -111,7 +90,8 @@ def solve(
     settings : Settings, optional
         Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
     estimate_error : bool
-        Also run a coarser companion and state the errors of force and work from the difference.
+        Also run a coarser companion and state the errors of force and work from the difference. A
+        run whose force is known ten times worse than asked for is stopped as unresolved.
     whole : bool
         March the whole retraction from the start that is asked for, however deep. Else one from
         more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins
@@ -172,7 +152,7 @@ def solve(
         check_bounds(problem, groups, contact)
 
         def light(marched: Groups | PunchGroups, seen: Progress = None) -> Result:
-            coarser = chosen.coarser(_COARSER)
+            coarser = chosen.coarser(COARSER)
             return _run(problem, marched, coarser, "pull-off", False, seen)
 
         try:
@@ -186,21 +166,24 @@ def solve(
             ) from None
         estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = _estimate(
+            estimate = estimated(
                 result,
                 lambda: light(groups, _part(progress, share, 1.0)),
                 beginning,
+                contact.travel,
                 chosen.accuracy,
             )
             if estimate is None and (limit := met()):
-                status = _out_of_time(limit, "while the error was estimated")
+                status = out_of_time(limit, "while the error was estimated")
                 result = replace(result, status=status)
     result = replace(
         result,
+        accuracy=chosen.accuracy,
         error_estimate=estimate,
         shallow_start=None if beginning is None else beginning.start,
         statistics=dict(result.statistics) | {"wall_time_s": perf_counter() - began},
     ).posed(groups)
+    result = judged(result)
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
@@ -307,7 +290,7 @@ def _result(
         force=np.array([s.force for s in states]),
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
-        status=_status(history, residual, contact.law),
+        status=status_of(history, residual, contact.law),
         events=tuple(history.events),
         statistics={
             "steps": len(states) - 1,
@@ -332,55 +315,6 @@ def _result(
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
     ).posed(groups)
-
-
-def _status(history: History, residual: float, law: Traction) -> str:
-    last = history.snapshots[-1]
-    if history.outcome == "time":
-        return _out_of_time(history.reason, f"at a depth of {last.depth:.4g} h0")
-    if residual > _LARGEST_RESIDUAL:
-        return (
-            f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
-            "ask for a better accuracy, and mind that Tabor numbers above 10 are not tested"
-        )
-    if history.outcome == "shut":
-        return (
-            f"{Outcome.STOPPED} because beyond a depth of {last.depth:.4g} h0 "
-            f"{why(law, history.pressed)}"
-        )
-    if history.outcome == "lost":
-        return (
-            f"{Outcome.STOPPED} because no equilibrium of the surface was found at a depth of "
-            f"{last.depth:.4g} h0; ask for a better accuracy"
-        )
-    if history.outcome == "steps":
-        return (
-            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met "
-            f"at a depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
-        )
-    if history.outcome == "unheld":
-        return (
-            f"{Outcome.STOPPED} because a force of {last.force:.4g} is to be held or lowered with "
-            f"the surfaces apart, at a depth of {last.depth:.4g} h0, where nothing bears it; press "
-            "the surfaces together before"
-        )
-    if not any(snapshot.edge > 0 for snapshot in history.snapshots):
-        nearest = max(snapshot.depth for snapshot in history.snapshots)
-        return f"{Outcome.NEVER}: the test went to a depth of {nearest:.4g} h0; approach further"
-    if history.outcome == "pull-off":
-        return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
-    if history.outcome == "end" and last.edge > 0:
-        return f"{Outcome.IN_CONTACT} at the end of the test"
-    touched = max(snapshot.time for snapshot in history.snapshots if snapshot.edge > 0)
-    jumps = [event for event in history.events if event.kind == "jump out of contact"]
-    out = [event for event in jumps if event.time >= touched]
-    if out:
-        return f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
-    return str(Outcome.DETACHED)
-
-
-def _out_of_time(limit: TimeUp | str, where: str) -> str:
-    return f"{Outcome.STOPPED} because {limit} {where}; give more time, or ask for less accuracy"
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
@@ -411,44 +345,3 @@ def _beginning(
 def _from(groups: Groups | PunchGroups, depth: float) -> Groups | PunchGroups:
     """Return the test from a relaxed contact at this depth [h0]."""
     return replace(groups, start=AtDepth(depth))
-
-
-def _estimate(
-    result: Result,
-    companion: Callable[[], Result],
-    beginning: Beginning | None,
-    accuracy: float,
-) -> dict[str, float] | None:
-    """Return the relative errors by name from a coarser companion, None without one.
-
-    The depth of the start adds what it might change where the march began at another one.
-    """
-    try:
-        coarse = companion() if beginning is None else beginning.light
-        values, others = _measures(result), _measures(coarse)
-    except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
-        return None
-    if values.keys() != others.keys():
-        return None
-    estimate = {}
-    for name, value in values.items():
-        other = others[name]
-        share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
-        estimate[name] = max(_MARGIN * share / (_COARSER - 1), _FLOOR[name] * accuracy)
-    if work := values.get("work"):
-        # without a way to the minimum nothing is known of the work on it
-        lost = work_lost(result, estimate["force"] / contact_of(result.groups).travel)
-        estimate["work"] = min(max(estimate["work"], _MOVED * lost / abs(work)), _ALL)
-    elif "work" in values:
-        estimate["work"] = _ALL
-    if beginning is not None:
-        for name in estimate:
-            estimate[name] += getattr(beginning.start, name)
-    return estimate
-
-
-def _measures(result: Result) -> dict[str, float]:
-    """Return what errors are stated of: the pull-off, or the time for which a load was borne."""
-    if result.groups.rate is None and waits(moves_of(result)[-1], "force"):
-        return {"time": time_held(result)}
-    return {"force": pull_off_force(result), "work": work_to_pull_off(result)}

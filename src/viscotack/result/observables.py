@@ -207,8 +207,8 @@ def effective_surface_energy(result: Result) -> float:
 
 # What summaries and rows of campaigns say beside the observables.
 _TAKEN = frozenset(
-    "status outcome cycles error_estimate error_estimate_work energy_residual shallow_start events "
-    "wall_time_s "
+    "status outcome cycles accuracy_met error_estimate error_estimate_work energy_residual "
+    "shallow_start events wall_time_s "
     "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
     "size thickness cohesion preload preload_force preload_radius steps nodes modes "
     "newton_iterations jumps travel_to_pull_off accuracy until".split()
@@ -288,6 +288,8 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
     return answer | {
         **result.groups.inputs,
         "cycles": [] if result.outcome is Outcome.STOPPED else cycle_rows(result),
+        "accuracy": result.accuracy,
+        "accuracy_met": result.accuracy_met,
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),

@@ -149,6 +149,8 @@ class Result:
         Jumps, in order of time.
     statistics : dict
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
+    accuracy : float or None
+        Relative error of the pull-off force that was asked for; None in results of version 0.1.
     error_estimate : dict or None
         Relative error of ``force`` and ``work`` at pull-off, or of the ``time`` for which a load
         was borne; None while there is no estimate.
@@ -183,6 +185,7 @@ class Result:
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
     move: npt.NDArray[np.intp] | None = None
     shallow_start: ShallowStart | None = None
+    accuracy: float | None = None
     versions: Mapping[str, str] = field(default_factory=_versions)
 
     def __post_init__(self) -> None:
@@ -237,6 +240,16 @@ class Result:
     def outcome(self) -> Outcome:
         """The kind of ending that the status sentence begins with."""
         return next(o for o in Outcome if self.status.startswith(o))
+
+    @property
+    def accuracy_met(self) -> bool | None:
+        """Whether the stated error is within the accuracy asked for; None where one is not known.
+
+        That of the pull-off force, or of the time for which a load was borne.
+        """
+        stated = self.error_estimate or {}
+        error = stated.get("force", stated.get("time"))
+        return None if error is None or self.accuracy is None else bool(error <= self.accuracy)
 
 
 def _frozen(values: npt.ArrayLike, dtype: type = float) -> npt.NDArray[Any]:
@@ -315,6 +328,7 @@ def save(result: Result, path: Target) -> None:
         "status": result.status,
         "events": [asdict(event) for event in result.events],
         "statistics": dict(result.statistics),
+        "accuracy": result.accuracy,
         "error_estimate": result.error_estimate and dict(result.error_estimate),
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),
@@ -398,5 +412,6 @@ def _from_parts(
         fields=group("fields"),
         move=arrays.get("move"),
         shallow_start=None if began is None else ShallowStart(**began),
+        accuracy=header.get("accuracy"),
         versions=header["versions"],
     )

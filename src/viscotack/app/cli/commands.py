@@ -195,6 +195,18 @@ def _simulate(
     _report(result, write, as_json, files, own)
     if result.outcome is Outcome.STOPPED:
         raise typer.Exit(1)
+    if result.accuracy_met is False:
+        typer.echo(_not_met(result), err=True)
+
+
+def _not_met(result: Result) -> str:
+    """Return what is said of a run that is not as accurate as it was asked to be."""
+    stated = result.error_estimate or {}
+    name, error = next((n, stated[n]) for n in ("force", "time") if n in stated)
+    return (
+        f"viscotack: the error of the {name} is estimated at {error:.1e}, more than the "
+        f"{result.accuracy:g} that were asked for; ask for a better accuracy"
+    )
 
 
 _DOORS = {door.word: door for door in (SPHERE, PUNCH, PROFILE)}

@@ -1,0 +1,128 @@
+"""How a run ended, in words, and whether its numbers can stand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from viscotack.bem.books import History
+from viscotack.bem.clock import TimeUp
+from viscotack.bem.shut import why
+from viscotack.errors import InputError
+from viscotack.geometry import Sphere
+from viscotack.problem import Groups
+from viscotack.protocol import Apart
+from viscotack.result import Outcome, Result
+from viscotack.result.observables import pull_off_force
+from viscotack.traction import Traction
+
+# A run whose energies miss each other by more has no numbers to offer; good runs stay below 1e-3.
+_LARGEST_RESIDUAL = 1e-2
+
+
+# A force whose stated error is so many times the accuracy that was asked for is not resolved.
+_UNRESOLVED = 10.0
+# What a rigid sphere pulls off with at most, by Derjaguin, over what one of JKR does; whatever the
+# law, an elastic one is between them.
+_DERJAGUIN = 4 / 3
+
+
+def judged(result: Result) -> Result:
+    """Return a result, or the same one stopped where its force cannot be trusted."""
+    if result.outcome is Outcome.STOPPED:
+        return result
+    doubt = _unresolved(result) or _out_of_bounds(result)
+    if not doubt:
+        return result
+    return replace(result, status=f"{Outcome.STOPPED} because {doubt}; ask for a better accuracy")
+
+
+def _unresolved(result: Result) -> str:
+    """Return what is wrong with the stated error of the force; nothing where that will do."""
+    error, asked = (result.error_estimate or {}).get("force", 0.0), result.accuracy or np.inf
+    if not error > _UNRESOLVED * asked:
+        return ""
+    return (
+        f"the pull-off force is not resolved: its error is estimated at {100 * error:.2g} %, "
+        f"beside {100 * asked:.2g} % that were asked for"
+    )
+
+
+def _out_of_bounds(result: Result) -> str:
+    """Return what theory has against a pull-off force; nothing where it allows that.
+
+    Of a sphere that starts in a relaxed contact. An elastic one pulls off with 1 to 4/3 of the
+    force of JKR, unless it starts beyond the force minimum; of a viscoelastic one the solid may
+    answer as stiffly as it can, and what the crack takes is that over k.
+    """
+    groups = result.groups
+    sphere = isinstance(groups, Groups) and isinstance(groups.geometry, Sphere)
+    if not sphere or isinstance(groups.start, Apart) or groups.moves or groups.rate is None:
+        return ""
+    try:
+        force = pull_off_force(result)
+    except InputError:  # there is none
+        return ""
+    k = groups.material.modulus_ratio
+    stated = (result.error_estimate or {}).get("force", _UNRESOLVED * (result.accuracy or 0.0))
+    before_minimum = float(result.force[0]) > float(np.min(result.force))
+    least = 1.0 if k == 1 and before_minimum else 0.0
+    most = _DERJAGUIN / k
+    if least * (1 - stated) <= force <= most * (1 + stated):
+        return ""
+    return (
+        f"the pull-off force, {force:.4g}, is none that theory allows, {least:g} to {most:.4g} "
+        "(1.5 pi R dg0), so that the mesh does not resolve the contact"
+    )
+
+
+def status_of(history: History, residual: float, law: Traction) -> str:
+    """Return how a march ended, in words that begin with one of `Outcome`."""
+    last = history.snapshots[-1]
+    if history.outcome == "time":
+        return out_of_time(history.reason, f"at a depth of {last.depth:.4g} h0")
+    if residual > _LARGEST_RESIDUAL:
+        return (
+            f"{Outcome.STOPPED} because {100 * residual:.2g} % of the energy is not accounted for; "
+            "ask for a better accuracy, and mind that Tabor numbers above 10 are not tested"
+        )
+    if history.outcome == "shut":
+        return (
+            f"{Outcome.STOPPED} because beyond a depth of {last.depth:.4g} h0 "
+            f"{why(law, history.pressed)}"
+        )
+    if history.outcome == "lost":
+        return (
+            f"{Outcome.STOPPED} because no equilibrium of the surface was found at a depth of "
+            f"{last.depth:.4g} h0; ask for a better accuracy"
+        )
+    if history.outcome == "steps":
+        return (
+            f"{Outcome.STOPPED} because the bound of {len(history.snapshots) - 1} steps was met "
+            f"at a depth of {last.depth:.4g} h0; raise accuracy or settings.most_steps"
+        )
+    if history.outcome == "unheld":
+        return (
+            f"{Outcome.STOPPED} because a force of {last.force:.4g} is to be held or lowered with "
+            f"the surfaces apart, at a depth of {last.depth:.4g} h0, where nothing bears it; press "
+            "the surfaces together before"
+        )
+    if not any(snapshot.edge > 0 for snapshot in history.snapshots):
+        nearest = max(snapshot.depth for snapshot in history.snapshots)
+        return f"{Outcome.NEVER}: the test went to a depth of {nearest:.4g} h0; approach further"
+    if history.outcome == "pull-off":
+        return f"{Outcome.IN_CONTACT} just past the pull-off, where the run was to end"
+    if history.outcome == "end" and last.edge > 0:
+        return f"{Outcome.IN_CONTACT} at the end of the test"
+    touched = max(snapshot.time for snapshot in history.snapshots if snapshot.edge > 0)
+    jumps = [event for event in history.events if event.kind == "jump out of contact"]
+    out = [event for event in jumps if event.time >= touched]
+    if out:
+        return f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
+    return str(Outcome.DETACHED)
+
+
+def out_of_time(limit: TimeUp | str, where: str) -> str:
+    """Return the status of a run that met its time limit."""
+    return f"{Outcome.STOPPED} because {limit} {where}; give more time, or ask for less accuracy"
