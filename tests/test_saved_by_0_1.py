@@ -84,6 +84,10 @@ def test_a_saved_result_has_its_numbers_to_the_digit(name):
     assert (back.fields is not None) == any(key.startswith("fields/") for key in stored)
 
 
+# Keys of answers that 0.1 did not have.
+NEW = ("accuracy", "accuracy_met", "cycles", "time_to_detachment")
+
+
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_saved_result_says_what_was_printed(name, call):
     """Every number, status, event and version; the record of the problem may be written anew."""
@@ -94,8 +98,9 @@ def test_a_saved_result_says_what_was_printed(name, call):
     assert now.pop("shallow_start") is None
     assert now.pop("work_to_pull_off_note") is None  # keys that 0.1 did not have
     in_si = {"time_to_detachment_s"} if "pull_off_depth_m" in then else set()
-    assert now.keys() - then.keys() == {"cycles", "time_to_detachment"} | in_si
-    assert now["time_to_detachment"] is None and len(now["cycles"]) == 1
+    assert now.keys() - then.keys() == {*NEW, *in_si}
+    assert now["accuracy"] is now["accuracy_met"] is now["time_to_detachment"] is None
+    assert len(now["cycles"]) == 1
     assert then.keys() <= now.keys()
     for key, value in then.items():
         if isinstance(value, float):
@@ -145,6 +150,8 @@ def test_a_case_file_runs_to_the_same_answer(name, kind, call):
     peak = "pull_off_stress_Pa" if kind == "punch" else "pull_off_force_N"
     # steps adapt: last bits of another processor end as a part of the stated error
     tolerance = 0.1 * then["error_estimate"]["force"]
+    if kind == "profile":  # meshes follow the law since: within the error, and nearer to converged
+        tolerance *= 10
     assert now[peak] == pytest.approx(then[peak], rel=tolerance, abs=0)
     assert now["outcome"] == then["outcome"]
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from viscotack.bem import solve
+from viscotack.bem.flank import flank_share
 from viscotack.bem.interface import AtNodes, OnPanels, interface, resolved
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
@@ -108,3 +109,18 @@ def test_a_table_that_ends_with_a_corner_is_between_jkr_and_derjaguin():
     strong = pull_off_force(pulled(TABLE, 8 * effective_range(TABLE)))
     assert 1 < strong < 1.02
     assert 1.31 < weak < 4 / 3
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0, 4.0])
+def test_the_flank_of_a_tip_is_the_integral_over_its_area(exponent):
+    gap, power = 60.0, (2 - exponent) / exponent
+    for law in (LennardJones(1.0, 1.0), Exponential(1.0, 1.0, 10.0)):
+        x, w = np.polynomial.laguerre.laggauss(80)
+        # in decades beyond the gap, where both laws are smooth
+        h = gap * np.exp(x / 4)
+        force = float(w @ (np.exp(x) * law.traction(h) * (h / gap) ** power * h / 4))
+        expected = force / -float(law.energy(gap))
+        assert flank_share(law, gap, exponent) == pytest.approx(expected, rel=1e-5)
+    third_power = exponent / (1.5 * exponent - 1)
+    assert flank_share(LennardJones(1.0, 1.0), 1e3, exponent) == pytest.approx(third_power)
+    assert flank_share(Dugdale(1.0, 1.0), gap, exponent) == 1

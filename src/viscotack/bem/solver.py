@@ -246,9 +246,10 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
         return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high:
+        span = effective_range(groups.traction)
+        over = "" if span == 1 else f" over the range of the traction law ({span:.3g} h0)"
         raise InputError(
-            f"the Tabor number over the law's range ({effective_range(groups.traction):.3g} h0) "
-            f"must be between {low:g} and {high:g} for a simulation, got "
+            f"the Tabor number{over} must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr"
         )
     match groups.geometry:

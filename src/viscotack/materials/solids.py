@@ -20,7 +20,7 @@ from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import Modes, compressed, maxwell, voigt
 
-_MOST_BRANCHES = 1000
+_MOST_BRANCHES = 10_000
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -81,7 +81,7 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
     ... )
     >>> first, second = cycles(solve(groups, accuracy=0.01, estimate_error=False))
     >>> f"{first.pull_off_force:.2f} {second.pull_off_force:.2f}"
-    '2.33 2.33'
+    '2.36 2.36'
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no cycles: {result.status}")

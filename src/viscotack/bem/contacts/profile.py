@@ -19,6 +19,7 @@ from scipy.special import hyp2f1
 from viscotack.bem.bodies.halfspace import half_space
 from viscotack.bem.contacts.shape import inverse
 from viscotack.bem.contacts.sphere import SphereContact
+from viscotack.bem.flank import flank_share
 from viscotack.bem.surface import Surface
 from viscotack.theory import profiles
 
@@ -82,14 +83,13 @@ class ProfileContact(SphereContact):
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta].
 
-        On the flank beyond the last node r the gap grows like r^q, and the tension of the
-        Lennard-Jones law falls like its third power: the area between two gaps differs from that at
-        the last node by r^(2-q), and the force on it by q/(1.5 q - 1) in all.
+        On the flank beyond the last node r the gap grows like r^q: the area between two gaps
+        differs from that of a sphere by r^(2-q) there, and from that on as the flank has it.
         """
-        q = self.exponent
+        q, gap = self.exponent, 1 + self.rise(nodes)
         surface = half_space(nodes, self.tabor, self.law)
-        flank = surface.flank * nodes[-1] ** (2 - q) * q / (1.5 * q - 1)
-        return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))
+        flank = surface.flank * nodes[-1] ** (2 - q) * flank_share(self.law, gap[-1], q)
+        return replace(surface, rigid_gap=gap, flank=float(flank))
 
     def _bare_depth(self) -> float:
         """Return the depth [h0] of a contact of radius beta without adhesion."""

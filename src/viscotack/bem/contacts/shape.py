@@ -19,6 +19,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from viscotack.bem.bodies.halfspace import half_space
 from viscotack.bem.contacts.sphere import SphereContact
+from viscotack.bem.flank import flank_share
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
 from viscotack.geometry import Shape
@@ -77,12 +78,13 @@ class ShapeContact(SphereContact):
         On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
         has there: see :class:`viscotack.bem.contacts.profile.ProfileContact`.
         """
-        r = nodes[-1]
+        r, gap = nodes[-1], 1 + self.rise(nodes)
         q = float(r * self.shape.flank(r) / self.shape.gap(r))
         surface = half_space(nodes, self.tabor, self.law)
         # of a sphere the area between two gaps is 1/mu of their difference, here r/f' of it
-        flank = surface.flank * (r / float(self.shape.flank(r))) * q / (1.5 * q - 1)
-        return replace(surface, rigid_gap=1 + self.rise(nodes), flank=float(flank))
+        area = r / float(self.shape.flank(r))
+        flank = surface.flank * area * flank_share(self.law, gap[-1], q)
+        return replace(surface, rigid_gap=gap, flank=float(flank))
 
     def _jkr_force(self, radius: float) -> float:
         return float(indenter.force(radius, **self._jkr))

@@ -45,7 +45,8 @@ _RISING = 0.2 / np.sqrt(2)
 _FIRM = 0.2
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
-# What stands for a quantity where there is no contact: larger than any, finite for the search.
+# What stands for a quantity where surfaces are pressed shut: larger than any, finite, and growing
+# with the depth, so that the search finds its way back.
 _NONE = 1e9
 
 
@@ -238,7 +239,7 @@ class SphereContact:
                 found[depth] = self._at_depth(depth, settings, offset)
             except _Shut as reason:
                 shut[depth] = reason
-                return _NONE
+                return _NONE + depth
             return quantity(found[depth]) - wanted
 
         scale = self.travel
