@@ -49,14 +49,14 @@ def test_forces_and_tangent_are_derivatives_of_the_interface_energy(law, rule):
     def derivative(function):
         return np.array([(function(GAPS + h * e) - function(GAPS - h * e)) / (2 * h) for e in unit])
 
-    forces = derivative(lambda gap: rule.energy(law, gap))
+    forces = derivative(lambda gap: rule.at(law, gap).energy())
     size = np.max(np.abs(forces))
-    np.testing.assert_allclose(rule.tension(law, GAPS), forces, rtol=1e-6, atol=1e-6 * size)
-    band = rule.tangent(law, GAPS)
+    np.testing.assert_allclose(rule.at(law, GAPS).tension(), forces, rtol=1e-6, atol=1e-6 * size)
+    band = rule.at(law, GAPS).tangent()
     tangent = np.diag(band.diagonal)
     if band.beside is not None:
         tangent = tangent + np.diag(band.beside, -1) + np.diag(band.beside, 1)
-    slopes = derivative(lambda gap: rule.tension(law, gap))
+    slopes = derivative(lambda gap: rule.at(law, gap).tension())
     np.testing.assert_allclose(tangent, slopes, rtol=1e-4, atol=1e-4 * np.max(np.abs(slopes)))
 
 

@@ -162,29 +162,31 @@ def descend(
     solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
     face, gap, span = surface.interface, guess, effective_range(law)
     elastic, pull = solid.at(gap)
-    adhesion = face.energy(law, gap)
-    energy = elastic + adhesion
+    here = face.at(law, gap)
+    energy = elastic + here.energy()
     # Near the minimum the round-off of the two sums decides, not the slope.
-    size = abs(elastic) + abs(adhesion)
+    size = abs(elastic) + abs(here.energy())
+    tension = here.tension()
     for iteration in range(1, most_iterations + 1):
         look()
-        curvature = face.tangent(law, gap)
+        curvature = here.tangent()
         factor = _factor(solid.matrix, curvature)
         stable = factor is not None
         if factor is None:
             factor = _stiffened(solid.matrix, curvature)
-        residual = pull + face.tension(law, gap)
+        residual = pull + tension
         change, _ = _potrs(factor, -residual, lower=1)
-        size_of_law = room(gap, span)
-        part, slope = _limited(change, size_of_law), float(residual @ change)
+        scale = room(gap, span)
+        part, slope = _limited(change, scale), float(residual @ change)
         while True:
             trial = gap + part * change
             elastic, pull = solid.at(trial)
-            trial_energy = elastic + face.energy(law, trial)
+            here = face.at(law, trial)
+            trial_energy = elastic + here.energy()
             if trial_energy <= energy + 1e-4 * part * slope + 1e-12 * size or part < 1e-6:
                 break
             part *= 0.5
-        largest = float(np.max(np.abs(change) / size_of_law))
+        largest = float(np.max(np.abs(change) / scale))
         last = stable and largest < _LAST_CHANGE
         if last and part < 1.0 and (iteration == most_iterations or np.array_equal(trial, gap)):
             # So small a change of a stable state gains less than the round-off of the energies,
@@ -192,9 +194,9 @@ def descend(
             # and would refuse it for ever.
             gap = gap + change
             return Balance(gap, solid.depth(gap), iteration, True)
-        gap, energy = trial, trial_energy
+        gap, energy, tension = trial, trial_energy, here.tension()
         little = stable and part == 1.0 and -slope < least_gain * size
-        if (last and part == 1.0) or (little and _balanced(pull, face.tension(law, gap), largest)):
+        if (last and part == 1.0) or (little and _balanced(pull, tension, largest)):
             return Balance(gap, solid.depth(gap), iteration, True)
         if np.min(gap) < GONE:
             return Balance(gap, solid.depth(gap), iteration, False)

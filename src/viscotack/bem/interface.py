@@ -10,6 +10,7 @@ of the surface makes up for (:func:`viscotack.bem.surface.stiffness`).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -25,6 +26,7 @@ _MOST_SOFTENING = 3.0
 _EVEN = 1e-3
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)
 _POINTS, _WEIGHTS = (_POINTS + 1) / 2, _WEIGHTS / 2
+_NO_GAPS = np.empty((3, 0))
 
 
 class Band(NamedTuple):
@@ -34,8 +36,24 @@ class Band(NamedTuple):
     beside: npt.NDArray | None = None
 
 
+class Faces(Protocol):
+    """The interface at given gaps."""
+
+    def energy(self) -> float:
+        """Return the energy [dg times the unit of area]."""
+        ...
+
+    def tension(self) -> npt.NDArray:
+        """Return the derivative of the energy by the gaps: nodal forces, tension positive."""
+        ...
+
+    def tangent(self) -> Band:
+        """Return the second derivatives."""
+        ...
+
+
 class Interface(Protocol):
-    """What balance and books ask of the interface; gaps are those at the nodes [h0].
+    """What balance and books ask of the interface.
 
     Attributes
     ----------
@@ -45,16 +63,8 @@ class Interface(Protocol):
 
     smoothing: ClassVar[float]
 
-    def energy(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the energy [dg times the unit of area]."""
-        ...
-
-    def tension(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
-        """Return the derivative of the energy by the gaps: nodal forces, tension positive."""
-        ...
-
-    def tangent(self, law: Traction, gap: npt.NDArray) -> Band:
-        """Return the second derivatives."""
+    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
+        """Return the interface at gaps at the nodes [h0]."""
         ...
 
 
@@ -66,17 +76,9 @@ class AtNodes:
 
     area: npt.NDArray
 
-    def energy(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the energy [dg times the unit of area]."""
-        return float(self.area @ law.energy(gap))
-
-    def tension(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
-        """Return the derivative of the energy by the gaps: nodal forces, tension positive."""
-        return self.area * law.traction(gap)
-
-    def tangent(self, law: Traction, gap: npt.NDArray) -> Band:
-        """Return the second derivatives."""
-        return Band(self.area * law.stiffness(gap))
+    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
+        """Return the interface at gaps at the nodes [h0]."""
+        return _NodeFaces(self.area, law, gap)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,50 +100,81 @@ class OnPanels:
 
     panels: npt.NDArray
 
-    def energy(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the energy [dg times the unit of area]."""
-        return float(self.panels @ self._mean(law, gap))
-
-    def tension(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
-        """Return the derivative of the energy by the gaps: nodal forces, tension positive."""
-        step, even = self._steps(gap)
-        mean, energy = self._mean(law, gap), law.energy(gap)
-        first, last = (mean - energy[:-1]) / step, (energy[1:] - mean) / step
-        if even.any():
-            share, rule = law.traction(_between(gap, even)), _WEIGHTS[:, None]
-            first[even] = (rule * (1 - _POINTS[:, None]) * share).sum(axis=0)
-            last[even] = (rule * _POINTS[:, None] * share).sum(axis=0)
-        return _at_nodes(self.panels * first, self.panels * last)
-
-    def tangent(self, law: Traction, gap: npt.NDArray) -> Band:
-        """Return the second derivatives."""
-        step, even = self._steps(gap)
-        mean, energy, pull = self._mean(law, gap), law.energy(gap), law.traction(gap)
-        square = step * step
-        first = (2 * (mean - energy[:-1]) / step - pull[:-1]) / step
-        last = (pull[1:] - 2 * (energy[1:] - mean) / step) / step
-        both = (energy[1:] + energy[:-1] - 2 * mean) / square
-        if even.any():
-            k, t, w = law.stiffness(_between(gap, even)), _POINTS[:, None], _WEIGHTS[:, None]
-            first[even] = (w * (1 - t) ** 2 * k).sum(axis=0)
-            last[even] = (w * t**2 * k).sum(axis=0)
-            both[even] = (w * t * (1 - t) * k).sum(axis=0)
-        diagonal = _at_nodes(self.panels * first, self.panels * last)
-        return Band(diagonal, self.panels * both)
-
-    def _mean(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
-        step, even = self._steps(gap)
-        # energy_beyond falls by what lies between
-        mean = -np.diff(law.energy_beyond(gap)) / step
-        if even.any():
-            mean[even] = _WEIGHTS @ law.energy(_between(gap, even))
-        return mean
-
-    @staticmethod
-    def _steps(gap: npt.NDArray) -> tuple[npt.NDArray, npt.NDArray]:
+    def at(self, law: Traction, gap: npt.NDArray) -> Faces:
+        """Return the interface at gaps at the nodes [h0]."""
         step = np.diff(gap)
         even = np.abs(step) < _EVEN
-        return np.where(even, 1.0, step), even
+        # energy_beyond falls by what lies between
+        step = np.where(even, 1.0, step)
+        mean = -np.diff(law.energy_beyond(gap)) / step
+        if not even.any():
+            return _PanelFaces(self.panels, law, gap, step, mean, even, _NO_GAPS)
+        a, b = gap[:-1][even], gap[1:][even]
+        between = a + np.outer(_POINTS, b - a)
+        mean[even] = _WEIGHTS @ law.energy(between)
+        return _PanelFaces(self.panels, law, gap, step, mean, even, between)
+
+
+@dataclass(frozen=True, eq=False)
+class _NodeFaces:
+    area: npt.NDArray
+    law: Traction
+    gap: npt.NDArray
+
+    def energy(self) -> float:
+        return float(self.area @ self.law.energy(self.gap))
+
+    def tension(self) -> npt.NDArray:
+        return self.area * self.law.traction(self.gap)
+
+    def tangent(self) -> Band:
+        return Band(self.area * self.law.stiffness(self.gap))
+
+
+@dataclass(frozen=True, eq=False)
+class _PanelFaces:
+    """Means over panels; `even` panels by their points `between`."""
+
+    panels: npt.NDArray
+    law: Traction
+    gap: npt.NDArray
+    step: npt.NDArray
+    mean: npt.NDArray
+    even: npt.NDArray
+    between: npt.NDArray
+
+    def energy(self) -> float:
+        return float(self.panels @ self.mean)
+
+    def tension(self) -> npt.NDArray:
+        first = (self.mean - self._at_nodes[:-1]) / self.step
+        last = (self._at_nodes[1:] - self.mean) / self.step
+        if self.between.size:
+            pull, t = self._pull_between, _POINTS[:, None]
+            first[self.even] = _WEIGHTS @ ((1 - t) * pull)
+            last[self.even] = _WEIGHTS @ (t * pull)
+        return _spread(self.panels * first, self.panels * last)
+
+    def tangent(self) -> Band:
+        mean, step, energy = self.mean, self.step, self._at_nodes
+        pull = self.law.traction(self.gap)
+        first = (2 * (mean - energy[:-1]) / step - pull[:-1]) / step
+        last = (pull[1:] - 2 * (energy[1:] - mean) / step) / step
+        both = (energy[1:] + energy[:-1] - 2 * mean) / (step * step)
+        if self.between.size:
+            k, t = self.law.stiffness(self.between), _POINTS[:, None]
+            first[self.even] = _WEIGHTS @ ((1 - t) ** 2 * k)
+            last[self.even] = _WEIGHTS @ (t**2 * k)
+            both[self.even] = _WEIGHTS @ (t * (1 - t) * k)
+        return Band(_spread(self.panels * first, self.panels * last), self.panels * both)
+
+    @cached_property
+    def _at_nodes(self) -> npt.NDArray:
+        return self.law.energy(self.gap)
+
+    @cached_property
+    def _pull_between(self) -> npt.NDArray:
+        return self.law.traction(self.between)
 
 
 def resolved(law: Traction) -> bool:
@@ -154,10 +187,5 @@ def interface(law: Traction, area: npt.NDArray, panels: npt.NDArray) -> Interfac
     return AtNodes(area) if resolved(law) else OnPanels(panels)
 
 
-def _between(gap: npt.NDArray, panels: npt.NDArray) -> npt.NDArray:
-    a, b = gap[:-1][panels], gap[1:][panels]
-    return a + np.outer(_POINTS, b - a)
-
-
-def _at_nodes(first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
+def _spread(first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
     return np.append(first, 0.0) + np.append(0.0, last)

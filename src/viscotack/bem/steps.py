@@ -32,6 +32,9 @@ _TOO_LONG = 1.5
 _AIM, _LEAST_CUT, _MOST_CUT = 0.8, 0.7, 0.2
 # A step is at most this much longer than the last.
 _GROWTH = 1.5
+# What is missing in all may be so many times what may go missing in a step; as it comes near, a step
+# is left less, but no less than this part.
+_MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
 # The end of a leg has been met within this part of the step that passes it.
 _AT_END = 1e-3
 
@@ -98,10 +101,13 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
     )
     first, entry = run.history.snapshots[0], at.books.entered(before.seen, after.seen, heat)
-    missing = entry.imbalance(first, after.seen) - at.books.imbalance(first, before.seen)
+    so_far = at.books.imbalance(first, before.seen)
+    missing = entry.imbalance(first, after.seen) - so_far
     largest = max(entry.largest(first, after.seen), run.history.least_energy)
     tolerated = run.settings.imbalance * largest
-    strain = max(_strain(run, at, trial), abs(missing) / tolerated)
+    # what is missing adds up: the more there is, the less is left for this step
+    left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
+    strain = max(_strain(run, at, trial), abs(missing) / (left * tolerated))
     return Attempt(after, entry, missing, tolerated, strain)
 
 

@@ -51,7 +51,7 @@ class Surface:
 
     def nodal(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
         """Return the nodal forces, compression positive."""
-        return -self.interface.tension(law, gap)
+        return -self.interface.at(law, gap).tension()
 
     def force(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the normal force [output unit], compression positive, with that of the flank."""
@@ -63,7 +63,7 @@ class Surface:
 
     def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the interface energy [output force times h0], zero for surfaces far apart."""
-        nodal = self.unit * self.interface.energy(law, gap)
+        nodal = self.unit * self.interface.at(law, gap).energy()
         return nodal + (self.flank * float(law.energy_beyond(gap[-1])) if self.flank else 0.0)
 
     def edge(self, gap: npt.NDArray, edge_gap: float) -> float:

@@ -1,6 +1,7 @@
 """The Dugdale law: a constant tension over a range, as smooth as a contact needs it."""
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -89,9 +90,9 @@ class Dugdale:
 
         Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
         """
-        end = self.equilibrium_gap * (2 + self.rise / 3 + self.fall / 2)
-        so_far = self._energy_until(np.minimum(checked_gap(gap), end))
-        return self.work_of_adhesion * self.equilibrium_gap * (self._energy_until(end) - so_far)
+        so_far = self._energy_until(np.minimum(checked_gap(gap), self._end))
+        left = self._energy_until_end - so_far
+        return self.work_of_adhesion * self.equilibrium_gap * left
 
     def stiffness(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the derivative of the traction by the gap [Pa/m]; negative where it softens."""
@@ -114,6 +115,15 @@ class Dugdale:
     def reduced(self) -> "Dugdale":
         """Return the dimensionless law: traction in Delta-gamma_0/h_0, gap in h_0."""
         return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
+
+    @property
+    def _end(self) -> float:
+        """The gap beyond which there is nothing [m]."""
+        return self.equilibrium_gap * (2 + self.rise / 3 + self.fall / 2)
+
+    @cached_property
+    def _energy_until_end(self) -> float:
+        return float(self._energy_until(self._end))
 
     def _up(self, gap: npt.ArrayLike) -> tuple[npt.NDArray, npt.NDArray, npt.NDArray]:
         """Return how far a gap is into the wall (not positive), up the rise, beyond it [h_0]."""

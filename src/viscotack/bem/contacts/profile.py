@@ -86,7 +86,7 @@ class ProfileContact(SphereContact):
         On the flank beyond the last node r the gap grows like r^q: the area between two gaps
         differs from that of a sphere by r^(2-q) there, and from that on as the flank has it.
         """
-        q, gap = self.exponent, 1 + self.rise(nodes)
+        q, gap = self.exponent, 1 + np.asarray(self.rise(nodes))
         surface = half_space(nodes, self.tabor, self.law)
         flank = surface.flank * nodes[-1] ** (2 - q) * flank_share(self.law, gap[-1], q)
         return replace(surface, rigid_gap=gap, flank=float(flank))
