@@ -32,8 +32,8 @@ _TOO_LONG = 1.5
 _AIM, _LEAST_CUT, _MOST_CUT = 0.8, 0.7, 0.2
 # A step is at most this much longer than the last.
 _GROWTH = 1.5
-# What is missing in all may be so many times what may go missing in a step; as it comes near, a step
-# is left less, but no less than this part.
+# What is missing in all may be so many times what may go missing in a step; as it comes near, a
+# step is left less, but no less than this part.
 _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
 # The end of a leg has been met within this part of the step that passes it.
 _AT_END = 1e-3

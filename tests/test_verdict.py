@@ -1,0 +1,112 @@
+"""A run is within what it was asked for, says that it is not, or is stopped."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from viscotack import SimulationError, load, save, summary
+from viscotack.app.cli import main
+from viscotack.bem import Settings, estimate, solve
+from viscotack.bem.verdict import judged
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import Apart, Approach, AtDepth
+from viscotack.traction import Exponential
+
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+PRESSED = AtDepth(3.0)
+CASE = ("simulate", "sphere", "--tabor", 1, "--material", "elastic", "--preload", 3, "--rate", 1)
+
+
+def case(material=ELASTIC, start=PRESSED, **options):
+    return Groups(tabor=1.0, material=material, start=start, rate=5.0, **options)
+
+
+def pulled(problem=None, asked=None, **options):
+    """Return an answer at a loose accuracy, as if a better one had been asked for."""
+    settings = Settings.for_accuracy(0.02)
+    if asked is not None:
+        settings = replace(settings, accuracy=asked)
+    return solve(problem or case(), until="pull-off", settings=settings, **options)
+
+
+@pytest.mark.parametrize(("asked", "met"), [(0.02, True), (2e-4, False)])
+def test_a_result_says_whether_the_accuracy_was_met(asked, met, tmp_path, monkeypatch):
+    monkeypatch.setattr(estimate, "_FLOOR", {"force": 0.2, "work": 1.0, "time": 1.0})
+    result = pulled(asked=asked)
+    assert result.accuracy == asked and result.accuracy_met is met
+    assert (result.error_estimate["force"] <= asked) is met
+    assert summary(result)["accuracy_met"] is met
+    save(result, tmp_path / "result.npz")
+    again = load(tmp_path / "result.npz")
+    assert again.accuracy == asked and again.accuracy_met is met
+
+
+def test_without_an_estimate_nobody_knows_whether_it_was_met():
+    assert pulled(estimate_error=False).accuracy_met is None
+
+
+def test_a_force_ten_times_less_accurate_than_asked_is_not_given():
+    result = pulled(asked=1e-6, throw=False)
+    assert result.outcome == "stopped" and result.error_estimate is not None
+    assert "the pull-off force is not resolved: its error is estimated at" in result.status
+    assert "beside 0.0001 % that were asked for; ask for a better accuracy" in result.status
+    assert summary(result)["pull_off_force"] is None
+    with pytest.raises(SimulationError, match="not resolved"):
+        pulled(asked=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("problem", "factor", "stopped"),
+    [
+        (case(), 1.25, True),
+        (case(), 0.85, True),
+        (case(), 1.15, False),
+        (case(SOLID), 0.85, False),
+        (case(SOLID), 20.0, True),
+        (case(start=AtDepth(-1.6)), 0.85, False),
+        (case(start=Apart(8.0), moves=(Approach(5.0, AtDepth(2.0)),)), 3.0, False),
+    ],
+    ids=[
+        "above Derjaguin",
+        "below JKR",
+        "between",
+        "viscoelastic",
+        "above all stiffness",
+        "begun beyond the minimum",
+        "with a history",
+    ],
+)
+def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
+    result = pulled(problem)
+    other = judged(replace(result, force=factor * result.force))
+    assert (other.outcome == "stopped") is stopped
+    assert ("none that theory allows" in other.status) is stopped
+
+
+@pytest.mark.parametrize(
+    ("floor", "code", "said"),
+    [(0.2, 0, ""), (3.0, 0, "more than the 0.002 that were asked for"), (11.0, 1, "")],
+    ids=["met", "missed", "not resolved"],
+)
+def test_the_command_line_says_that_an_accuracy_was_missed(floor, code, said, capsys, monkeypatch):
+    monkeypatch.setattr(estimate, "_FLOOR", {"force": floor, "work": 1.0})
+    try:
+        main([str(word) for word in (*CASE, "--json")])
+        status = 0
+    except SystemExit as stop:
+        status = stop.code or 0
+    out, err = capsys.readouterr()
+    answer = json.loads(out)
+    assert status == code and answer["accuracy_met"] is (floor < 1)
+    assert said in err and (not err) is (not said)
+    assert (answer["pull_off_force"] is None) is ("not resolved" in answer["status"]) is bool(code)
+
+
+def test_a_law_beyond_the_mesh_is_refused():
+    problem = replace(case(), tabor=3.0, traction=Exponential(1.0, 1.0, 1e-3))
+    with pytest.raises(ValueError, match="over the range of the traction law.*got 1075"):
+        solve(problem)
