@@ -17,7 +17,7 @@ from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
 from viscotack.bem.remesh import around_edge
 from viscotack.bem.shut import pressed_shut
-from viscotack.bem.steps import Attempt, arrived, force_change, instant, tried, weighed
+from viscotack.bem.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 from viscotack.result import Event
 
 # The way down from the end of a branch may take so many iterations.
@@ -49,14 +49,30 @@ def shortest_step(run: Run, at: Place, s: Step) -> Place:
 
 
 def followed(run: Run, at: Place) -> Place:
-    """Return the march with the fine nodes around its edge, what that costs being booked."""
-    moved = _on_new_nodes(run, at)
-    books, lost = moved.books, at.seen.stored - moved.seen.stored
-    if abs(moved.seen.force - at.seen.force) > force_change(run, moved):
-        # new nodes tipped it over the brink
-        run.history.events.append(_event(at.seen, moved.seen, lost))
-        return replace(moved, books=replace(books, jumps=books.jumps + lost))
-    return replace(moved, books=replace(books, transfer=books.transfer + lost))
+    """Return the march with the fine nodes around its edge, what that costs being booked.
+
+    Coarse nodes may hold an edge that has run out of the fine ones where nothing else does, behind
+    a soft spring for example. New nodes then tip it over the brink, and it is a jump.
+    """
+    moved, lost = _chased(run, at)
+    now, then = at.seen, moved.seen
+    books = moved.books
+    tipped = abs(then.force - now.force) > force_change(run, moved)
+    if not (tipped or _went_far(run, moved, now)):
+        return replace(moved, books=replace(books, transfer=books.transfer + lost))
+    run.history.events.append(_event(now, then, lost))
+    return replace(
+        moved,
+        state=run.body.at_rest(moved.state),
+        books=replace(books, jumps=books.jumps + lost),
+        dt=at.leg.least_step,
+    )
+
+
+def _went_far(run: Run, moved: Place, now: Snapshot) -> bool:
+    """Return whether new nodes have moved a contact that no rigid machine holds like a jump."""
+    then = moved.seen
+    return (now.edge > 0) != (then.edge > 0) or abs(then.depth - now.depth) > travel(run, moved)
 
 
 def _way_down(run: Run, at: Place, s: Step) -> tuple[Step, Trial]:
@@ -90,22 +106,34 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
         books=replace(attempt.entry, jumps=attempt.entry.jumps + missing),
         dt=at.leg.least_step,
     )
-    left: list[Mesh] = []
-    for _ in range(_MOST_MESHES):
-        edge = after.seen.edge
-        # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
-        if not after.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
-            break
-        left.append(after.mesh)
-        now, after = after.seen, _on_new_nodes(run, after)
-        if after.seen is now:
-            break
-        missing += now.stored - after.seen.stored
-        jumps = after.books.jumps + now.stored - after.seen.stored
-        after = replace(after, books=replace(after.books, jumps=jumps))
+    after, lost = _chased(run, after)
+    missing += lost
+    after = replace(after, books=replace(after.books, jumps=after.books.jumps + lost))
     if missing > least or (at.seen.edge > 0) != (after.seen.edge > 0):
         run.history.events.append(_event(at.seen, after.seen, missing))
     return after
+
+
+def _chased(run: Run, at: Place) -> tuple[Place, float]:
+    """Return the march with fine nodes where its edge comes to rest, and what is lost on the way.
+
+    The work of the drive, which falls with a dead load, is booked; what is lost is not.
+    """
+    left: list[Mesh] = []
+    lost = 0.0
+    for _ in range(_MOST_MESHES):
+        edge = at.seen.edge
+        # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
+        if not at.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
+            break
+        left.append(at.mesh)
+        now, at = at.seen, _on_new_nodes(run, at)
+        if at.seen is now:
+            break
+        work = 0.5 * (now.force + at.seen.force) * (at.seen.drive - now.drive)
+        at = replace(at, books=replace(at.books, drive=at.books.drive + work))
+        lost += work + now.stored - at.seen.stored
+    return at, lost
 
 
 def _on_new_nodes(run: Run, at: Place) -> Place:

@@ -69,7 +69,7 @@ def clipped(run: Run, at: Place) -> Place:
     """Return the march with its next step within the travel it may have, and the end of its leg."""
     leg, dt = at.leg, at.dt
     if leg.rigid and leg.rate:  # a soft spring's drive may run ahead
-        dt = min(dt, _travel(run, at) / abs(leg.rate))
+        dt = min(dt, travel(run, at) / abs(leg.rate))
         if not np.isnan(leg.depth) and at.ahead > 0:
             dt = min(dt, at.ahead / abs(leg.rate))
     if dt > 0.999 * at.left > 0:
@@ -139,7 +139,7 @@ def force_change(run: Run, at: Place) -> float:
     return _looser(at) * run.settings.force_change * (abs(at.seen.force) + 1)
 
 
-def _travel(run: Run, at: Place) -> float:
+def travel(run: Run, at: Place) -> float:
     """Return the largest travel [h0] in a step.
 
     Once apart, tractions change over the gap. Pressed deep, forces change over the depth, which
@@ -159,12 +159,12 @@ def _looser(at: Place) -> float:
 def _strain(run: Run, at: Place, trial: Trial) -> float:
     """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
     now, after = at.seen, trial.after.seen
-    travel = 0.0  # a rigid machine's is bounded before the step is tried
+    went = 0.0  # a rigid machine's travel is bounded before the step is tried
     if not at.leg.rigid:
-        travel = (abs(after.depth - now.depth) / _travel(run, at)) ** 2
+        went = (abs(after.depth - now.depth) / travel(run, at)) ** 2
     return max(
         trial.error / (run.settings.step_error * run.body.contact.span * _looser(at) ** 2),
         (abs(after.force - now.force) / (2 * force_change(run, at))) ** 2,
-        travel,
+        went,
         at.mesh.strain(now.edge, after.edge),
     )
