@@ -370,6 +370,17 @@ def test_surfaces_that_did_not_touch_were_never_in_contact(moves, until):
         pull_off_force(result)
 
 
+def test_no_curve_is_drawn_through_a_change_of_speed():
+    # slower from there on, so that the force is least where the speed changes
+    moves = (Retract(20.0, AtDepth(4.0)),)
+    result = solve(
+        sphere(AtDepth(6.0), *moves, rate=2.0, tabor=2.0), accuracy=0.02, estimate_error=False
+    )
+    lowest = int(np.argmin(result.force))
+    assert result.move[lowest] == 0 and result.move[lowest + 1] == 1
+    assert pull_off_force(result) == -result.force[lowest]
+
+
 def test_a_jump_of_an_earlier_cycle_is_not_how_the_test_ended():
     moves = (Retract(50.0, AtDepth(-30.0)), LoadTo(0.5, 1.0))
     result = run(sphere(AtDepth(2.0), *moves, rate=1.0))

@@ -152,8 +152,9 @@ def solve(
         check_bounds(problem, groups, contact)
 
         def light(marched: Groups | PunchGroups, seen: Progress = None) -> Result:
-            coarser = chosen.coarser(COARSER)
-            return _run(problem, marched, coarser, "pull-off", False, seen)
+            # after moves the force may have a minimum before the pull-off: one end for both then
+            end = until if groups.moves else "pull-off"
+            return _run(problem, marched, chosen.coarser(COARSER), end, False, seen)
 
         try:
             beginning = None if whole else _beginning(groups, contact, chosen, light)

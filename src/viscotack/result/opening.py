@@ -80,7 +80,12 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
     steps, lowest = _valley_of(result, span)
     # The motion is a retraction without a break: travel, minus the depth, orders the steps.
     x = -result.depth[steps]
-    place, smallest = _minimum(x, result.force[steps], lowest)
+    smooth = _smooth(move_numbers(result)[steps], lowest)
+    if smooth is None:
+        place, smallest = float(x[lowest]), float(result.force[steps[lowest]])
+    else:
+        force = result.force[steps][smooth]
+        place, smallest = _minimum(x[smooth], force, lowest - smooth.start)
     edge, time = result.contact_radius[steps], result.time[steps]
     at_edge = _running_out(x, edge, time, place) if isinstance(result.groups, PunchGroups) else None
     if at_edge is None:
@@ -102,11 +107,24 @@ def lost_beside(result: Result, span: Span) -> float:
     """
     steps, i = _valley_of(result, span)
     x, force = -result.depth[steps], result.force[steps]
-    if not 0 < i < len(x) - 1:
+    if not 0 < i < len(x) - 1 or _smooth(move_numbers(result)[steps], i) is None:
         return 0.0
     before, after = np.diff(force[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
     curvature = 2 * (after - before) / (x[i + 1] - x[i - 1])
     return float(force[i] ** 2 / curvature)
+
+
+def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
+    """Return the part of a piece in which one move led on from the lowest step, around it.
+
+    None where that move ended there: the next one may bend the curve.
+    """
+    within = np.flatnonzero(moves == moves[lowest])
+    first, last = int(within[0]), int(within[-1])
+    if lowest == last < len(moves) - 1:
+        return None
+    # a move begins at the last step of the one before
+    return slice(max(first - 1, 0), last + 1)
 
 
 def _valley_of(result: Result, span: Span) -> tuple[npt.NDArray[np.intp], int]:
