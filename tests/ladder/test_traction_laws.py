@@ -345,9 +345,12 @@ def test_a_soft_sphere_pulls_off_as_jkr_has_it_whatever_the_law(law):
 
 
 def test_nodes_are_as_fine_as_the_law_is_steep():
-    assert softening(DUGDALE) == pytest.approx(2 / DUGDALE.fall, rel=1e-3, abs=0)
+    assert softening(DUGDALE) == pytest.approx(2 / DUGDALE.fall, rel=5e-3, abs=0)
+    # however short the law and however sharp its step, which equal samples would miss
+    assert softening(replace(DUGDALE, fall=1e-5)) == pytest.approx(2e5, rel=1e-2)
+    assert softening(replace(EXPONENTIAL, decay=1e-5)) == pytest.approx(1.0, rel=1e-4)
     # of x exp(-x) it is exp(-2) at x = 2, and the strength exp(-1)
-    assert softening(EXPONENTIAL) == pytest.approx(1.0, rel=1e-6, abs=0)
+    assert softening(EXPONENTIAL) == pytest.approx(1.0, rel=1e-4, abs=0)
     spacings = [
         SphereContact(1.0, law.reduced()).grading(Settings.for_accuracy(2e-3), 1.0).spacing
         for law in (LennardJones(WORK, RANGE), DUGDALE)

@@ -26,6 +26,10 @@ EquilibriumGap = Annotated[
 # Strength of the Lennard-Jones law in work of adhesion over equilibrium gap, the measure of ranges.
 _STRENGTH = 16 / (9 * 3**0.5)
 
+# Gaps are halved until the tension changes by less than this part of the strength between them, or
+# so many times: a fall that is steeper still is a step.
+_SMALL_FALL, _HALVINGS = 0.02, 20
+
 
 class Traction(Protocol):
     """What a traction law offers, for the type checker; a dataclass with these names is a law.
@@ -96,5 +100,12 @@ def softening(law: Traction) -> float:
     >>> f"{softening(LennardJones(0.1523, 1.55e-6)):.2f}"
     '1.19'
     """
-    gap = np.linspace(law.edge_gap, 5 * law.edge_gap, 20_001)
-    return -float(np.min(law.stiffness(gap))) * law.work_of_adhesion / law.strength**2
+    reach = effective_range(law) * law.equilibrium_gap
+    gap = law.edge_gap + reach * np.concatenate([[0.0], np.geomspace(1e-4, 50.0, 400)])
+    for _ in range(_HALVINGS):
+        coarse = np.abs(np.diff(law.traction(gap))) > _SMALL_FALL * law.strength
+        if not coarse.any():
+            break
+        gap = np.sort(np.append(gap, (gap[:-1] + gap[1:])[coarse] / 2))
+    fall = max(-np.min(law.stiffness(gap)), -np.min(np.diff(law.traction(gap)) / np.diff(gap)))
+    return float(fall) * law.work_of_adhesion / law.strength**2
