@@ -8,7 +8,7 @@ import pytest
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
 from viscotack.materials import Elastic, Material, StandardSolid
-from viscotack.problem import Groups
+from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
 from viscotack.result.observables import pull_off_force, summary, work_to_pull_off
 from viscotack.traction import Exponential
@@ -63,6 +63,23 @@ def soft_law(start, *moves, **changes):
 def test_a_start_that_presses_harder_than_the_law_repels_is_told_so(start, words):
     with pytest.raises(ValueError, match=words + ".*repels with 29.56 dg0/h0 at most, at a gap of"):
         solve(soft_law(start))
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (AtDepth(100.0), "no relaxed contact exists at a depth of 100 h0 .thickness 3 a0."),
+        (AtForce(50.0), "a mean stress of 50 sigma0 is not reached"),
+    ],
+    ids=str,
+)
+def test_a_punch_that_presses_harder_than_the_law_repels_is_told_so(start, words):
+    law = Exponential(1.0, 1.0, 0.5)
+    groups = PunchGroups(
+        size=20.0, thickness=3.0, cohesion=0.05, material=SOLID, start=start, rate=5.0, traction=law
+    )
+    with pytest.raises(ValueError, match=words + ".*repels with 29.56 dg0/h0 at most"):
+        solve(groups)
 
 
 @pytest.mark.parametrize("start", [AtDepth(3.5), AtForce(40.0), AtRadius(5.0)], ids=str)

@@ -12,7 +12,16 @@ import numpy.typing as npt
 
 from viscotack.bem.equilibrium import GONE
 from viscotack.bem.surface import Surface
+from viscotack.errors import InputError
 from viscotack.traction import Traction
+
+# What stands for a quantity of a contact that is pressed shut: larger than any, finite, and to grow
+# with the depth, so that a search finds its way back.
+NONE = 1e9
+
+
+class Shut(InputError):
+    """Deeper than the traction law can hold the surfaces apart."""
 
 
 def pressed_shut(surface: Surface, gap: npt.NDArray, relaxed: npt.NDArray) -> float:

@@ -23,7 +23,7 @@ from viscotack.bem.equilibrium import descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
-from viscotack.bem.shut import pressed_shut, why
+from viscotack.bem.shut import NONE, Shut, pressed_shut, why
 from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
@@ -45,13 +45,6 @@ _RISING = 0.2 / np.sqrt(2)
 _FIRM = 0.2
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
-# What stands for a quantity where surfaces are pressed shut: larger than any, finite, and growing
-# with the depth, so that the search finds its way back.
-_NONE = 1e9
-
-
-class _Shut(InputError):
-    """Deeper than the traction law can hold the surfaces apart."""
 
 
 @dataclass(frozen=True)
@@ -202,7 +195,7 @@ class SphereContact:
             if not balance.stable:
                 pressure = pressed_shut(surface, gap, gap - surface.rigid_gap + depth)
                 if pressure:
-                    raise _Shut(
+                    raise Shut(
                         f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number "
                         f"{self.tabor:g}): {why(law, pressure)}"
                     )
@@ -228,7 +221,7 @@ class SphereContact:
     ) -> Relaxed:
         """Return the contact at which a quantity that grows with depth has the wanted value."""
         found: dict[float, Relaxed] = {}
-        shut: dict[float, _Shut] = {}
+        shut: dict[float, Shut] = {}
 
         def excess(depth: float) -> float:
             # The mesh shifts edges by about the same at all depths: look where the last was.
@@ -237,9 +230,9 @@ class SphereContact:
             offset = offset if self.tabor > 1 else 0.0
             try:
                 found[depth] = self._at_depth(depth, settings, offset)
-            except _Shut as reason:
+            except Shut as reason:
                 shut[depth] = reason
-                return _NONE + depth
+                return NONE + depth
             return quantity(found[depth]) - wanted
 
         scale = self.travel
