@@ -22,10 +22,10 @@ from viscotack.result.parts import moves_of, waits
 COARSER = 4.0
 # The estimate is the difference to the companion over COARSER - 1, times these margins ...
 _MARGIN = {"force": 3.4, "work": 5.0, "time": 3.4}
-# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 52 random
-# problems with every law (`benchmarks/trust.py --finer`) the estimate then covers the error beside
-# a run ten times as accurate in 96 % (force) and 94 % (work), and is in the median 4 and 5 times as
-# large. Of 11 dead loads (Tabor numbers 0.1 to 8, two solids) it covers that of the time.
+# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 52
+# random problems with every law (`benchmarks/trust.py --finer`) the estimate then covers the error
+# beside a run ten times as accurate in 96 % (force) and 94 % (work), and is in the median 4 and 5
+# times as large. Of 11 dead loads (Tabor numbers 0.1 to 8, two solids) it covers that of the time.
 _FLOOR = {"force": 0.4, "work": 0.7, "time": 1.0}
 # An error of the force moves its minimum, and what the drive does beside it is lost or won: where
 # the work is small, that is its error. Of 80 cases of Tabor numbers up to 1, elastic and
