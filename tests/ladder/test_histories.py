@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
-from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.bem.solver import contact_of
+from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import (
     Apart,
@@ -23,7 +24,7 @@ from viscotack.result.cycles import cycles
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off, pull_off_force, summary
 from viscotack.theory import jkr, lennard_jones, persson_brener
-from viscotack.traction import Dugdale
+from viscotack.traction import Dugdale, Exponential
 
 pytestmark = pytest.mark.march
 
@@ -542,3 +543,30 @@ def test_random_histories_end_well():
 @pytest.mark.slow
 def test_a_hundred_random_histories_end_well():
     assert wander(range(12, 112)) == []
+
+
+def test_a_solid_behind_a_soft_spring_remembers_until_the_spring_lets_go():
+    # the drive goes a thousand times as far as the contact; a slow load on a contact that is wide
+    # beside the range of its law is borne by the relaxed solid, and so until that has crept
+    solid = RelaxationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=260.0, exponent=0.8, tau0=1.0, poisson_ratio=0.0
+    )
+    law = Exponential(1.0, 1.0, 0.0037)
+    soft = Groups(
+        tabor=0.0023,
+        material=solid,
+        start=AtDepth(0.096),
+        rate=12.65,
+        stiffness=0.157,
+        traction=law,
+    )
+    # the same rate of the force by a load that says how long it takes
+    start = contact_of(soft).relaxed(soft.start, Settings.for_accuracy(0.01)).force
+    ramp = LoadTo(-12.0, (12.0 + start) / (soft.rate * soft.stiffness))
+    loaded = replace(soft, rate=None, stiffness=None, moves=(ramp,))
+    forces = [
+        float(-np.min(solve(problem, accuracy=0.01, estimate_error=False).force))
+        for problem in (soft, loaded)
+    ]
+    assert forces[0] == pytest.approx(forces[1], rel=0.01)
+    assert forces[0] == pytest.approx(7.74, rel=0.02)

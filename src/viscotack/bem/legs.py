@@ -21,6 +21,9 @@ from viscotack.protocol import (
 
 # Waiting begins with this part of the time it lasts.
 _FIRST_WAIT = 1e-6
+# A sphere pulls off with no more than this over k, a punch with less; other tips with a few times
+# as much.
+_PULL_OFF = 4 / 3
 # A move of given duration begins with this part of it, at most.
 _FIRST_MOVE = 1e-3
 
@@ -87,15 +90,49 @@ def reached(start: Relaxed, moves: tuple[Move, ...], contact: Contact) -> list[f
     return depths
 
 
-def longest_time(
-    depths: list[float], moves: tuple[Move, ...], rate: float | None, contact: Contact
+def spring_travel(
+    start: Relaxed,
+    depths: list[float],
+    moves: tuple[Move, ...],
+    stiffness: float | None,
+    modulus_ratio: float,
+    contact: Contact,
 ) -> float:
-    """Return how long a test takes, about, and rather more: what its solid must remember."""
+    """Return how far a drive goes to tighten its spring for the largest force, about [h0].
+
+    That is a force that is asked for, that of the pull-off, or that of pressing a solid that
+    answers as stiffly as it can.
+    """
+    if stiffness is None:
+        return 0.0
+    pressed = (max(*depths, 0.0) / contact.travel) ** 1.5
+    forces = [abs(start.force), max(pressed, _PULL_OFF) / modulus_ratio]
+    for move in moves:
+        if isinstance(move, LoadTo):
+            forces.append(abs(move.force))
+        elif isinstance(move, Approach | Retract) and isinstance(move.to, AtForce):
+            forces.append(abs(move.to.force))
+    return max(forces) / stiffness
+
+
+def longest_time(
+    depths: list[float],
+    moves: tuple[Move, ...],
+    rate: float | None,
+    contact: Contact,
+    spring: float = 0.0,
+) -> float:
+    """Return how long a test takes, about, and rather more: what its solid must remember.
+
+    Behind a spring the drive goes farther than the contact, by the travel of the `spring`.
+    """
     total = 0.0
     for before, after, move in zip(depths[:-1], depths[1:], moves, strict=True):
         total += lasting(before, after, move, contact)
+        if isinstance(move, Approach | Retract):
+            total += 2 * spring / move.speed
     if rate is not None:
-        total += (max(depths[-1], 0.0) + 5 * contact.travel) / rate
+        total += (max(depths[-1], 0.0) + 5 * contact.travel + 2 * spring) / rate
     return total
 
 

@@ -18,7 +18,7 @@ from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.estimate import COARSER, estimated
-from viscotack.bem.legs import legs_of, longest_time, reached
+from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
@@ -222,7 +222,9 @@ def _run(
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
     depths = reached(start, groups.moves, contact)
     check_clock(legs, groups.moves, depths, contact)
-    longest = longest_time(depths, groups.moves, groups.rate, contact)
+    k = groups.material.modulus_ratio
+    spring = spring_travel(start, depths, groups.moves, groups.stiffness, k, contact)
+    longest = longest_time(depths, groups.moves, groups.rate, contact, spring)
     modes = _modes(groups.material, legs, longest, settings)
     grading = contact.grading(settings, max(depths))
     if not modes.weights:
