@@ -259,7 +259,7 @@ def test_a_work_that_is_not_known_to_half_of_it_is_not_told(error):
         assert answer["work_to_pull_off_note"] is None
     else:
         assert answer["work_to_pull_off"] is None
-        assert "is not known to half of it; start deeper" in answer["work_to_pull_off_note"]
+        assert "is not known to half of it, as where" in answer["work_to_pull_off_note"]
         assert answer["pull_off_force"] == pytest.approx(1.0, rel=1e-3)
 
 

@@ -178,7 +178,7 @@ def test_the_stated_error_covers_that_of_a_small_work(tabor, depth, material):
 )
 def test_a_work_that_is_lost_in_its_error_is_not_told(tabor, depth):
     result = solve(case(AtDepth(depth), tabor, material=ELASTIC), until="pull-off")
-    with pytest.raises(ValueError, match="begins at the force minimum or next to it.*start deep"):
+    with pytest.raises(ValueError, match="not known to half of it, as where.*start deep"):
         work_to_pull_off(result)
     answer = summary(result)
     assert answer["work_to_pull_off"] is None

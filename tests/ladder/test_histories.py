@@ -22,7 +22,13 @@ from viscotack.protocol import (
 )
 from viscotack.result.cycles import cycles
 from viscotack.result.dead_load import time_to_detachment
-from viscotack.result.observables import pull_off, pull_off_force, summary
+from viscotack.result.observables import (
+    pull_off,
+    pull_off_force,
+    summary,
+    work_of_separation,
+    work_to_pull_off,
+)
 from viscotack.theory import jkr, lennard_jones, persson_brener
 from viscotack.traction import Dugdale, Exponential
 
@@ -570,3 +576,44 @@ def test_a_solid_behind_a_soft_spring_remembers_until_the_spring_lets_go():
     ]
     assert forces[0] == pytest.approx(forces[1], rel=0.01)
     assert forces[0] == pytest.approx(7.74, rel=0.02)
+
+
+def test_a_jump_that_new_nodes_tip_adds_no_work():
+    result = solve(
+        sphere(AtDepth(3.0), rate=1.0, material=ELASTIC, tabor=7.0, stiffness=0.01),
+        accuracy=0.01,
+        estimate_error=False,
+    )
+    assert kinds(result) == ["jump out of contact"]
+    # the spring goes on for a hundred h0, and what it does there is lost
+    assert work_to_pull_off(result) < work_of_separation(result) < 1.2 * work_to_pull_off(result)
+
+
+def test_a_force_that_is_borne_on_is_no_pull_off_whatever_snaps():
+    hang = (LoadTo(-0.9, 1.0), Dwell(10.0, hold="force"))
+    result = solve(
+        sphere(AtDepth(2.3), *hang, material=ELASTIC, tabor=5.0), accuracy=0.02, throw=False
+    )
+    assert result.outcome == "still in contact"
+    with pytest.raises(ValueError, match="no pull-off"):
+        pull_off_force(result)
+
+
+def test_what_a_dead_load_that_lets_go_leaves_undone_is_said():
+    hang = (LoadTo(-1.3, 0.01), Dwell(1000.0, hold="force"), Approach(5.0, AtDepth(4.0)))
+    result = solve(sphere(AtDepth(2.0), *hang, rate=5.0), accuracy=0.02)
+    assert result.outcome == "jumped"
+    assert "falls on: 2 parts of the test after it not made" in result.status
+    assert result.error_estimate["time"] > 0
+
+
+def test_nothing_jumps_where_a_deep_elastic_contact_waits():
+    result = solve(
+        sphere(AtDepth(1e5), Dwell(1.0), material=ELASTIC, tabor=3.0), accuracy=0.02, time_limit=20
+    )
+    assert result.events == () and result.outcome == "still in contact"
+
+
+def test_a_start_that_its_spring_does_not_hold_is_refused():
+    with pytest.raises(ValueError, match="no spring of stiffness 0.01 holds .* lets go at once"):
+        solve(sphere(AtDepth(-4.0), rate=1.0, material=ELASTIC, tabor=3.0, stiffness=0.01))

@@ -98,7 +98,8 @@ class History:
 
     `legs` has the number of the leg that led to each snapshot, `least_energy` what the imbalance of
     the energies is measured by at least [output force times h0], `pressed` the pressure [dg/h0]
-    that no law withstood, where the outcome is "shut", `reason` what the time limit says.
+    that no law withstood, where the outcome is "shut", `reason` what the time limit says,
+    `left` how many legs a dead load that has let go left.
     """
 
     least_energy: float
@@ -110,6 +111,7 @@ class History:
     outcome: str = ""
     pressed: float = 0.0
     reason: str = ""
+    left: int = 0
     iterations: int = 0
     rejected: int = 0
     meshes: int = 1

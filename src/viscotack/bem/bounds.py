@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from viscotack.bem.contacts.contact import Contact
+import numpy as np
+
+from viscotack.bem.contacts.contact import Contact, Relaxed
+from viscotack.bem.equilibrium import descend
 from viscotack.bem.legs import lasting
-from viscotack.bem.machine import Leg
+from viscotack.bem.machine import Hold, Leg
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.problem import Case, Groups, Problem, PunchGroups
@@ -40,6 +43,8 @@ _SHORTEST, _LONGEST = 1e-6, 1e6
 # Radius [that of the outputs] of a contact of revolution; depth [h0] of a punch, which has none.
 LARGEST_RADIUS = 1000.0
 _DEEPEST_PUNCH = 1e7
+# A contact that is held where it is moves by no more than this part of its travel.
+_MOVED = 1e-2
 # So many first steps of a leg may have gone before it: the clock has 16 digits.
 _TICKS = 1e14
 
@@ -72,6 +77,24 @@ def check_bounds(problem: Case, groups: Groups | PunchGroups, contact: Contact) 
                     f"a punch, got {value:g}"
                 )
     _check_depths(groups, contact)
+
+
+def check_held(start: Relaxed, contact: Contact, leg: Leg) -> None:
+    """Refuse a start that exists, but not behind the spring of the machine."""
+    if leg.rigid or leg.dead_load or not start.edge > 0:
+        return
+    surface, law, stiffness = start.surface, contact.law, leg.stiffness / start.surface.unit
+    force = float(np.sum(surface.nodal(law, start.gap)))
+    hold = Hold(stiffness, load=stiffness * start.depth + force)
+    balance = descend(surface, law, surface.rigid_gap, 1.0, start.gap, hold)
+    moved = abs(balance.depth - start.depth)
+    if balance.stable and moved <= _MOVED * contact.travel:
+        return
+    raise InputError(
+        f"no spring of stiffness {leg.stiffness:g} holds the relaxed contact at a depth of "
+        f"{start.depth:.4g} h0, where the force is {start.force:.4g}: it lets go at once; start "
+        "deeper, or with a stiffer machine"
+    )
 
 
 def check_clock(

@@ -16,7 +16,7 @@ from viscotack.bem.preload import Beginning
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
 from viscotack.result.observables import pull_off_force, work_lost, work_to_pull_off
-from viscotack.result.parts import moves_of, waits
+from viscotack.result.parts import move_numbers, moves_of, waits
 
 # The companion of a run is less accurate by this factor.
 COARSER = 4.0
@@ -73,6 +73,7 @@ def estimated(
 
 def _measures(result: Result) -> dict[str, float]:
     """Return what errors are stated of: the pull-off, or the time for which a load was borne."""
-    if result.groups.rate is None and waits(moves_of(result)[-1], "force"):
+    last = int(move_numbers(result)[-1])
+    if waits(moves_of(result)[last], "force"):
         return {"time": time_held(result)}
     return {"force": pull_off_force(result), "work": work_to_pull_off(result)}

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from viscotack.bem.body import Trial
 from viscotack.bem.books import Snapshot
 from viscotack.bem.memory import Step, step
@@ -60,7 +62,9 @@ def followed(run: Run, at: Place) -> Place:
     tipped = abs(then.force - now.force) > force_change(run, moved)
     if not (tipped or _went_far(run, moved, now)):
         return replace(moved, books=replace(books, transfer=books.transfer + lost))
-    run.history.events.append(_event(now, then, lost))
+    # it lies behind the step that is kept, and before the next
+    behind = replace(then, time=float(np.nextafter(now.time, np.inf)))
+    run.history.events.append(_event(now, behind, lost))
     return replace(
         moved,
         state=run.body.at_rest(moved.state),
@@ -162,6 +166,7 @@ def _let_go(run: Run, now: Snapshot, time: float) -> None:
     gone = replace(now, time=time, edge=float("nan"))
     run.history.events.append(_event(now, gone, now.elastic))
     run.history.outcome = "detached"
+    run.history.left = len(run.legs) - 1 - run.history.legs[-1]
 
 
 def _event(before: Snapshot, after: Snapshot, lost: float) -> Event:

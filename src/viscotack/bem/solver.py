@@ -10,7 +10,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem.books import History
-from viscotack.bem.bounds import check_bounds, check_clock
+from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, limited, met
 from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.contacts.profile import ProfileContact
@@ -220,6 +220,7 @@ def _run(
     contact = contact_of(groups)
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
+    check_held(start, contact, legs[0])
     depths = reached(start, groups.moves, contact)
     check_clock(legs, groups.moves, depths, contact)
     k = groups.material.modulus_ratio

@@ -35,6 +35,8 @@ _GROWTH = 1.5
 # What is missing in all may be so many times what may go missing in a step; as it comes near, a
 # step is left less, but no less than this part.
 _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
+# Round-off in the energies, of themselves.
+_ROUND_OFF = 1e-11
 # The end of a leg has been met within this part of the step that passes it.
 _AT_END = 1e-3
 
@@ -104,7 +106,8 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     so_far = at.books.imbalance(first, before.seen)
     missing = entry.imbalance(first, after.seen) - so_far
     largest = max(entry.largest(first, after.seen), run.history.least_energy)
-    tolerated = run.settings.imbalance * largest
+    stored = abs(after.seen.elastic) + abs(after.seen.interface) + abs(after.seen.spring)
+    tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * stored)
     # what is missing adds up: the more there is, the less is left for this step
     left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
     strain = max(_strain(run, at, trial), abs(missing) / (left * tolerated))

@@ -119,7 +119,11 @@ def status_of(history: History, residual: float, law: Traction) -> str:
     jumps = [event for event in history.events if event.kind == "jump out of contact"]
     out = [event for event in jumps if event.time >= touched]
     if out:
-        return f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
+        words = f"{Outcome.JUMPED} at depth {out[-1].depth:.4g} h0 out of contact"
+        if history.left:
+            parts = "a part" if history.left == 1 else f"{history.left} parts"
+            words += f" under a dead load, which falls on: {parts} of the test after it not made"
+        return words
     return str(Outcome.DETACHED)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
-from viscotack.problem.revolution import LARGEST_CONTACT
+from viscotack.problem.revolution import LARGEST_CONTACT, SIMULATED_TABOR
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import (
     CrackLaw,
@@ -69,6 +69,8 @@ _OTHER_LAW = {
 }
 # Crack speed beyond which linear theory fell short of silicone experiments [m/s].
 LINEAR_SPEED = 100e-6
+# Up to this effective Tabor number a simulation takes about a second.
+_SOON = 15.0
 _SMALL_STRAIN = 0.2
 _TIP = np.pi ** (1 / 3)
 # The search for a threshold: its smallest radius, how many simulations it takes,
@@ -231,9 +233,15 @@ def advise(problem: Problem | Groups) -> Advice:
     )
     estimates = (
         *(_of_law(e, asked) for e in estimates),
-        Estimate("simulation", None, 2e-3, True, "solve covers all of this, in about a second"),
+        _simulated(asked),
     )
-    good = [e for e in estimates if e.applies and e.error is not None and e.error <= 0.05]
+    some = sorted((e for e in estimates if e.applies and e.error is not None), key=_error)
+    good = [e for e in estimates if e in some and _error(e) <= 0.05] or some
+    if not good:
+        raise InputError(
+            "no theory here holds for this contact, and solve does not take it: its effective "
+            f"Tabor number is {asked.effective_tabor:g}"
+        )
     scales = problem.scales() if isinstance(problem, Problem) else None
     speed = strain = None
     if scales is not None and isinstance(problem, Problem) and isinstance(problem.geometry, Sphere):
@@ -414,6 +422,19 @@ def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
     if groups.modulus_ratio >= 1:
         return None
     return unloading.retraction(depth, _crack(groups), speed=_speed(groups), **_UNIT)
+
+
+def _error(estimate: Estimate) -> float:
+    return np.inf if estimate.error is None else estimate.error
+
+
+def _simulated(groups: Groups) -> Estimate:
+    low, high = SIMULATED_TABOR
+    if not low <= groups.effective_tabor <= high:
+        note = f"solve takes effective Tabor numbers from {low:g} to {high:g}"
+        return Estimate("simulation", None, 2e-3, False, note)
+    soon = "in about a second" if groups.effective_tabor < _SOON else "in a minute or so"
+    return Estimate("simulation", None, 2e-3, True, f"solve covers all of this, {soon}")
 
 
 def _of_law(estimate: Estimate, groups: Groups) -> Estimate:

@@ -96,8 +96,9 @@ def work_to_pull_off(result: Result) -> float:
     error = (result.error_estimate or {}).get("work", 0.0)
     if error > _MEANINGLESS:
         raise InputError(
-            f"the retraction begins at the force minimum or next to it, and the work to it, "
-            f"{work:.2g}, is not known to half of it; start deeper, or ask for a better accuracy"
+            f"the work to pull-off, {work:.2g}, is not known to half of it, as where the "
+            "retraction begins at the force minimum or next to it; ask for a better accuracy, or "
+            "start deeper"
         )
     return work
 

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
+from viscotack.protocol import Dwell, LoadTo
 
 from . import Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
@@ -209,6 +210,9 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
     for end in [*ends, span.last]:
         over = end == len(depth) - 1
         snaps = result.outcome is Outcome.JUMPED if over else end < span.last and bool(jumped[end])
+        if snaps and not over and isinstance(moves[number[end]], LoadTo | Dwell):
+            # where the machine sets the force, one that is borne on was no pull-off
+            snaps = bool(np.isnan(result.contact_radius[end + 1]))
         held = end > begin and waits(moves[number[end]], "force")
         pieces.append(_Piece(np.arange(begin, end + 1), starts, snaps, held))
         if not over and end < span.last:

@@ -204,7 +204,7 @@ def _not_met(result: Result) -> str:
     stated = result.error_estimate or {}
     name, error = next((n, stated[n]) for n in ("force", "time") if n in stated)
     return (
-        f"viscotack: the error of the {name} is estimated at {error:.1e}, more than the "
+        f"viscotack: the error of the {name} is estimated at {error:.2e}, more than the "
         f"{result.accuracy:g} that were asked for; ask for a better accuracy"
     )
 
