@@ -15,10 +15,6 @@ from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
 from viscotack.traction import Traction
 
-# What stands for a quantity of a contact that is pressed shut: larger than any, finite, and to grow
-# with the depth, so that a search finds its way back.
-NONE = 1e9
-
 
 class Shut(InputError):
     """Deeper than the traction law can hold the surfaces apart."""
@@ -50,3 +46,11 @@ def why(law: Traction, pressure: float) -> str:
         f"{most:.4g} dg0/h0 at most, at a gap of 0, where it ends; press less, or take a law that "
         "repels more strongly, such as lennard-jones or one of shorter range"
     )
+
+
+def check_open(surface: Surface, law: Traction, gap: npt.NDArray, depth: float, of: str) -> None:
+    """Refuse a depth at which a search for a relaxed contact has pressed the surfaces shut."""
+    if pressure := pressed_shut(surface, gap, gap - surface.rigid_gap + depth):
+        raise Shut(
+            f"no relaxed contact exists at a depth of {depth:g} h0 ({of}): {why(law, pressure)}"
+        )

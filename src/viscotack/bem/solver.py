@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 from viscotack.bem.books import History
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, limited, met
-from viscotack.bem.contacts.contact import Contact
+from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
@@ -203,7 +203,7 @@ def has_start(problem: Case) -> bool:
     with threadpool_limits(limits=1, user_api="blas"):
         try:
             groups = problem.groups()
-            contact_of(groups).relaxed(groups.start, Settings.for_accuracy(LOOSEST_ACCURACY))
+            _begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
         except InputError:
             return False
     return True
@@ -218,9 +218,7 @@ def _run(
     progress: Progress,
 ) -> Result:
     contact = contact_of(groups)
-    start = contact.relaxed(groups.start, settings)
-    legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
-    check_held(start, contact, legs[0])
+    start, legs = _begun(groups, contact, settings)
     depths = reached(start, groups.moves, contact)
     check_clock(legs, groups.moves, depths, contact)
     k = groups.material.modulus_ratio
@@ -242,6 +240,16 @@ def _run(
         progress=progress,
     )
     return _result(problem, groups, contact, history, modes, fields)
+
+
+def _begun(
+    groups: Groups | PunchGroups, contact: Contact, settings: Settings
+) -> tuple[Relaxed, tuple[Leg, ...]]:
+    """Return the relaxed state in which a test begins, and its legs: the first one holds it."""
+    start = contact.relaxed(groups.start, settings)
+    legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
+    check_held(start, contact, legs[0])
+    return start, legs
 
 
 def contact_of(groups: Groups | PunchGroups) -> Contact:

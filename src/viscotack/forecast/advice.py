@@ -235,8 +235,8 @@ def advise(problem: Problem | Groups) -> Advice:
         *(_of_law(e, asked) for e in estimates),
         _simulated(asked),
     )
-    some = sorted((e for e in estimates if e.applies and e.error is not None), key=_error)
-    good = [e for e in estimates if e in some and _error(e) <= 0.05] or some
+    known = [e for e in estimates if e.applies and e.error is not None]
+    good = [e for e in known if _error(e) <= 0.05] or sorted(known, key=_error)
     if not good:
         raise InputError(
             "no theory here holds for this contact, and solve does not take it: its effective "

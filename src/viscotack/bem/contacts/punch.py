@@ -22,7 +22,7 @@ from viscotack.bem.interface import interface
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading, check_count
 from viscotack.bem.settings import Settings
-from viscotack.bem.shut import NONE, Shut, pressed_shut, why
+from viscotack.bem.shut import check_open
 from viscotack.bem.surface import Surface, stiffness
 from viscotack.errors import InputError
 from viscotack.geometry import Base
@@ -134,31 +134,22 @@ class PunchContact:
 
         resolved = self.size - self.grading(settings, 0.0).half_width
 
-        shut: dict[float, Shut] = {}
-
         def excess(depth: float) -> float:
-            try:
-                found = self._at_depth(depth, settings)
-            except Shut as reason:
-                shut[depth] = reason
-                return NONE + depth
+            found = self._at_depth(depth, settings)
             if found.edge < resolved:
                 # by a force a crack so long runs on; only coarse nodes would hold it
                 raise InputError("the punch has let go")
             return found.force - start.force
 
-        tolerance = _DEPTH_TOLERANCE * self.travel
-        depth = depth_where(excess, 0.0, self.travel, tolerance)
+        tolerance, wanted = (
+            _DEPTH_TOLERANCE * self.travel,
+            f"a mean stress of {start.force:g} sigma0",
+        )
+        depth = depth_where(excess, 0.0, self.travel, tolerance, wanted)
         if depth is None:
             raise InputError(
-                f"no relaxed contact bears a mean stress of {start.force:g} sigma0: the punch lets "
-                "go before; start with more"
+                f"no relaxed contact bears {wanted}: the punch lets go before; start with more"
             )
-        for deeper, reason in shut.items():
-            if deeper - depth < 2 * tolerance:  # the search ran into it
-                raise InputError(
-                    f"a mean stress of {start.force:g} sigma0 is not reached: {reason}"
-                ) from reason
         return self._at_depth(depth, settings)
 
     def deepest(self, start: Start) -> float:
@@ -176,12 +167,8 @@ class PunchContact:
             raise InputError(f"surfaces {1 - depth:g} h0 apart are in contact; start farther away")
         balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
         if not balance.stable:
-            relaxed = balance.gap - surface.rigid_gap + depth
-            if pressure := pressed_shut(surface, balance.gap, relaxed):
-                raise Shut(
-                    f"no relaxed contact exists at a depth of {depth:g} h0 (thickness "
-                    f"{self.thickness:g} a0): {why(self.law, pressure)}"
-                )
+            of = f"thickness {self.thickness:g} a0"
+            check_open(surface, self.law, balance.gap, depth, of)
         edge = surface.edge(balance.gap, self.law.edge_gap)
         if not balance.stable or np.isnan(edge) != apart:
             raise InputError(

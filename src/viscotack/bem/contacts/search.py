@@ -11,6 +11,7 @@ from collections.abc import Callable
 from numpy import inf
 from scipy.optimize import brentq
 
+from viscotack.bem.shut import Shut
 from viscotack.errors import InputError
 
 # The first step away from a guess, and how much longer each of the next is.
@@ -21,28 +22,42 @@ _MOST_STEPS = 40
 _GOLDEN = 0.381966
 # A least is known when its neighbours have no more than this, in the unit of the excess.
 _FLAT = 1e-7
+# What stands for an excess where the surfaces are pressed shut: larger than any, finite, and
+# growing with the depth, so that the search finds its way back.
+_SHUT = 1e9
 
 
 def depth_where(
-    excess: Callable[[float], float], guess: float, scale: float, tolerance: float
+    excess: Callable[[float], float], guess: float, scale: float, tolerance: float, wanted: str
 ) -> float | None:
     """Return the depth above the least of an excess at which it is zero, None where none is.
 
     Parameters
     ----------
     excess : callable
-        How much more than wanted there is at a depth; `InputError` where there is no contact.
+        How much more than wanted there is at a depth; `Shut` where the surfaces are pressed shut,
+        another `InputError` where there is no contact.
     guess : float
         Where to begin.
     scale, tolerance : float
         The length over which the excess changes as a whole, and that within which depths are found.
+    wanted : str
+        What is looked for, in words.
+
+    Raises
+    ------
+    ValueError
+        If the surfaces are pressed shut before.
     """
     found: dict[float, float] = {}
+    shut: dict[float, Shut] = {}
 
     def seen(depth: float) -> float:
         if depth not in found:
             try:
                 found[depth] = float(excess(depth))
+            except Shut as reason:
+                shut[depth], found[depth] = reason, _SHUT + depth
             except InputError:
                 found[depth] = inf
         return found[depth]
@@ -55,6 +70,9 @@ def depth_where(
         known = [depth for depth in found if depth > high]
         low, high, step = high, min(known, default=high + step), _LONGER * step
     root: float = brentq(seen, low, high, xtol=tolerance, maxiter=100)  # type: ignore[assignment]
+    for deeper, reason in shut.items():
+        if deeper - root < 2 * tolerance:  # the search ran into it
+            raise InputError(f"{wanted} is not reached: {reason}") from reason
     return root
 
 

@@ -23,7 +23,7 @@ from viscotack.bem.equilibrium import descend
 from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
-from viscotack.bem.shut import NONE, Shut, pressed_shut, why
+from viscotack.bem.shut import check_open
 from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface
 from viscotack.errors import InputError
@@ -193,12 +193,7 @@ class SphereContact:
             balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
             gap = balance.gap
             if not balance.stable:
-                pressure = pressed_shut(surface, gap, gap - surface.rigid_gap + depth)
-                if pressure:
-                    raise Shut(
-                        f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number "
-                        f"{self.tabor:g}): {why(law, pressure)}"
-                    )
+                check_open(surface, law, gap, depth, f"Tabor number {self.tabor:g}")
                 break
             found = surface.edge(gap, law.edge_gap)
             if np.isnan(found):
@@ -221,31 +216,21 @@ class SphereContact:
     ) -> Relaxed:
         """Return the contact at which a quantity that grows with depth has the wanted value."""
         found: dict[float, Relaxed] = {}
-        shut: dict[float, Shut] = {}
 
         def excess(depth: float) -> float:
             # The mesh shifts edges by about the same at all depths: look where the last was.
             last = list(found.values())[-1:]
             offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
             offset = offset if self.tabor > 1 else 0.0
-            try:
-                found[depth] = self._at_depth(depth, settings, offset)
-            except Shut as reason:
-                shut[depth] = reason
-                return NONE + depth
+            found[depth] = self._at_depth(depth, settings, offset)
             return quantity(found[depth]) - wanted
 
-        scale = self.travel
-        depth = depth_where(excess, first_depth, scale, _DEPTH_TOLERANCE * scale)
+        scale, what = self.travel, f"a {name} of {wanted:g} (dimensionless)"
+        depth = depth_where(excess, first_depth, scale, _DEPTH_TOLERANCE * scale, what)
         if depth is None:
             least = min((quantity(contact) for contact in found.values()), default=np.nan)
             raise InputError(
-                f"no relaxed contact has a {name} of {wanted:g} (dimensionless); the least "
-                f"there is, at the end of the branch in contact, is {least:.4g}"
+                f"no relaxed contact has {what}; the least there is, at the end of the branch in "
+                f"contact, is {least:.4g}"
             )
-        for deeper, reason in shut.items():
-            if deeper - depth < 2 * _DEPTH_TOLERANCE * scale:  # the search ran into it
-                raise InputError(
-                    f"a {name} of {wanted:g} (dimensionless) is not reached: {reason}"
-                ) from reason
         return found[depth]
