@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.app.cli import main
+from command_line import exit_status
 from viscotack.protocol import Dwell
 from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
 from viscotack.traction import effective_range
@@ -328,16 +328,10 @@ def test_a_threshold_needs_a_slope():
 # The command line -----------------------------------------------------------------------------
 
 
-def call(arguments):
-    with pytest.raises(SystemExit) as caught:
-        main([str(a) for a in arguments])
-    return caught.value.code or 0
-
-
 def test_advise_prints_sentences_or_one_object(capsys):
-    assert call(["advise", *POWER_LAW, "--rate", "1"]) == 0
+    assert exit_status(["advise", *POWER_LAW, "--rate", "1"]) == 0
     assert "Use: unloading." in capsys.readouterr().out
-    assert call(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
+    assert exit_status(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["use"] == "unloading" and len(found["estimates"]) == 6
     assert found["sentences"][-1] == "Use: unloading."
@@ -366,29 +360,29 @@ def test_advise_reads_a_case_and_refuses_flags_beside_it(tmp_path, capsys):
         """,
         encoding="utf-8",
     )
-    assert call(["advise", file, "--json"]) == 0
+    assert exit_status(["advise", file, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     expected = vt.advise(silicone(100e-6))
     assert found["strain"] == pytest.approx(expected.strain, rel=1e-9, abs=0)
-    assert call(["advise", file, "--tabor", "1"]) == 2
+    assert exit_status(["advise", file, "--tabor", "1"]) == 2
     assert "leave out --tabor" in capsys.readouterr().err
-    assert call(["advise"]) == 2
+    assert exit_status(["advise"]) == 2
     assert "missing" in capsys.readouterr().err
 
 
 def test_theory_jkr_and_maugis_say_what_the_functions_say(tmp_path, capsys):
     case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
     picture = tmp_path / "jkr.png"
-    assert call(["theory", "jkr", *JKR, "--json", "--plot", picture]) == 0
+    assert exit_status(["theory", "jkr", *JKR, "--json", "--plot", picture]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["pull_off_force_N"] == -jkr.pull_off(**case).force
     assert picture.stat().st_size > 1000
-    assert call(["theory", "maugis", *JKR, "--strength", "0.1 MPa", "--json"]) == 0
+    assert exit_status(["theory", "maugis", *JKR, "--strength", "0.1 MPa", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["pull_off_force_N"] == pytest.approx(
         maugis.pull_off_force(**case, strength=1e5), rel=1e-12, abs=0
     )
-    assert call(["theory", "jkr", *JKR]) == 0
+    assert exit_status(["theory", "jkr", *JKR]) == 0
     assert "pull_off_force_N" in capsys.readouterr().out
 
 
@@ -400,7 +394,7 @@ def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, cap
     end, load = maugis.pull_off(**case), 1.5 * np.pi * R * w
     length = (np.pi * R**2 * w / E) ** (1 / 3)
     picture = tmp_path / "maugis.png"
-    assert call(["theory", "maugis", "--tabor", tabor, "--json", "--plot", picture]) == 0
+    assert exit_status(["theory", "maugis", "--tabor", tabor, "--json", "--plot", picture]) == 0
     found = json.loads(capsys.readouterr().out)
     expected = {
         "maugis_parameter": maugis.parameter_from_tabor(tabor),
@@ -418,10 +412,10 @@ def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, cap
 def test_theory_of_the_crack_prints_a_table_or_the_wanted_speeds(name, tmp_path, capsys):
     law = ["theory", name, "--modulus-ratio", "0.1", "--exponent", "0.6"]
     picture = tmp_path / "crack.svg"
-    assert call([*law, "--plot", picture]) == 0
+    assert exit_status([*law, "--plot", picture]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 42
     assert picture.exists()
-    assert call([*law, "--speed", "1", "--speed", "10", "--json"]) == 0
+    assert exit_status([*law, "--speed", "1", "--speed", "10", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["speed"] == [1, 10]
     if name == "persson-brener":
@@ -445,7 +439,7 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
     file, picture = tmp_path / "dma.csv", tmp_path / "crack.png"
     file.write_text(MODULUS)
     law = ["theory", name, "--modulus-table", file, "--rubbery-modulus", "1 MPa"]
-    assert call([*law, "--speed", "2", "--speed", "20", "--json"]) == 0
+    assert exit_status([*law, "--speed", "2", "--speed", "20", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     modulus = modulus_file.read_modulus(file, rubbery_modulus=1e6)
     low, high = function([2.0, 20.0], modulus=modulus)
@@ -454,7 +448,7 @@ def test_theory_of_the_crack_takes_a_measured_modulus(name, function, tmp_path, 
         "amplification_low": pytest.approx(low, rel=1e-12, abs=0),
         "amplification_high": pytest.approx(high, rel=1e-12, abs=0),
     }
-    assert call([*law, "--plot", picture]) == 0
+    assert exit_status([*law, "--plot", picture]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 42
     assert picture.stat().st_size > 1000
 
@@ -473,7 +467,7 @@ def test_a_measured_modulus_is_refused_in_words(tmp_path, capsys):
         (["--modulus-table", tmp_path, *plateau], "is a folder"),
         (["--modulus-table", tmp_path / "none.csv", *plateau], "there is no file"),
     ):
-        assert call(["theory", "persson-brener", *arguments]) == 2
+        assert exit_status(["theory", "persson-brener", *arguments]) == 2
         out, err = capsys.readouterr()
         assert words in err and out == ""
 
@@ -488,6 +482,6 @@ def test_theory_refuses_what_is_impossible(tmp_path, capsys):
         (["theory", "persson-brener", "--material", "elastic"], "amplification of 1"),
         (["theory", "jkr", *JKR, "--plot", tmp_path / "none" / "a.png"], "no folder"),
     ):
-        assert call(arguments) == 2
+        assert exit_status(arguments) == 2
         out, err = capsys.readouterr()
         assert words in err and out == ""

@@ -5,7 +5,7 @@ from time import perf_counter
 
 import pytest
 
-from viscotack.app.cli import main
+from command_line import exit_status
 from viscotack.bem import Settings, solve
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.jumps import _MOST_MESHES
@@ -56,14 +56,8 @@ moves = ["approach 10 um/s to 1 um", "retract 10 um/s to -20 um"]
 """
 
 
-def call(arguments):
-    with pytest.raises(SystemExit) as end:
-        main(arguments)
-    return end.value.code
-
-
 def refused(capsys, *arguments):
-    assert call([*WORDS, *arguments]) == 2
+    assert exit_status([*WORDS, *arguments]) == 2
     return capsys.readouterr().err
 
 
@@ -209,7 +203,7 @@ def test_in_si_the_number_is_said_as_it_was_given(tmp_path):
 )
 def test_a_tiny_tabor_number_is_not_taken_for_a_large_preload(tabor, said, capsys):
     flags = [tabor if word == "3" else word for word in WORDS]
-    assert call([*flags, "--rate", "1"]) == 2
+    assert exit_status([*flags, "--rate", "1"]) == 2
     assert said in capsys.readouterr().err
 
 

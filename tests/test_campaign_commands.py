@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from campaign_work import InlineCrew, employ, picky, plan_of
-from viscotack.app.cli import main
+from command_line import exit_status
 from viscotack.app.cli.campaign import _progress_words
 from viscotack.campaign import Store, run
 from viscotack.campaign.running import Progress
@@ -30,9 +30,7 @@ def cases(tmp_path):
 
 def call(*arguments):
     """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main(["campaign", *map(str, arguments)])
-    return caught.value.code or 0
+    return exit_status(["campaign", *arguments])
 
 
 def wrong(capsys, *arguments):

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import viscotack
+from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
 from viscotack.app import questions
-from viscotack.app.cli import main
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -40,16 +40,9 @@ def fake(monkeypatch):
     return asked
 
 
-def call(arguments):
-    """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main([str(a) for a in arguments])
-    return caught.value.code or 0
-
-
 def wrong(arguments, capsys):
     """Return the message of a refused command: one paragraph, nothing on standard output."""
-    assert call(arguments) == 2
+    assert exit_status(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert "Traceback" not in err
@@ -57,7 +50,7 @@ def wrong(arguments, capsys):
 
 
 def test_the_five_numbers_are_the_power_law(fake, capsys):
-    assert call([*SPHERE, *ISSUE]) == 0
+    assert exit_status([*SPHERE, *ISSUE]) == 0
     expected = Groups(
         tabor=3.24,
         material=RetardationPowerLaw(
@@ -84,13 +77,15 @@ def test_the_five_numbers_are_the_power_law(fake, capsys):
     ],
 )
 def test_a_start_is_by_depth_force_or_radius(flags, start, fake):
-    call([*SPHERE, "--material", "elastic", "--tabor", "2", *flags])
+    exit_status([*SPHERE, "--material", "elastic", "--tabor", "2", *flags])
     assert fake["problem"].start == start
     assert fake["problem"].material == Elastic(rubbery_modulus=1, poisson_ratio=0)
 
 
 def test_the_standard_solid_needs_no_exponent(fake):
-    call([*SPHERE, *"--material sls --tabor 2 --modulus-ratio 0.25 --preload 5 --rate 3".split()])
+    exit_status(
+        [*SPHERE, *"--material sls --tabor 2 --modulus-ratio 0.25 --preload 5 --rate 3".split()]
+    )
     assert fake["problem"].material == StandardSolid(
         rubbery_modulus=1, glassy_modulus=4, tau0=1, poisson_ratio=0
     )
@@ -100,13 +95,13 @@ def test_a_prony_file_sets_the_unit_of_time(fake, tmp_path):
     path = tmp_path / "series.csv"
     path.write_text("modulus_ratio,relaxation_time_ms\n5,20\n4,300\n")
     flags = ["--material", f"prony:{path}", *"--tabor 2 --preload 5 --rate 3".split()]
-    call([*SPHERE, *flags])
+    exit_status([*SPHERE, *flags])
     assert fake["problem"].material == Prony(
         rubbery_modulus=1, branches=((5, 20), (4, 300)), poisson_ratio=0
     )
     assert fake["problem"].rate == 3
     scales = ["--radius", "5 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 um"]
-    call([*SPHERE, *flags, *scales, "--poisson-ratio", "0.5"])
+    exit_status([*SPHERE, *flags, *scales, "--poisson-ratio", "0.5"])
     problem = fake["problem"]
     assert problem.protocol.speed == pytest.approx(3 * 1e-6 / 1e-3, rel=1e-12)
     assert problem.material.branches[1] == pytest.approx((4 * 1.5e6, 0.3), rel=1e-12)
@@ -127,7 +122,7 @@ def scales(**changes):
 
 
 def test_scales_with_units_turn_groups_into_si(fake, capsys):
-    assert call([*SPHERE, *ISSUE, *scales(), "--json"]) == 0
+    assert exit_status([*SPHERE, *ISSUE, *scales(), "--json"]) == 0
     problem = fake["problem"]
     assert isinstance(problem, Problem)
     assert problem.geometry.radius == 5.19e-3
@@ -224,7 +219,7 @@ def test_wrong_scales_are_refused_in_words(changes, words, fake, capsys):
 def test_elastic_and_prony_do_not_need_a_time(fake, capsys):
     assert "--rate missing" in wrong([*SPHERE, *ELASTIC, *scales(tau0=None)], capsys)
     timed = [*ELASTIC, "--rate", "2"]  # h0 per second
-    assert call([*SPHERE, *timed, *scales(tau0=None)]) == 0
+    assert exit_status([*SPHERE, *timed, *scales(tau0=None)]) == 0
     assert isinstance(fake["problem"].material, Elastic)
     assert fake["problem"].material.rubbery_modulus == pytest.approx(1.458e6, rel=1e-12)
     capsys.readouterr()
@@ -247,7 +242,7 @@ def test_a_start_that_does_not_exist_is_wrong_input(capsys):
 def test_a_defect_is_not_taken_for_wrong_input(broken, monkeypatch, capsys):
     """ValueErrors as well: only those that the package words itself are about the input."""
     monkeypatch.setattr(bem, "solve", broken)
-    assert call([*SPHERE, *ELASTIC]) == 3
+    assert exit_status([*SPHERE, *ELASTIC]) == 3
     out, err = capsys.readouterr()
     assert out == ""
     assert "Traceback" in err and "a defect of viscotack and not of the input" in err
@@ -269,7 +264,7 @@ def test_json_is_one_object_and_nothing_else(fake, capsys, tmp_path):
         "--save",
         tmp_path / "f.npz",
     ]
-    assert call([*SPHERE, *ISSUE, "--json", *files]) == 0
+    assert exit_status([*SPHERE, *ISSUE, "--json", *files]) == 0
     out, err = capsys.readouterr()
     answer = json.loads(out)
     promised = (
@@ -285,11 +280,11 @@ def test_json_is_one_object_and_nothing_else(fake, capsys, tmp_path):
 
 def test_a_failed_simulation_exits_with_one_and_its_status(fake, capsys):
     fake["result"] = jkr_result(status="stopped because the step became too small")
-    assert call([*SPHERE, *ELASTIC, "--json"]) == 1
+    assert exit_status([*SPHERE, *ELASTIC, "--json"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert answer["status"] == "stopped because the step became too small"
     assert answer["pull_off_force"] is None
-    assert call([*SPHERE, *ELASTIC]) == 1
+    assert exit_status([*SPHERE, *ELASTIC]) == 1
     assert "stopped because" in capsys.readouterr().out
 
 
@@ -307,7 +302,7 @@ HANG = [
 
 def test_each_cycle_is_told_in_words_json_and_a_table(capsys, tmp_path):
     files = ["--cycles", tmp_path / "c.csv", "--save", tmp_path / "c.npz"]
-    assert call([*TAPS, *files, "--json"]) == 0
+    assert exit_status([*TAPS, *files, "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)["cycles"]
     table = np.genfromtxt(tmp_path / "c.csv", delimiter=",", names=True)
     assert [row["cycle"] for row in rows] == [1, 2]
@@ -315,7 +310,7 @@ def test_each_cycle_is_told_in_words_json_and_a_table(capsys, tmp_path):
     for name in ("snap_in_depth", "peak_force", "pull_off_force", "hysteresis"):
         np.testing.assert_array_equal(table[name], [row[name] for row in rows])
     assert np.isnan(table["time_to_detachment"]).all()
-    assert call(["show", tmp_path / "c.npz"]) == 0
+    assert exit_status(["show", tmp_path / "c.npz"]) == 0
     lines = capsys.readouterr().out.splitlines()
     (head,) = (i for i, line in enumerate(lines) if line.split()[0] == "cycle")
     names = lines[head].replace("snap-in at", "at").replace("at depth", "depth").split()
@@ -323,19 +318,19 @@ def test_each_cycle_is_told_in_words_json_and_a_table(capsys, tmp_path):
     assert said["cycle"] == "2"
     assert said["pull-off"] == f"{rows[1]['pull_off_force']:.4g}"
     assert "snap-in, peak, pull-off in 1.5 pi R dg0" in lines[head + 3]
-    assert call(["show", tmp_path / "c.npz", "--cycles", "-"]) == 0
+    assert exit_status(["show", tmp_path / "c.npz", "--cycles", "-"]) == 0
     assert capsys.readouterr().out == (tmp_path / "c.csv").read_text()
 
 
 def test_a_dead_load_is_told_by_its_time_in_words_json_and_a_table(capsys, tmp_path):
     scales = "--radius 5mm --contact-modulus 2MPa --poisson-ratio 0.5 --tau0 0.1s".split()
     run = [*HANG, *scales, "--work-of-adhesion", "0.15 J/m^2", "--save", tmp_path / "d.npz"]
-    assert call([*run, "--cycles", tmp_path / "d.csv"]) == 0
+    assert exit_status([*run, "--cycles", tmp_path / "d.csv"]) == 0
     words = capsys.readouterr().out
     assert "pull-off" not in words and "cycle" not in words
     assert "error of the time" in words
     (line,) = (line for line in words.splitlines() if "time to detachment" in line)
-    assert call(["show", tmp_path / "d.npz", "--json"]) == 0
+    assert exit_status(["show", tmp_path / "d.npz", "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert answer["pull_off_force"] is None and answer["pull_off_force_N"] is None
     time = answer["time_to_detachment"]
@@ -347,19 +342,21 @@ def test_a_dead_load_is_told_by_its_time_in_words_json_and_a_table(capsys, tmp_p
 
 def test_a_force_held_while_apart_exits_with_one(capsys, tmp_path):
     hold = "simulate sphere --tabor 2 --material elastic --apart 20 --move".split()
-    assert call([*hold, "hold force 10", "--cycles", tmp_path / "c.csv"]) == 1
+    assert exit_status([*hold, "hold force 10", "--cycles", tmp_path / "c.csv"]) == 1
     assert "stopped because a force of -0.00446 is to be held" in capsys.readouterr().out
 
 
 def test_surfaces_that_did_not_touch_are_not_called_detached(capsys):
-    assert call("simulate sphere --tabor 2 --material elastic --apart 20 --rate 1".split()) == 0
+    assert (
+        exit_status("simulate sphere --tabor 2 --material elastic --apart 20 --rate 1".split()) == 0
+    )
     words = capsys.readouterr().out
     assert words.startswith("never in contact: the test went to a depth of -19 h0")
     assert "pull-off" not in words and "detached" not in words
 
 
 def test_options_of_the_run_are_passed_on(fake):
-    assert call([*SPHERE, *ELASTIC, "--until", "pull-off", "--accuracy", "1e-2"]) == 0
+    assert exit_status([*SPHERE, *ELASTIC, "--until", "pull-off", "--accuracy", "1e-2"]) == 0
     assert fake["until"] == "pull-off"
     assert fake["accuracy"] == 1e-2
     assert fake["progress"] is None  # nobody looks at the standard error of a test
@@ -367,11 +364,11 @@ def test_options_of_the_run_are_passed_on(fake):
 
 def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):
     path = tmp_path / "run.npz"
-    call([*SPHERE, *ISSUE, "--json", "--save", path])
+    exit_status([*SPHERE, *ISSUE, "--json", "--save", path])
     first = json.loads(capsys.readouterr().out)
-    assert call(["show", path, "--json"]) == 0
+    assert exit_status(["show", path, "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == first
-    assert call(["show", path, "--csv", tmp_path / "again.csv"]) == 0
+    assert exit_status(["show", path, "--csv", tmp_path / "again.csv"]) == 0
     table = np.genfromtxt(tmp_path / "again.csv", delimiter=",", names=True)
     np.testing.assert_array_equal(table["force"], load(path).force)
     assert "pull-off force" in capsys.readouterr().out
@@ -383,7 +380,7 @@ def test_every_kind_of_plot_is_drawn(kind, fake, tmp_path, monkeypatch):
 
     drawn = []
     monkeypatch.setattr(plot, "save_figure", lambda figure, path: drawn.append((figure, path)))
-    assert call([*SPHERE, *ELASTIC, "--plot", tmp_path / "f.svg", "--plot-kind", kind]) == 0
+    assert exit_status([*SPHERE, *ELASTIC, "--plot", tmp_path / "f.svg", "--plot-kind", kind]) == 0
     ((figure, path),) = drawn
     assert path == tmp_path / "f.svg"
     first = figure.axes[0].get_xlabel().split(" / ")[0]
@@ -405,7 +402,7 @@ def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
 
     path = tmp_path / "lens.toml"
     path.write_text(POWER_LAW)
-    assert call([*SPHERE, path]) == 0
+    assert exit_status([*SPHERE, path]) == 0
     assert fake["problem"] == LENS
     out = capsys.readouterr().out
     assert "= 0.003725 N" in out
@@ -414,7 +411,7 @@ def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
 
 
 def test_help_is_for_strangers(capsys):
-    assert call([*SPHERE, "--help"]) == 0
+    assert exit_status([*SPHERE, "--help"]) == 0
     out = " ".join(capsys.readouterr().out.split())
     for words in (
         "Pull a rigid sphere off",
@@ -426,7 +423,7 @@ def test_help_is_for_strangers(capsys):
         "docs/input.md",
     ):
         assert words in out, words
-    assert call(["--help"]) == 0
+    assert exit_status(["--help"]) == 0
     assert "simulate" in capsys.readouterr().out
 
 

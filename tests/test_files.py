@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 import viscotack
+from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
-from viscotack.app.cli import main
 from viscotack.campaign import read_plan
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
@@ -57,9 +57,7 @@ def fake(monkeypatch):
 
 def call(*arguments):
     """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main([str(a) for a in arguments])
-    return caught.value.code or 0
+    return exit_status(arguments)
 
 
 def refused(capsys, *arguments):

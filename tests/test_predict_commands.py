@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 import viscotack as vt
+from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import bem
-from viscotack.app.cli import main, predict_table
+from viscotack.app.cli import predict_table
 from viscotack.surrogate import physics, store, trust
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
@@ -47,9 +48,7 @@ def lens(tmp_path):
 
 def call(*arguments):
     """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main(["predict", *map(str, arguments)])
-    return caught.value.code or 0
+    return exit_status(["predict", *arguments])
 
 
 def answer(capsys, *arguments):

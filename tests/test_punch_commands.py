@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from command_line import exit_status
 from viscotack.app import questions
-from viscotack.app.cli import main
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Problem, PunchGroups
@@ -57,22 +57,15 @@ PAD = [
 ]
 
 
-def call(arguments):
-    """Return the exit status of a command."""
-    with pytest.raises(SystemExit) as caught:
-        main([str(a) for a in arguments])
-    return caught.value.code or 0
-
-
 def asked(arguments, capsys):
     """Return the one JSON object that a command prints."""
-    assert call([*arguments, "--json"]) == 0
+    assert exit_status([*arguments, "--json"]) == 0
     return json.loads(capsys.readouterr().out)
 
 
 def wrong(arguments, capsys):
     """Return the message of a refused command."""
-    assert call(arguments) == 2
+    assert exit_status(arguments) == 2
     out, err = capsys.readouterr()
     assert out == "" and "Traceback" not in err
     return " ".join(err.split())
@@ -203,7 +196,7 @@ def test_a_sphere_and_a_punch_are_not_taken_for_each_other(case_file, capsys):
 
 def test_words_tell_what_is_at_hand(capsys):
     thick = [*ISSUE, "--thickness", "324", "--until", "pull-off"]
-    assert call([*PUNCH, *thick]) == 0
+    assert exit_status([*PUNCH, *thick]) == 0
     out = capsys.readouterr().out
     assert "pull-off stress" in out and "sigma0" in out
     assert "thicker than b1" in out
@@ -214,7 +207,7 @@ def test_words_tell_what_is_at_hand(capsys):
 def test_every_kind_of_plot_is_drawn(kind, case_file, tmp_path):
     picture = tmp_path / "pad.png"
     options = ["--plot", picture, "--plot-kind", kind, "--accuracy", "0.01"]
-    assert call([*PUNCH, case_file, *options]) == 0
+    assert exit_status([*PUNCH, case_file, *options]) == 0
     assert picture.stat().st_size > 10_000
 
 
@@ -278,6 +271,6 @@ def test_an_elastic_pad_has_an_answer_and_no_map(capsys, tmp_path):
 
 def test_help_is_for_strangers(capsys):
     for command in (PUNCH, ["theory", "punch"]):
-        assert call([*command, "--help"]) == 0
+        assert exit_status([*command, "--help"]) == 0
         out = capsys.readouterr().out
         assert "Example: viscotack" in out and "a" in out

@@ -8,7 +8,7 @@ from time import perf_counter, sleep
 
 import pytest
 
-from viscotack.app.cli import main
+from command_line import exit_status
 from viscotack.bem import SimulationError, solve, solver
 from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
@@ -21,14 +21,8 @@ SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
 
 
-def call(arguments):
-    with pytest.raises(SystemExit) as end:
-        main(arguments)
-    return end.value.code
-
-
 def refused(capsys, *arguments):
-    assert call([*WORDS, *arguments]) == 2
+    assert exit_status([*WORDS, *arguments]) == 2
     return capsys.readouterr().err
 
 
@@ -108,7 +102,7 @@ def test_the_command_line_stops_in_time_with_exit_status_one(monkeypatch, capsys
     slow(monkeypatch)
     saved = tmp_path / "part.npz"
     flags = ["--rate", "10", "--time-limit", "0.01 min", "--json", "--save", str(saved)]
-    assert call([*WORDS, *flags]) == 1
+    assert exit_status([*WORDS, *flags]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert answer["status"].startswith("stopped because the time limit of 0.6 s was met")
     assert answer["pull_off_force"] is None

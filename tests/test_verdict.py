@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
+from command_line import exit_status
 from viscotack import SimulationError, load, save, summary
-from viscotack.app.cli import main
 from viscotack.bem import Settings, estimate, solve
 from viscotack.bem.verdict import judged
 from viscotack.materials import Elastic, StandardSolid
@@ -92,11 +92,7 @@ def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
 )
 def test_the_command_line_says_that_an_accuracy_was_missed(floor, code, said, capsys, monkeypatch):
     monkeypatch.setattr(estimate, "_FLOOR", {"force": floor, "work": 1.0})
-    try:
-        main([str(word) for word in (*CASE, "--json")])
-        status = 0
-    except SystemExit as stop:
-        status = stop.code or 0
+    status = exit_status([*CASE, "--json"])
     out, err = capsys.readouterr()
     answer = json.loads(out)
     assert status == code and answer["accuracy_met"] is (floor < 1)
