@@ -22,6 +22,26 @@ from viscotack.materials import Modes
 _LEAST_GAIN = 1e-10
 
 
+# So many instants are remembered to predict the next one.
+_TRAIL = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Passed:
+    """What is remembered of an instant, to predict the next and to integrate over the way there.
+
+    Attributes
+    ----------
+    seen : Snapshot
+        What is kept of it.
+    heat : ndarray, shape (M,)
+        Heat that each mode makes per time [output force times h0].
+    """
+
+    seen: Snapshot
+    heat: npt.NDArray
+
+
 @dataclass(frozen=True, eq=False)
 class Rates:
     """Rates of change over the last step; they only serve to predict the next.
@@ -33,6 +53,8 @@ class Rates:
     edge: float
     gap: npt.NDArray  # in the frame of the moving edge
     known: bool = True
+    followed: npt.NDArray | None = None  # of e, in the frame of the moving edge
+    trail: tuple[Passed, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +104,8 @@ class Body:
         nodal = surface.nodal(self.contact.law, gap)
         many = (len(self.weights), 1)
         memory = Memory(np.tile(e, many), np.tile(nodal, many))
-        at = Balance(gap, start.depth, 0, True)
-        return self._state(0.0, at, Hold(np.inf, start.depth), surface, e, memory, _at_rest(gap))
+        hold = Hold(np.inf, start.depth)
+        return self.state(0.0, gap, start.depth, hold, surface, e, memory, _at_rest(gap))
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
         """Return what a step leads to."""
@@ -96,7 +118,7 @@ class Body:
             free,
             s.compliance,
             np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span)),
-            self._net(hold, state),
+            self.net(hold, state),
             least_gain=_LEAST_GAIN,
             most_iterations=most_iterations,
         )
@@ -114,7 +136,9 @@ class Body:
         )
         memory = state.memory.advanced(s, state.relaxed, e, state.nodal, nodal)
         time = state.seen.time + s.length
-        after = self._state(time, balance, hold, surface, e, memory, rates)
+        after = self.trailing(
+            state, self.state(time, balance.gap, balance.depth, hold, surface, e, memory, rates)
+        )
         error = (s.curvature * bend if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released)
 
@@ -134,13 +158,19 @@ class Body:
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
         guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
-        balance = descend(surface, law, free, c, guess, self._net(hold, state))
+        balance = descend(surface, law, free, c, guess, self.net(hold, state))
         if not balance.stable:
             return balance
         e = (balance.gap - free + balance.depth) / c
         rates = state.rates
-        rates = replace(rates, relaxed=carried(rates.relaxed), gap=carried(rates.gap))
-        return self._state(state.seen.time, balance, hold, surface, e, memory, rates)
+        rates = replace(
+            rates,
+            relaxed=carried(rates.relaxed),
+            gap=carried(rates.gap),
+            followed=None if rates.followed is None else carried(rates.followed),
+        )
+        gap, depth = balance.gap, balance.depth
+        return self.state(state.seen.time, gap, depth, hold, surface, e, memory, rates)
 
     def stopped(self, state: State, hold: Hold) -> State:
         """Return the state in the hold of another machine, nothing being in motion."""
@@ -153,31 +183,45 @@ class Body:
         """Return the state without rates, where the last ones tell nothing of the next."""
         return replace(state, rates=_at_rest(state.gap))
 
-    def _net(self, hold: Hold, state: State) -> Hold:
+    def trailing(self, before: State, after: State) -> State:
+        """Return a state that remembers those before it."""
+        passed = before.rates.trail or (self._passed(before),)
+        passed = (*passed[1 - _TRAIL :], self._passed(after))
+        return replace(after, rates=replace(after.rates, trail=passed))
+
+    def _passed(self, state: State) -> Passed:
+        memory, e, F = state.memory, state.relaxed, state.nodal
+        each = np.einsum("ij,ij->i", e - memory.displacement, F - memory.force)
+        heat = self.weights / np.asarray(self.modes.times) * each
+        return Passed(state.seen, state.surface.unit * heat)
+
+    def net(self, hold: Hold, state: State) -> Hold:
         """Return the hold less the force on the flank, which no node carries; it hardly changes."""
         if hold.rigid:
             return hold
         flank = state.surface.flank_force(self.contact.law, state.gap) / state.surface.unit
         return replace(hold, load=hold.load - flank)
 
-    def _state(
+    def state(
         self,
         time: float,
-        balance: Balance,
+        gap: npt.NDArray,
+        depth: float,
         hold: Hold,
         surface: Surface,
         relaxed: npt.NDArray,
         memory: Memory,
         rates: Rates,
     ) -> State:
-        law, gap = self.contact.law, balance.gap
+        """Return the state at an instant, with what is to be seen of it."""
+        law = self.contact.law
         nodal = surface.nodal(law, gap)
         instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
         force = surface.force(law, gap)
-        drive, spring = _machine(hold, surface.unit, balance.depth, force)
+        drive, spring = _machine(hold, surface.unit, depth, force)
         seen = Snapshot(
             time=time,
-            depth=balance.depth,
+            depth=depth,
             drive=drive,
             edge=surface.edge(gap, law.edge_gap),
             force=force,

@@ -45,9 +45,8 @@ class Books:
     jumps: float = 0.0
     transfer: float = 0.0
 
-    def entered(self, before: Snapshot, after: Snapshot, heat: npt.NDArray) -> Books:
-        """Return the books after a step that has left heat, before anything is said of jumps."""
-        work = 0.5 * (before.force + after.force) * (after.drive - before.drive)
+    def entered(self, work: float, heat: npt.NDArray) -> Books:
+        """Return the books after a step in which the drive did work, and heat was left."""
         return replace(self, drive=self.drive + work, heat=self.heat + heat)
 
     def imbalance(self, start: Snapshot, now: Snapshot) -> float:

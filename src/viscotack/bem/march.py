@@ -1,7 +1,8 @@
 """The march: a soft body through the legs of a history, step by step.
 
 The machine takes hold of the contact at the beginning of a leg. Then a step is tried, and shorter
-ones until one will do (:mod:`.steps`); where none can be shorter, what is wrong with it is a jump
+ones until one will do: in the frame of the crack where the edge travels (:mod:`.travelling`), else
+in that of the solid (:mod:`.steps`); where none can be shorter, what is wrong with it is a jump
 (:mod:`.jumps`). After each step it is judged whether the leg, or the march, has come to its end,
 and whether the fine nodes must follow the edge (:mod:`.remesh`). :mod:`.books` has what is kept.
 """
@@ -27,6 +28,7 @@ from viscotack.bem.remesh import opening
 from viscotack.bem.settings import Settings
 from viscotack.bem.span import separated
 from viscotack.bem.steps import arrived, clipped, is_shortest, shortened, tried, weighed
+from viscotack.bem.travelling import ahead, travelled
 from viscotack.materials import Modes
 
 # A depth, a force or an edge has been met within this, in its unit.
@@ -115,12 +117,17 @@ def _stepped(run: Run, at: Place) -> Place:
     """Return where the next step leads, made shorter until it will do or can be no shorter."""
     while True:
         at = clipped(run, at)
-        s = step(run.body.modes, at.dt)
-        if is_shortest(run, at, s):
-            return shortest_step(run, at, s)
-        attempt = weighed(run, at, s, tried(run, at, s))
+        goal = ahead(run, at)
+        if goal is not None:
+            attempt = travelled(run, at, goal)
+        else:
+            s = step(run.body.modes, at.dt)
+            if is_shortest(run, at, s):
+                return shortest_step(run, at, s)
+            attempt = weighed(run, at, s, tried(run, at, s))
         shorter = shortened(run, at, attempt)
         if shorter is None:
+            assert attempt is not None
             after = arrived(at, attempt)
             run.keep(after)
             return after

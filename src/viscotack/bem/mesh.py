@@ -29,6 +29,9 @@ from viscotack.errors import InputError
 
 # Of a mesh: a matrix of these has 130 MB, and a run holds several.
 MOST_NODES = 4000
+# Away from a scar that the edge has left, nodes may grow so many times as fast as outside the edge:
+# no pressure is there any more, only what slow modes remember.
+_HEALED = 2.0
 
 
 @dataclass(frozen=True)
@@ -78,15 +81,16 @@ class Grading:
             away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 24, h))
             inner = fine[0] - away[::-1] * (fine[0] / away[-1])  # the last one lands on r = 0
             inner[0] = 0.0
-        parts, end, last_step = [inner, fine], fine[-1], h
+        parts, end, last_step, growth = [inner, fine], fine[-1], h, self.growth_outside
         kept = int(self.scar_half_width / self.scar_spacing)
         scar = first_edge + self.scar_spacing * np.arange(-kept, kept + 1)
         if kept and scar[-1] > end + h / 2:
             if scar[0] > end + h / 2:
+                growth *= _HEALED
                 parts.append(self._bridge(end, scar[0]))
             parts.append(scar[scar > end + self.scar_spacing / 2])
             end, last_step = scar[-1], self.scar_spacing
-        outwards = self._growing(self.outer_radius - end, self.growth_outside, first=last_step)
+        outwards = self._growing(self.outer_radius - end, growth, first=last_step)
         nodes = np.concatenate([*parts, end + outwards])
         check_count(len(nodes))
         return nodes
@@ -107,7 +111,8 @@ class Grading:
         while points[-1] < length:
             left = max(length - points[-1], 0.0)
             step = self.spacing + self.growth_outside * points[-1]
-            points.append(points[-1] + min(step, self.scar_spacing + self.growth_outside * left))
+            from_scar = self.scar_spacing + _HEALED * self.growth_outside * left
+            points.append(points[-1] + min(step, from_scar))
         return start + np.array(points[1:-1]) * (length / points[-1])
 
 

@@ -12,10 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.bem.body import State, Trial
-from viscotack.bem.books import Books
+from viscotack.bem.books import Books, Snapshot
 from viscotack.bem.memory import Step
+from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
 
 # The solid answers as stiffly as it can when a step's compliance exceeds the instantaneous one by
@@ -23,6 +25,10 @@ from viscotack.bem.place import Place, Run
 _INSTANT = 1e-2
 # Past the pull-off, steps may be this much longer: what is left is a small part of the work.
 _LOOSER = 2.0
+# In the frame of the crack steps may be so much longer.
+_FOLLOWING = 4.0
+# A step without a balance at its end is made so much shorter.
+_UNBALANCED_CUT = 0.4
 # A step that needs more iterations than this is too long.
 _MOST_ITERATIONS = 25
 # A step is made again when its strain exceeds this. The next one aims at a ratio of lengths of
@@ -47,8 +53,8 @@ class Attempt:
 
     Attributes
     ----------
-    after, entry : State, Books
-        The state after it, and the books if nothing was lost in a jump.
+    after, entry, mesh : State, Books, Mesh
+        The state after it, the books if nothing was lost in a jump, and the nodes.
     missing, tolerated : float
         Drive work that is nowhere to be found after it, and how much of that there may be.
     strain : float
@@ -57,6 +63,7 @@ class Attempt:
 
     after: State
     entry: Books
+    mesh: Mesh
     missing: float
     tolerated: float
     strain: float
@@ -71,7 +78,8 @@ def clipped(run: Run, at: Place) -> Place:
     """Return the march with its next step within the travel it may have, and the end of its leg."""
     leg, dt = at.leg, at.dt
     if leg.rigid and leg.rate:  # a soft spring's drive may run ahead
-        dt = min(dt, travel(run, at) / abs(leg.rate))
+        follows = at.state.rates.followed is not None
+        dt = min(dt, travel(run, at) * (_FOLLOWING if follows else 1.0) / abs(leg.rate))
         if not np.isnan(leg.depth) and at.ahead > 0:
             dt = min(dt, at.ahead / abs(leg.rate))
     if dt > 0.999 * at.left > 0:
@@ -102,7 +110,25 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     heat = before.surface.unit * before.memory.heat(
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
     )
-    first, entry = run.history.snapshots[0], at.books.entered(before.seen, after.seen, heat)
+    return entered(run, at, after, work_of(before.seen, after.seen), heat, _strain(run, at, trial))
+
+
+def entered(
+    run: Run,
+    at: Place,
+    after: State,
+    work: float,
+    heat: npt.NDArray,
+    strain: float,
+    *,
+    least: float = 1.0,
+) -> Attempt:
+    """Return a step with its entry in the books; energy that is missing makes it too long.
+
+    The least that counts is so many times what is tolerated.
+    """
+    before = at.state
+    first, entry = run.history.snapshots[0], at.books.entered(work, heat)
     so_far = at.books.imbalance(first, before.seen)
     missing = entry.imbalance(first, after.seen) - so_far
     largest = max(entry.largest(first, after.seen), run.history.least_energy)
@@ -110,12 +136,20 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * stored)
     # what is missing adds up: the more there is, the less is left for this step
     left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
-    strain = max(_strain(run, at, trial), abs(missing) / (left * tolerated))
-    return Attempt(after, entry, missing, tolerated, strain)
+    strain = max(strain, abs(missing) / (least * left * tolerated))
+    return Attempt(after, entry, at.mesh, missing, tolerated, strain)
 
 
-def shortened(run: Run, at: Place, attempt: Attempt) -> Place | None:
+def work_of(before: Snapshot, after: Snapshot) -> float:
+    """Return the work of the drive in a step in which force and drive changed linearly."""
+    return 0.5 * (before.force + after.force) * (after.drive - before.drive)
+
+
+def shortened(run: Run, at: Place, attempt: Attempt | None) -> Place | None:
     """Return the march with a shorter next step, None where the one that was tried will do."""
+    if attempt is None:
+        run.history.rejected += 1
+        return replace(at, dt=at.dt * _UNBALANCED_CUT)
     if attempt.too_long:
         run.history.rejected += 1
         cut = min(_AIM / np.sqrt(attempt.strain), _LEAST_CUT)
@@ -132,6 +166,7 @@ def arrived(at: Place, attempt: Attempt) -> Place:
         at,
         state=attempt.after,
         books=attempt.entry,
+        mesh=attempt.mesh,
         dt=at.dt * min(_GROWTH, _AIM / np.sqrt(attempt.strain + 1e-12)),
         lowest=at.lowest.after(attempt.after.seen.force),
     )
@@ -159,15 +194,20 @@ def _looser(at: Place) -> float:
     return _LOOSER if at.past else 1.0
 
 
-def _strain(run: Run, at: Place, trial: Trial) -> float:
-    """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
-    now, after = at.seen, trial.after.seen
+def changed(run: Run, at: Place, after: Snapshot) -> float:
+    """Return by how much force and depth change too much in a step: a ratio, squared."""
+    now = at.seen
     went = 0.0  # a rigid machine's travel is bounded before the step is tried
     if not at.leg.rigid:
         went = (abs(after.depth - now.depth) / travel(run, at)) ** 2
+    return max((abs(after.force - now.force) / (2 * force_change(run, at))) ** 2, went)
+
+
+def _strain(run: Run, at: Place, trial: Trial) -> float:
+    """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
+    after = trial.after.seen
     return max(
         trial.error / (run.settings.step_error * run.body.contact.span * _looser(at) ** 2),
-        (abs(after.force - now.force) / (2 * force_change(run, at))) ** 2,
-        went,
-        at.mesh.strain(now.edge, after.edge),
+        changed(run, at, after),
+        at.mesh.strain(at.seen.edge, after.edge),
     )
