@@ -133,7 +133,8 @@ def test_a_lost_column_gives_right_points_or_an_error(name, which, tmp_path):
         refused += sweeps is None
         if sweeps is not None:
             assert_right(sweeps, whole)
-    assert refused > 0
+    # with all variables each number stands in the file twice, and one column is not missed
+    assert refused > 0 or (name, which) == ("trios all variables", "everywhere")
 
 
 @every_text

@@ -5,7 +5,7 @@ from .fit_report import FitReport
 from .fitting import fit
 from .kramers_kronig import Consistency, consistency, loss_from_storage
 from .master_curves import master_curve
-from .reading import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
+from .reading import FORMATS, read, read_creep, read_dma, read_relaxation, read_shifts
 from .shift_laws import ShiftFit, fit_arrhenius, fit_wlf
 from .shifting import shift_factors
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
@@ -28,6 +28,7 @@ __all__ = [
     "issued",
     "loss_from_storage",
     "master_curve",
+    "read",
     "read_creep",
     "read_dma",
     "read_relaxation",

@@ -6,6 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
+
+from .diagnosis import cause, has_sweep
+from .doubts import doubtful_modulus
 from .grouping import GAP, grouped
 from .lab_file import LabFile
 from .sweeps import FrequencySweeps, Source
@@ -32,7 +36,7 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
     parts, notes = [], list(file.notes)
     for table in tables:
         columns = Columns(file, table, given.units, given.kind)
-        if not table.rows or not _has_sweep(columns):
+        if not table.rows or not has_sweep(columns):
             notes.append(f"a table without sweeps is not used: {headings_of([table])}")
             continue
         values, kind = _part(columns, given)
@@ -45,13 +49,10 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
         parts.append((values, kind))
         notes += columns.notes
     if not parts:
-        raise file.error(
-            "no table with a frequency, a storage modulus and a loss modulus or tan(delta); "
-            f"found {headings_of(tables)}"
-        )
+        raise no_such_test(file, tables, given, "dma")
     kinds = {part[1] for part in parts}
     if len(kinds) > 1:
-        raise file.error("some tables are tensile (E), others shear (G); give kind='E' or 'G'")
+        raise file.error("some tables are tensile (E), others shear (G); say --kind E or --kind G")
     numbers = _numbered([part[0]["sweep"] for part in parts])
     joined = {
         name: np.concatenate([part[0][name] for part in parts])
@@ -65,12 +66,16 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
     )
 
 
-def _has_sweep(columns: Columns) -> bool:
-    return (
-        ("frequency" in columns or "angular_frequency" in columns)
-        and "storage" in columns
-        and ("loss" in columns or "tan_delta" in columns)
-    )
+def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> InputError:
+    """Return the error that says what a file holds in place of the test asked for."""
+    expected = {
+        "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
+        "relaxation": "a time and a modulus (or stress and strain)",
+        "creep": "a time and a compliance (or stress and strain)",
+    }
+    every = [Columns(file, table, given.units) for table in tables]
+    why = cause(every, wanted, given.kind)
+    return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
 
 def _repeats_one_state(values: dict[str, Array]) -> bool:
@@ -83,18 +88,16 @@ def _repeats_one_state(values: dict[str, Array]) -> bool:
 
 def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
     """Return the columns of one table in SI and the kind of its moduli."""
-    kind = kind_of(columns, given, "storage", "loss")
+    parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
+    refuse_what_is_lacking(
+        columns, given, parts, "temperature", "frequency", "storage", "loss", "magnitude", "phase"
+    )
+    kind = kind_of(columns, given, *parts)
     values = {
         "temperature": temperatures(columns, given),
         "angular_frequency": columns.angular_frequency(),
-        "storage": columns.si("storage"),
     }
-    if "loss" in columns:
-        values["loss"] = columns.si("loss")
-        _agree(columns, values["storage"], values["loss"])
-    else:
-        values["loss"] = values["storage"] * columns.numbers("tan_delta")
-        columns.notes.append("loss modulus from tan(delta)")
+    values["storage"], values["loss"] = _moduli(columns)
     if "sweep" in columns:
         values["sweep"] = columns.numbers("sweep")
     refuse_stiffer_than_diamond(columns, values["storage"])
@@ -105,6 +108,7 @@ def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
         raise columns.error(
             f"loss over storage modulus is {tangent:.2g} in the median; are their units right?"
         )
+    columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
     if "sweep" not in values:
         numbers, how = grouped(values["temperature"], values["angular_frequency"])
@@ -113,6 +117,49 @@ def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
     elif np.any(values["sweep"] != np.round(values["sweep"])):
         raise columns.error(f'column "{columns.name("sweep")}" must hold whole numbers')
     return values, kind
+
+
+def _moduli(columns: Columns) -> tuple[Array, Array]:
+    """Return storage and loss modulus [Pa]; of two parts of the complex number, in any form."""
+    if "storage" not in columns:
+        size, angle = columns.si("magnitude"), np.arctan(_tangent(columns))
+        columns.notes.append(f'moduli from "{columns.name("magnitude")}" and the loss angle')
+        return size * np.cos(angle), size * np.sin(angle)
+    storage = columns.si("storage")
+    if "loss" not in columns:
+        columns.notes.append("loss modulus from tan(delta)")
+        return storage, storage * _tangent(columns)
+    loss = columns.si("loss")
+    _agree(columns, storage, loss)
+    return storage, loss
+
+
+def _tangent(columns: Columns) -> Array:
+    """Return tan(delta), from its column or from the loss angle."""
+    if "tan_delta" in columns:
+        return columns.numbers("tan_delta")
+    angle = columns.si("phase")
+    wrong = np.flatnonzero((angle < 0) | (angle >= np.pi / 2))
+    for row in wrong:
+        raise columns.error(
+            f'"{columns.name("phase")}" is {angle[row]:g} rad; a loss angle is between 0 and 90 '
+            "degrees, is its unit right?",
+            int(row),
+        )
+    return np.tan(angle)
+
+
+def refuse_what_is_lacking(
+    columns: Columns, given: Given, moduli: Sequence[str], *quantities: str
+) -> None:
+    """Refuse columns about which neither file nor caller says enough: all of it at once."""
+    lacking = columns.lacking(*quantities)
+    if columns.kind(*moduli) is None and given.kind is None:
+        lacking.append(
+            f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
+        )
+    if lacking:
+        raise columns.error(f"the file does not say {'; nor '.join(lacking)}")
 
 
 def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
@@ -127,13 +174,8 @@ def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Ar
 def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
     """Return the kind of modulus that the file or the caller says."""
     said = columns.kind(*quantities)
-    if said is None and given.kind is None:
-        raise columns.error(
-            f'"{columns.name(quantities[0])}" does not say whether the modulus is tensile (E) or '
-            "shear (G); give kind='E' or kind='G'"
-        )
     if said is not None and given.kind is not None and said != given.kind:
-        raise columns.error(f"the file has a modulus of kind {said!r}, kind={given.kind!r} given")
+        raise columns.error(f"the file has a modulus of kind {said}, --kind {given.kind} was given")
     return said or given.kind or ""
 
 
@@ -143,7 +185,7 @@ def temperatures(columns: Columns, given: Given) -> Array:
     if given.temperature is None:
         return temperature
     if not np.all(np.isnan(temperature)):
-        raise columns.error("the file says its temperatures; leave temperature= out")
+        raise columns.error("the file says its temperatures; leave --temperature out")
     return np.full(temperature.size, given.temperature)
 
 

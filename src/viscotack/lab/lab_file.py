@@ -3,8 +3,11 @@
 import hashlib
 import re
 from dataclasses import dataclass
+from itertools import chain
 from os import PathLike, fspath
 from pathlib import Path
+
+from viscotack.errors import InputError
 
 LARGEST = 50_000_000  # bytes; a sweep is thousands of times smaller
 
@@ -15,12 +18,16 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 @dataclass(frozen=True)
 class LabFile:
-    """The content of one file; `lines` is empty for a workbook."""
+    """The content of one file; `lines` is empty for a workbook.
+
+    `rest` is what follows the last line end, which no line may rely on.
+    """
 
     path: str
     content: bytes
     lines: tuple[str, ...]
     notes: tuple[str, ...]
+    rest: str = ""
 
     @property
     def sha256(self) -> str:
@@ -32,10 +39,27 @@ class LabFile:
         """Whether the bytes begin like an Excel file, old (OLE) or new (zip)."""
         return self.content.startswith((b"\xd0\xcf\x11\xe0", b"PK\x03\x04"))
 
-    def error(self, what: str, line: int | None = None) -> ValueError:
+    @property
+    def is_record(self) -> bool:
+        """Whether the text begins like JSON."""
+        return next(filter(None, map(str.strip, chain(self.lines, [self.rest]))), "")[:1] == "{"
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What a reader of lines notes about a last line without an end."""
+        if not self.rest:
+            return ()
+        return (
+            f"line {len(self.lines) + 1}, the last, has no line end and may be cut in the middle "
+            f"of a number: left out ({self.rest.strip()[:40]!r}); end the file with a new line to "
+            "keep it",
+        )
+
+    def error(self, what: str, line: int | None = None) -> InputError:
         """Return an error that names the file and, where there is one, the line or row."""
-        place = "" if line is None else f", {'row' if self.is_workbook else 'line'} {line}"
-        return ValueError(f"{self.path}{place}: {what}")
+        rows = self.is_workbook or self.is_record
+        place = "" if line is None else f", {'row' if rows else 'line'} {line}"
+        return InputError(f"{self.path}{place}: {what}")
 
 
 def load(path: str | PathLike[str]) -> LabFile:
@@ -68,12 +92,8 @@ def load(path: str | PathLike[str]) -> LabFile:
         raise empty.error("the file is neither text nor an Excel workbook; export it as text")
     lines = _LINE_END.split(text)
     notes = () if encoding == "utf-8" else (f"text in {encoding}",)
-    if last := lines.pop():
-        notes += (
-            f"line {len(lines) + 1}, the last, has no line end and may be cut in the middle of a "
-            f"number: left out ({last.strip()[:40]!r}); end the file with a new line to keep it",
-        )
-    return LabFile(name, content, tuple(lines), notes)
+    last = lines.pop()
+    return LabFile(name, content, tuple(lines), notes, last)
 
 
 def _decoded(file: LabFile) -> tuple[str, str]:
@@ -82,6 +102,9 @@ def _decoded(file: LabFile) -> tuple[str, str]:
     if encoding is None and b"\0" in content[:200]:
         # text in two bytes per character, without its mark: Latin letters leave every other byte 0
         encoding = "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
+    if encoding and encoding.startswith("utf-16") and len(content) % 2:
+        # half a character at the end: what stands before it is whole
+        content = content[:-1]
     try:
         return content.decode(encoding or "utf-8"), encoding or "utf-8"
     except UnicodeDecodeError as error:

@@ -2,11 +2,17 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import numpy.typing as npt
 
 from viscotack.errors import InputError
 
+Array = npt.NDArray[np.float64]
+
 _NUMBER = re.compile(r"[+-]?([0-9]+[.,]?[0-9]*|[.,][0-9]+)([eE][+-]?[0-9]+)?")
+_PLAIN = re.compile(r"[0-9.eE+\- ]*")
 _GROUPED = re.compile(r"[+-]?[1-9][0-9]{0,2}([.,][0-9]{3})+")
 _MISSING = {"", "-", "--", "---", "----", "*", "***", "nan", "na", "n/a", "#n/a", "none", "null"}
 
@@ -35,6 +41,10 @@ def number(text: str, mark: str) -> float:
     if plain.casefold() in _MISSING:
         return math.nan
     other = "," if mark == "." else "."
+    if plain.startswith("="):
+        raise InputError(
+            f"the cell holds the formula {plain[:40]!r} and no value; save its values in its place"
+        )
     if _NUMBER.fullmatch(plain) is None or other in plain:
         raise InputError(f"expected a number, got {text[:40]!r}")
     value = float(plain.replace(mark, "."))
@@ -62,14 +72,34 @@ def decimal_mark(cells: Iterable[str]) -> str:
         return "."
     if any("." in cell for cell in found):
         raise InputError(
-            "some numbers have a decimal point and some a comma; give decimal=',' or '.'"
+            "some numbers have a decimal point and some a comma; say --decimal , or --decimal ."
         )
     if all(_GROUPED.fullmatch(cell) for cell in with_comma):
         raise InputError(
             f"{with_comma[0]!r} may be a decimal number or one of thousands; "
-            "give decimal=',' or decimal='.'"
+            "say --decimal , or --decimal ."
         )
     return ","
+
+
+def plain_numbers(cells: Sequence[str]) -> Array | None:
+    """Return the numbers of many cells at once, or None if one of them needs a closer look.
+
+    Digits, points, signs and exponents alone are read by :class:`float` as :func:`number` reads
+    them; whatever else occurs, or a number beyond all floats, is left to that.
+
+    Examples
+    --------
+    >>> plain_numbers(["1.5", "2e3"]), plain_numbers(["1.5", "1,5"])
+    (array([1.5e+00, 2.0e+03]), None)
+    """
+    if _PLAIN.fullmatch(" ".join(cells)) is None:
+        return None
+    try:
+        values = np.fromiter(map(float, cells), dtype=float, count=len(cells))
+    except ValueError:
+        return None
+    return values if np.all(np.isfinite(values)) else None
 
 
 def half_digit(text: str) -> float:

@@ -7,6 +7,7 @@ E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) are of this kind.
 import csv
 
 from .lab_file import LabFile
+from .quantities import recognise
 from .table import Table, first_headings, tabulated
 
 _LOOKED = 200  # lines in which the headings are looked for
@@ -23,7 +24,7 @@ def name(file: LabFile) -> str | None:
 
 
 def tables(file: LabFile) -> list[Table]:
-    """Return the one table of a file.
+    """Return the table of a file, or one for each line that repeats the headings.
 
     Raises
     ------
@@ -33,21 +34,51 @@ def tables(file: LabFile) -> list[Table]:
     found = _headings(file)
     if found is None:
         first = next((line.strip() for line in file.lines if line.strip()), "")
+        only = recognise(first.lstrip("#% "))
+        if only is not None:
+            raise file.error(f"{first!r} is the only column; a test needs two or more in one file")
+        row = [cell for cell in cells(file, first, 1, separators(first)[0]) if cell.strip()]
+        if row and all(map(is_number, row)):
+            raise file.error(
+                "the file begins with numbers and does not say what they are; write headings with "
+                "units above them, such as 'time [s], J [1/Pa]' or \"f [Hz], G' [Pa], G'' [Pa]\""
+            )
         raise file.error(
             f"none of the first {_LOOKED} lines looks like headings; expected names such as "
             "\"f, E', E'', T\" with units beside or below them; the file begins "
             f"{first[:60]!r}"
         )
     line, separator, headings = found
-    numbered = [
-        (number, cells(file, text, number, separator))
-        for number, text in enumerate(file.lines[line:], start=line + 1)
-        if text.strip() and not _is_comment(text)
+    words = " ".join(text for text in file.lines[: line - 1] if _speaks_of_geometry(text))
+    # an instrument repeats the headings above each of its intervals
+    same = file.lines[line - 1].strip()
+    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
+    return [
+        _table(file, headings, separator, range(start, end), words)
+        for start, end in zip(starts, [*(s - 1 for s in starts[1:]), len(file.lines)], strict=True)
     ]
+
+
+def _table(
+    file: LabFile, headings: list[str], separator: str | None, lines: range, words: str
+) -> Table:
+    """Return the table below one line of headings; `lines` counts from 0."""
+    numbered = [
+        (i + 1, cells(file, file.lines[i], i + 1, separator))
+        for i in lines
+        if file.lines[i].strip() and not is_comment(file.lines[i])
+    ]
+    if lines.stop < len(file.lines):
+        # what stands above the next headings: "Result: ...", "Interval: 2"
+        while numbered and numbered[-1][1][0].rstrip().endswith(":"):
+            numbered.pop()
     units = None
-    if numbered and not any(_is_number(cell) for cell in numbered[0][1]):
-        units = numbered.pop(0)[1]
-    return [tabulated(file, headings, units, numbered)]
+    while numbered and not any(is_number(cell) for cell in numbered[0][1]):
+        above = numbered.pop(0)[1]
+        if any(cell.strip() for cell in above):
+            units = above
+            break
+    return tabulated(file, headings, units, numbered, words=words)
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
@@ -66,23 +97,37 @@ def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[
 def _headings(file: LabFile) -> tuple[int, str | None, list[str]] | None:
     """Return the line number, the separator and the cells of the first line of headings."""
     for number, text in enumerate(file.lines[:_LOOKED], start=1):
-        for separator in _SEPARATORS:
-            if separator is not None and separator not in text:
-                continue
+        for separator in separators(text):
             try:
                 row = cells(file, text.lstrip("#% "), number, separator)
             except ValueError:
                 continue
-            if first_headings([row]) is not None:
+            if first_headings([row]) is not None and (separator or _mostly_headings(row)):
                 return number, separator, row
     return None
 
 
-def _is_comment(text: str) -> bool:
+def _mostly_headings(row: list[str]) -> bool:
+    """Return whether words with spaces between them are headings and no sentence."""
+    return 2 * sum(recognise(cell) is not None for cell in row) > len(row)
+
+
+def _speaks_of_geometry(text: str) -> bool:
+    return any(word in text.casefold() for word in ("geometry", "geometrie", "géométrie"))
+
+
+def separators(text: str) -> list[str | None]:
+    """Return what may stand between the cells of a line; None for spaces."""
+    return [mark for mark in _SEPARATORS if mark is None or mark in text]
+
+
+def is_comment(text: str) -> bool:
+    """Return whether a line is a remark."""
     return text.lstrip().startswith(("#", "%"))
 
 
-def _is_number(cell: str) -> bool:
+def is_number(cell: str) -> bool:
+    """Return whether a cell looks like a number."""
     try:
         float(cell.strip().replace(",", "."))
     except ValueError:

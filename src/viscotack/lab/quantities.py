@@ -8,6 +8,7 @@ import math
 import re
 import unicodedata
 from dataclasses import dataclass
+from functools import lru_cache
 
 from viscotack.errors import InputError
 from viscotack.units import parse
@@ -18,22 +19,28 @@ _WORDS = {
     "angular_frequency": "ω omega angularfrequency angfrequency angfreq kreisfrequenz "
     "winkelfrequenz frequenceangulaire pulsation frecuenciaangular",
     "temperature": "temp temperature temperatur temperatura",
-    "storage": "storagemodulus speichermodul modulestockage moduledestockage "
+    "storage": "storage storagemodulus speichermodul modulestockage moduledestockage "
     "moduledeconservation moduloalmacenamiento modulodealmacenamiento",
-    "loss": "lossmodulus verlustmodul moduledeperte moduleperte moduloperdida modulodeperdida",
+    "loss": "loss lossmodulus verlustmodul moduledeperte moduleperte moduloperdida modulodeperdida",
     "tan_delta": "tandelta tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
     "facteurdeperte factordeperdida",
-    "magnitude": "complexmodulus komplexermodul",
+    "magnitude": "complexmodulus komplexermodul |complexmodulus| dynamicmodulus",
+    "phase": "phase phaseangle phaseshift delta δ lossangle phasenwinkel verlustwinkel "
+    "phasenverschiebungswinkel angledephase",
     "time": "time zeit temps tiempo testtime testzeit",
     "step_time": "steptime intervaltime segmenttime abschnittszeit tempsdintervalle",
-    "modulus": "relaxationmodulus stressrelaxationmodulus relaxationsmodul modulederelaxation",
+    "modulus": "modulus modul relaxationmodulus stressrelaxationmodulus relaxationsmodul "
+    "modulederelaxation",
     "compliance": "creepcompliance compliance kriechnachgiebigkeit complaisance",
-    "stress": "stress",
-    "strain": "strain",
+    "stress": "stress spannung schubspannung contrainte",
+    "strain": "strain dehnung deformation",
     "sweep": "set sweep sweepnumber setnumber",
     "log10_shift": "logat log(at) logshift logshiftfactor",
     "shift": "at shiftfactor",
     "vertical_shift": "bt verticalshiftfactor",
+    # read by nobody here: they tell a flow curve or a start-up from a test of a solid
+    "shear_rate": "shearrate strainrate scherrate scherrate rate gammadot γ̇",
+    "viscosity": "viscosity shearviscosity viskosität eta η apparentviscosity",
 }
 _BY_WORD = {word: name for name, words in _WORDS.items() for word in words.split()}
 # where one letter stands for a quantity, its case tells which: T is a temperature, t a time
@@ -42,14 +49,16 @@ _BY_LETTER = {
     "w": "angular_frequency",
     "T": "temperature",
     "t": "time",
+    "J": "compliance",
 }
+_GREEK = "ωδη"
 # symbols that also say tension or shear
 _BY_SYMBOL = {
     f"{letter}{mark}": (name, kind)
     for kind, letter in (("E", "e"), ("G", "g"))
     for name, marks in {
-        "storage": ("'", "stor", "storage"),
-        "loss": ("''", "loss"),
+        "storage": ("'", "stor", "storage", "prime", "p"),
+        "loss": ("''", "loss", "doubleprime", "dprime", "pp"),
         "magnitude": ("*", "complex"),
         "modulus": ("(t)", "relax"),
     }.items()
@@ -62,6 +71,8 @@ _BY_SYMBOL = {
     "d(t)": ("compliance", "E"),
     "dcreep": ("compliance", "E"),
 }
+# permittivities are written so: a modulus of tension has a capital letter
+_DIELECTRIC = {"e'", "e''", "ep", "epp"}
 _KIND_WORDS = {
     "E": ("tensile", "tension", "extensional", "youngs", "zug", "traction", "flexural", "axial"),
     "G": ("shear", "schub", "scher", "cisaillement", "cizalla"),
@@ -77,10 +88,15 @@ _GEOMETRIES = {
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
 _BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
+_WORD = re.compile(r"[^\W\d_]+")
+# what stands in a bracket behind a quantity and makes another quantity of it, no unit
+_SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
+_LONGEST_UNIT = 3  # letters; a longer word in a bracket that is no unit describes
 
-_CELSIUS = {"°C", "ºC", "C", "degC", "deg C", "Celsius", "℃"}
+_CELSIUS = {"°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"}
 _FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
 _NO_UNIT = {"", "-", "[-]", "1", "–"}
+_DEGREES = {"°", "º", "˚", "deg", "degree", "degrees", "grad"}
 _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
 
 
@@ -119,8 +135,49 @@ def recognise(text: str) -> Heading | None:
             # "Storage modulus (E')": the bracket holds the symbol, not a unit
             if rest is not None and rest[0] == name[0]:
                 return Heading(name[0], name[1] or rest[1], "")
-            return Heading(*name, match[2].strip())
+            # "Stress (step)" and "G*/sin(delta)" are other quantities
+            return Heading(*name, match[2].strip()) if _may_be_unit(match[2]) else None
+    return _with_suffix(text)
+
+
+def _with_suffix(text: str) -> Heading | None:
+    """Return what a heading such as ``time_s`` or ``omega_rad_s`` means."""
+    for place in re.finditer("_", text):
+        name, unit = _named(text[: place.start()]), text[place.end() :].replace("_", "/")
+        if name is not None and unit and is_unit(unit):
+            return Heading(*name, unit)
     return None
+
+
+def _may_be_unit(text: str) -> bool:
+    """Return whether text is a unit or looks like one that was misspelt."""
+    text = text.strip()
+    if is_unit(text):
+        return True
+    if text.casefold() in _SORTS or any(mark in text for mark in "(*"):
+        return False
+    return not (_WORD.fullmatch(text.split()[0]) and len(text.split()[0]) > _LONGEST_UNIT)
+
+
+@lru_cache(maxsize=1000)
+def is_unit(text: str) -> bool:
+    """Return whether text is a unit that some column of a rheometer can have.
+
+    Examples
+    --------
+    >>> is_unit("°C"), is_unit("1/MPa"), is_unit("step")
+    (True, True, False)
+    """
+    unit = bare(text)
+    if unit in _CELSIUS | _FAHRENHEIT | _NO_UNIT | _DEGREES | _PER_SECOND | {"%", "K", "rpm"}:
+        return True
+    for target in ("Pa", "1/Pa", "s", "Hz", "rad/s", "Pa*s", "N", "N*m", "m", "1"):
+        try:
+            parse(f"1 {unit}", target)
+        except ValueError:
+            continue
+        return True
+    return False
 
 
 def kind_of_geometry(text: str) -> str | None:
@@ -139,11 +196,13 @@ def kind_of_geometry(text: str) -> str | None:
 def _named(text: str) -> tuple[str, str | None] | None:
     text = text.strip()
     if len(text) == 1 and text in _BY_LETTER:
-        return _BY_LETTER[text], None
+        return _BY_LETTER[text], "G" if text == "J" else None
     plain = _plain(text)
+    if text.translate(_QUOTES) in _DIELECTRIC:
+        return None
     if plain in _BY_SYMBOL:
         return _BY_SYMBOL[plain]
-    if plain in _BY_WORD and len(text) > 1 or plain == "ω":
+    if plain in _BY_WORD and (len(text) > 1 or text in _GREEK):
         return _BY_WORD[plain], None
     # "Tensile storage modulus", "Storage modulus E'", "Shear stress"
     for kind, words in _KIND_WORDS.items():
@@ -188,6 +247,8 @@ def scale(unit: str, target: str) -> float:
         return 1.0
     if unit == "%" and target == "1":
         return 0.01
+    if unit in _DEGREES and target == "rad":
+        return math.pi / 180
     return parse(f"1 {unit}", target)
 
 
@@ -225,7 +286,9 @@ def radians_per_second(unit: str, *, angular: bool) -> float:
     if unit in _PER_SECOND:
         if angular:
             return 1.0
-        raise InputError("a frequency in 1/s may be in Hz or in rad/s; say frequency_unit=")
+        raise InputError(
+            "a frequency in 1/s may be in Hz or in rad/s; say --frequency-unit Hz or rad/s"
+        )
     # to the unit library hertz and radians per second are the same: tell them apart by name
     if unit.endswith("Hz"):
         if angular:

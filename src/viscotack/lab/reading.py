@@ -1,5 +1,11 @@
-"""Read a laboratory's file: find out its format, say so, and return numbers in SI."""
+"""Read a laboratory's file: find out its format, say so, and return numbers in SI.
 
+What a file does not say is asked for by the name of the flag of ``viscotack material fit``; the
+parameters here have the same names, ``--modulus-unit`` is `modulus_unit`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
 from os import PathLike
 from types import ModuleType
 
@@ -11,30 +17,37 @@ from . import (
     reptate_layout,
     rheocompass_layout,
     step_tests,
+    trios_json_layout,
     trios_layout,
+    wide_layout,
     workbook_layout,
 )
 from .arrays import KINDS
+from .diagnosis import test_of
+from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, load
-from .quantities import radians_per_second, scale
+from .quantities import kelvin, radians_per_second, scale
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .table import Table, Units
+from .table import Columns, Table, Units
 
 Path = str | PathLike[str]
+Test = FrequencySweeps | RelaxationTest | CreepTest
 
 # format -> the module that knows its layout, in the order in which they are tried
 FORMATS: dict[str, ModuleType] = {
     "eplexor": workbook_layout,
     "workbook": workbook_layout,
     "reptate": reptate_layout,
+    "trios-json": trios_json_layout,
     "trios": trios_layout,
     "rheocompass": rheocompass_layout,
+    "wide": wide_layout,
     "pyvisco": plain_layout,
     "csv": plain_layout,
 }
 
 
-def read_dma(
+def read(
     path: Path,
     *,
     format: str | None = None,
@@ -42,15 +55,55 @@ def read_dma(
     temperature: float | None = None,
     frequency_unit: str | None = None,
     modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
+    decimal: str | None = None,
+) -> Test:
+    """Return the test that a file holds: sweeps, stress relaxation or creep.
+
+    Parameters are those of :func:`read_dma`. Which test it is its columns say; where stress and
+    strain are both there, the one that is held. Sweeps go before steps of other kinds.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`; also if it holds none of them.
+    """
+    units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
+    given = _given(kind, temperature, units)
+    file, format, tables = _tables(path, format)
+    tests = {test_of(Columns(file, table, given.units)) for table in tables if table.rows}
+    if "dma" in tests or not tests & {"relaxation", "creep"}:
+        return assembly.sweeps(file, format, tables, given)
+    if {"relaxation", "creep"} <= tests:
+        raise file.error(
+            "it holds a relaxation and a creep test; say --test relaxation or --test creep"
+        )
+    reader = step_tests.relaxation if "relaxation" in tests else step_tests.creep
+    return reader(file, format, tables, given)
+
+
+def read_dma(
+    path: Path | Sequence[Path],
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    frequency_unit: str | None = None,
+    modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
+    temperature_in_name: bool = False,
     decimal: str | None = None,
 ) -> FrequencySweeps:
     r"""Return the frequency sweeps of a dynamic mechanical analysis or of a rheometer.
 
     Parameters
     ----------
-    path : path-like
-        A text file (plain table, TA TRIOS, Anton Paar RheoCompass, RepTate, pyvisco) or a
-        workbook (Netzsch Gabo Eplexor, or one like it; extra ``lab``).
+    path : path-like, or sequence of them
+        A text file (plain table, wide table, TA TRIOS, Anton Paar RheoCompass, RepTate, pyvisco)
+        or a workbook (Netzsch Gabo Eplexor, or one like it; extra ``lab``). Several files are
+        sweeps of one material.
     format : str, optional
         One of :data:`FORMATS`; otherwise it is found out from the content and noted.
     kind : {"E", "G"}, optional
@@ -59,9 +112,16 @@ def read_dma(
     temperature : float, optional
         Temperature of all points [K], where the file does not say.
     frequency_unit : str, optional
-        ``"Hz"`` or ``"rad/s"``, where the file does not say or says 1/s.
+        ``"Hz"`` or ``"rad/s"``, where the file does not say or says 1/s. An angular frequency
+        without a unit is taken in rad/s, with a note.
     modulus_unit : str, optional
         Such as ``"MPa"``, where the file does not say.
+    time_unit : str, optional
+        Such as ``"s"``, where the file does not say.
+    temperature_unit : str, optional
+        ``"degC"``, ``"K"`` or ``"degF"``, where a column or a number above columns has none.
+    temperature_in_name : bool
+        Whether the temperature stands in the name of the file, as in ``foam_-25C.csv``.
     decimal : {".", ","}, optional
         Decimal mark, where numbers such as ``1,234`` leave it open.
 
@@ -98,9 +158,19 @@ def read_dma(
     >>> sweeps.storage.tolist(), sweeps.kind, sweeps.source.format
     ([3200000.0, 4500000.0], 'E', 'csv')
     """
-    given = _given(kind, temperature, frequency_unit, modulus_unit, decimal)
-    file, format, tables = _tables(path, format)
-    return assembly.sweeps(file, format, tables, given)
+    units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
+    _given(kind, temperature, units)
+    paths = [path] if isinstance(path, str | PathLike) else list(path)
+    if not paths:
+        raise InputError("there is no file to read")
+    if temperature is not None and temperature_in_name:
+        raise InputError("--temperature and --temperature-in-name: say one of them")
+    parts = []
+    for one in paths:
+        file, found, tables = _tables(one, format)
+        own = kelvin_in_name(file) if temperature_in_name else temperature
+        parts.append(assembly.sweeps(file, found, tables, assembly.Given(kind, own, units)))
+    return joined(parts)
 
 
 def read_relaxation(
@@ -110,6 +180,8 @@ def read_relaxation(
     kind: str | None = None,
     temperature: float | None = None,
     modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
     decimal: str | None = None,
 ) -> RelaxationTest:
     """Return a stress relaxation test: time and modulus, or stress over strain.
@@ -122,7 +194,8 @@ def read_relaxation(
     ValueError
         As :func:`read_dma`; also if there is not exactly one table of this kind.
     """
-    given = _given(kind, temperature, None, modulus_unit, decimal)
+    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
+    given = _given(kind, temperature, units)
     file, format, tables = _tables(path, format)
     return step_tests.relaxation(file, format, tables, given)
 
@@ -134,6 +207,8 @@ def read_creep(
     kind: str | None = None,
     temperature: float | None = None,
     modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
     decimal: str | None = None,
 ) -> CreepTest:
     """Return a creep test: time and compliance, or strain over stress.
@@ -145,16 +220,24 @@ def read_creep(
     ValueError
         As :func:`read_dma`; also if there is not exactly one table of this kind.
     """
-    given = _given(kind, temperature, None, modulus_unit, decimal)
+    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
+    given = _given(kind, temperature, units)
     file, format, tables = _tables(path, format)
     return step_tests.creep(file, format, tables, given)
 
 
-def read_shifts(path: Path, *, format: str | None = None, decimal: str | None = None) -> ShiftTable:
+def read_shifts(
+    path: Path,
+    *,
+    format: str | None = None,
+    temperature_unit: str | None = None,
+    decimal: str | None = None,
+) -> ShiftTable:
     """Return a table of shift factors: temperature and log_aT, or aT and perhaps bT.
 
     A shift is positive in the logarithm where the solid is slower than at the reference
-    temperature, as pyvisco and RepTate write it.
+    temperature, as pyvisco and RepTate write it. One that rises with temperature is refused: it
+    is 1/a_T.
 
     Raises
     ------
@@ -162,20 +245,19 @@ def read_shifts(path: Path, *, format: str | None = None, decimal: str | None = 
         As :func:`read_dma`.
     """
     file, _, tables = _tables(path, format)
-    return step_tests.shifts(file, tables, _given(None, None, None, None, decimal))
+    units = Units(temperature=temperature_unit, decimal=decimal)
+    return step_tests.shifts(file, tables, _given(None, None, units))
 
 
 def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
     if format is not None and format not in FORMATS:
-        raise InputError(f"format must be one of {', '.join(FORMATS)}, got {format!r}")
+        raise InputError(f"--format must be one of {', '.join(FORMATS)}, got {format!r}")
     file = load(path)
     found = format or _sniffed(file)
     tables = FORMATS[found].tables(file)
-    if format is None:
-        file = LabFile(
-            file.path, file.content, file.lines, (f"format found out: {found}", *file.notes)
-        )
-    return file, found, tables
+    said = () if format is not None else (f"format found out: {found}",)
+    cut = () if found == "trios-json" else file.left_out
+    return replace(file, notes=(*said, *file.notes, *cut)), found, tables
 
 
 def _sniffed(file: LabFile) -> str:
@@ -185,22 +267,22 @@ def _sniffed(file: LabFile) -> str:
     return "csv"  # whose reader says what it expected
 
 
-def _given(
-    kind: str | None,
-    temperature: float | None,
-    frequency_unit: str | None,
-    modulus_unit: str | None,
-    decimal: str | None,
-) -> assembly.Given:
+def _given(kind: str | None, temperature: float | None, units: Units) -> assembly.Given:
     """Refuse what a caller says wrongly before the file is blamed for it."""
     if kind is not None and kind not in KINDS:
-        raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
-    if decimal not in (None, ".", ","):
-        raise InputError(f"decimal must be '.' or ',', got {decimal!r}")
+        raise InputError(f"--kind must be E (tensile) or G (shear), got {kind!r}")
+    if units.decimal not in (None, ".", ","):
+        raise InputError(f"--decimal must be . or , got {units.decimal!r}")
     if temperature is not None and not 0 < temperature < 3000:
-        raise InputError(f"temperature must be positive [K], got {temperature!r}; not Celsius")
-    if frequency_unit is not None:
-        radians_per_second(frequency_unit, angular="rad" in frequency_unit)
-    if modulus_unit is not None:
-        scale(modulus_unit, "Pa")
-    return assembly.Given(kind, temperature, Units(frequency_unit, modulus_unit, decimal))
+        raise InputError(
+            f"--temperature must be above 0 K, got {temperature!r} K; give Celsius + 273.15"
+        )
+    if units.frequency is not None:
+        radians_per_second(units.frequency, angular="rad" in units.frequency)
+    if units.modulus is not None:
+        scale(units.modulus, "Pa")
+    if units.time is not None:
+        scale(units.time, "s")
+    if units.temperature is not None:
+        kelvin(units.temperature)
+    return assembly.Given(kind, temperature, units)

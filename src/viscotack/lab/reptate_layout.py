@@ -1,38 +1,57 @@
 """Layout of RepTate's text files: parameters in the first line, then columns.
 
-``.tts`` and ``.osc`` hold omega, G' and G'', ``.gt`` holds t and G(t), ``.ttsf`` holds T, aT and
-bT. Where a file has no headings or no units the format fixes them: rad/s, Pa, s and C.
+The end of the name says what the first columns are, and only they count: ``.tts`` and ``.osc``
+hold omega, G' and G'', ``.gt`` holds t and the stress after a step of strain ``gamma``, ``.creep``
+holds t and the strain under ``stress``, ``.ttsf`` holds T, aT and bT. The format fixes the units:
+rad/s, Pa, s and C. What follows the first columns may be anything, of any width.
 """
 
 import re
+from pathlib import PurePath
 
+import numpy as np
+
+from .doubts import doubtful_temperature
 from .lab_file import LabFile
-from .quantities import recognise
+from .quantities import bare, recognise
 from .table import Table, tabulated
 
-_PARAMETERS = re.compile(r"\s*(\w+\s*=[^;=]*;\s*)+(\w+\s*=[^;=]*)?;?\s*")
+_PARAMETERS = re.compile(r"\s*([\w()\[\],]+\s*=[^;=]*;\s*)+([\w()\[\],]+\s*=[^;=]*)?;?\s*")
+_ONE = re.compile(r"\s*\w+\s*=[^;=\s]*\s*;?\s*")
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-_UNITS = {
-    "angular_frequency": "rad/s",
-    "frequency": "rad/s",
-    "storage": "Pa",
-    "loss": "Pa",
-    "temperature": "C",
-    "time": "s",
-    "modulus": "Pa",
-    "log10_shift": "-",
-    "shift": "-",
-    "vertical_shift": "-",
-}
+_SWEEP = (("w", "rad/s"), ("G'", "Pa"), ("G''", "Pa"))
 _COLUMNS = {
-    ".gt": ("t", "G(t)"),
-    ".ttsf": ("T", "aT", "bT"),
+    ".tts": _SWEEP,
+    ".osc": _SWEEP,
+    ".gt": (("t", "s"), ("shear stress", "Pa")),
+    ".creep": (("t", "s"), ("shear strain", "-")),
+    ".ttsf": (("T", "C"), ("aT", "-"), ("bT", "-")),
 }
+# files of the same layout that hold no linear viscoelastic test
+_OTHERS = {
+    ".shear": "the start-up of shear flow",
+    ".uext": "the start-up of extensional flow",
+    ".shearxs": "flow-induced crystallisation",
+    ".laos": "an oscillation of large amplitude",
+    ".dls": "a dielectric spectrum",
+    ".gpc": "a distribution of molar mass",
+    ".mwd": "a distribution of molar mass",
+    ".dmwd": "a distribution of molar mass",
+    ".reac": "the molecules of a reaction",
+    ".sans": "a scattering experiment",
+    ".rouse": "the correlations of a simulated chain",
+}
+_OFF = 5.0  # K between the temperature of the file and that of its points
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the first line has no parameters."""
-    return "reptate" if file.lines and _PARAMETERS.fullmatch(file.lines[0]) else None
+    """Return the name of the format, or None if neither name nor first line is of its kind."""
+    ends = _ending(file)
+    if ends in _OTHERS:
+        return "reptate"
+    first = file.lines[0] if file.lines else ""
+    alone = ends in _COLUMNS and _ONE.fullmatch(first)
+    return "reptate" if _PARAMETERS.fullmatch(first) or alone else None
 
 
 def tables(file: LabFile) -> list[Table]:
@@ -43,6 +62,8 @@ def tables(file: LabFile) -> list[Table]:
     ValueError
         If the first line has no parameters, or a row does not have enough numbers.
     """
+    if what := _OTHERS.get(_ending(file)):
+        raise file.error(f"a {_ending(file)} file of RepTate holds {what}, no modulus")
     if name(file) is None:
         raise file.error("expected parameters such as 'Mw=94.9;T=0;chem=PI;'", 1)
     pairs = (part.partition("=") for part in file.lines[0].split(";"))
@@ -53,35 +74,137 @@ def tables(file: LabFile) -> list[Table]:
         if text.strip() and not text.lstrip().startswith("#")
     ]
     above = []
-    while numbered and _NUMBER.fullmatch(numbered[0][1][0]) is None:
-        above.append(numbered.pop(0)[1])
+    while numbered and not _NUMBER.fullmatch(numbered[0][1][0]) and len(above) < 3:
+        above.append(numbered.pop(0))
     if len(above) > 2:
-        raise file.error("expected a row of headings and a row of units, then numbers", 4)
-    headings = above[0] if above else _named(file, numbered)
-    units = [
-        _UNITS.get(heading.quantity, "") if heading else "" for heading in map(recognise, headings)
-    ]
-    notes = ("units fixed by the format: rad/s, Pa, s, C",)
-    if len(above) == 2:
-        notes = ()
-        units = [own or fixed for own, fixed in zip(above[1], units, strict=False)]
-    return [
-        tabulated(
-            file,
-            headings,
-            units,
-            numbered,
-            temperature=_kelvin(file, parameters.get("T")),
-            notes=notes,
-        )
-    ]
+        raise file.error("expected a row of headings and a row of units, then numbers", above[2][0])
+    return [_table(file, parameters, [cells for _, cells in above], numbered)]
 
 
-def _named(file: LabFile, rows: list[tuple[int, list[str]]]) -> list[str]:
-    suffix = next((end for end in _COLUMNS if file.path.lower().endswith(end)), "")
-    names = [*_COLUMNS.get(suffix, ("w", "G'", "G''"))]
-    width = len(rows[0][1]) if rows else 0
-    return names + [f"column {i + 1}" for i in range(len(names), width)]
+def _table(
+    file: LabFile,
+    parameters: dict[str, str],
+    above: list[list[str]],
+    rows: list[tuple[int, list[str]]],
+) -> Table:
+    fixed = _COLUMNS.get(_ending(file)) or _by_headings(file, above)
+    count = len(fixed)
+    kelvin = _kelvin(file, parameters.get("T"))
+    _check_headings(file, above, fixed)
+    if _ending(file) == ".creep" and _number(parameters.get("rec", "0")):
+        raise file.error("rec=1: the recovery after creep, which is no creep compliance", 1)
+    whole = len(above[0]) if above else count
+    for line, cells in rows:
+        if len(cells) < min(whole, count + 1):
+            raise file.error(
+                f"{len(cells)} numbers where the headings have {whole}; a number is missing, or "
+                "the file is cut",
+                line,
+            )
+    if above and kelvin is not None:
+        _check_temperatures(file, above[0], rows, kelvin, count)
+    levels = {}
+    notes = [f"the first {count} columns are read, in the units of the format: {_words(fixed)}"]
+    if _ending(file) == ".gt":
+        levels["strain"] = _level(file, parameters, "gamma", 1.0)
+    if _ending(file) == ".creep":
+        levels["stress"] = _level(file, parameters, "stress", None)
+    if kelvin is not None:
+        notes += doubtful_temperature(np.array([kelvin]), False)
+    return tabulated(
+        file,
+        [name for name, _ in fixed],
+        [unit for _, unit in fixed],
+        [(line, cells[:count]) for line, cells in rows],
+        temperature=kelvin,
+        notes=tuple(notes),
+        levels=levels,
+    )
+
+
+def _ending(file: LabFile) -> str:
+    return PurePath(file.path).suffix.casefold()
+
+
+def _words(fixed: tuple[tuple[str, str], ...]) -> str:
+    return ", ".join(f"{name} [{unit}]" for name, unit in fixed)
+
+
+def _by_headings(file: LabFile, above: list[list[str]]) -> tuple[tuple[str, str], ...]:
+    """Return the columns of a file with another ending, if its headings are those of a format."""
+    quantities = [_quantity(heading) for heading in above[0]] if above else []
+    for fixed in _COLUMNS.values():
+        if [_quantity(name) for name, _ in fixed] == quantities[: len(fixed)]:
+            return fixed
+    raise file.error(
+        "the file begins like one of RepTate; name it .tts or .osc (omega, G', G''), .gt (t, G), "
+        ".creep (t, strain) or .ttsf (T, aT, bT), so that its columns are known",
+        1,
+    )
+
+
+def _quantity(heading: str) -> str | None:
+    found = recognise(heading)
+    if found is None:
+        return None
+    return "angular_frequency" if found.quantity == "frequency" else found.quantity
+
+
+def _check_headings(
+    file: LabFile, above: list[list[str]], fixed: tuple[tuple[str, str], ...]
+) -> None:
+    """Refuse headings or units that name something else than the format has there."""
+    for i, (name, unit) in enumerate(fixed):
+        heading = above[0][i] if above and i < len(above[0]) else ""
+        given, expected = _quantity(heading), _quantity(name)
+        # "sxy", "gamma" and other words are left to the format; a modulus is a stress of strain 1
+        if given not in (None, expected) and (given, expected) != ("modulus", "stress"):
+            raise file.error(f"column {i + 1} is headed {heading!r}; the format has {name!r} there")
+        below = above[1][i] if len(above) > 1 and i < len(above[1]) else ""
+        if below and not _same_unit(below, unit):
+            raise file.error(f"column {i + 1} is in {below!r}; the format has {unit!r} there")
+
+
+def _same_unit(given: str, fixed: str) -> bool:
+    given = bare(given)
+    if fixed == "C":
+        return given.lstrip("°ºo�") == "C"
+    return given in (fixed, "-") or (fixed == "rad/s" and given in ("1/s", "s-1"))
+
+
+def _check_temperatures(
+    file: LabFile,
+    headings: list[str],
+    rows: list[tuple[int, list[str]]],
+    kelvin: float,
+    count: int,
+) -> None:
+    """Refuse a row whose own temperature, behind the first columns, is not that of the file."""
+    if len(headings) <= count or _quantity(headings[count]) != "temperature":
+        return
+    for line, cells in rows:
+        own = _number(cells[count]) if len(cells) > count else None
+        if own is not None and abs(own + 273.15 - kelvin) > _OFF:
+            raise file.error(
+                f'"{headings[count]}" is {own:g} where the file says T={kelvin - 273.15:g} C: a '
+                "number is missing, or the file is of another test",
+                line,
+            )
+
+
+def _level(file: LabFile, parameters: dict[str, str], key: str, default: float | None) -> float:
+    """Return the step that a test was made with; RepTate takes a strain of zero as 1."""
+    text = parameters.get(key, "0")
+    level = _number(text)
+    if level is None or level < 0:
+        raise file.error(f"expected a positive number after '{key}=', got {text!r}", 1)
+    if level == 0 and default is None:
+        raise file.error(f"the first line must say the step of the test, such as '{key}=100;'", 1)
+    return level or default or 1.0
+
+
+def _number(text: str) -> float | None:
+    return float(text) if _NUMBER.fullmatch(text) else None
 
 
 def _kelvin(file: LabFile, text: str | None) -> float | None:

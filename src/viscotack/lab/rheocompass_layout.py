@@ -2,17 +2,21 @@
 
 In any language of the instrument an interval begins with a line of a label and two whole
 numbers, its own number and that of its points. Below come the headings after a second label, a
-line that may be empty, the units in square brackets, and the rows. The first column is empty.
+line that may be empty, the units in square brackets, and the rows. The first column is empty; some
+exports leave it out in the rows. A line such as ``Temperature: 25.0 °C`` may stand above all or
+above the headings of one interval.
 """
 
 import re
 
 from .lab_file import LabFile
 from .plain_layout import cells
+from .quantities import kelvin, recognise
 from .table import Table, first_headings, tabulated
 
 _LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
 _WHOLE = re.compile(r"\s*[0-9]+\s*")
+_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|K|°F)")
 _UNITS_WITHIN = 4  # lines below the headings
 Row = tuple[int, list[str]]
 
@@ -42,13 +46,15 @@ def tables(file: LabFile) -> list[Table]:
         for number, text in enumerate(file.lines, start=1)
     ]
     starts = [i for i, (_, row) in enumerate(rows) if _begins_interval(row)]
+    words = " ".join(text for text in file.lines[: starts[0]] if "geometr" in text.casefold())
+    stated = _temperature(rows[: starts[0]])
     return [
-        _interval(file, rows[start:end])
+        _interval(file, rows[start:end], words, stated)
         for start, end in zip(starts, [*starts[1:], len(rows)], strict=True)
     ]
 
 
-def _interval(file: LabFile, rows: list[Row]) -> Table:
+def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) -> Table:
     line, first = rows[0]
     count = int(first[2])
     at = first_headings([row for _, row in rows])
@@ -74,7 +80,31 @@ def _interval(file: LabFile, rows: list[Row]) -> Table:
             f"the interval says {count} points and has {len(data)}: the file is cut or edited", line
         )
     # the label in front of the headings is no heading
-    return tabulated(file, ["", *rows[at][1][1:]], rows[units][1], data)
+    headings, unit_cells = ["", *rows[at][1][1:]], rows[units][1]
+    if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
+        headings, unit_cells = headings[1:], unit_cells[1:]
+    own = _temperature(rows[:at])
+    return tabulated(
+        file,
+        headings,
+        unit_cells,
+        data,
+        words=words,
+        temperature=stated if own is None else own,
+    )
+
+
+def _temperature(rows: list[Row]) -> float | None:
+    """Return the temperature that a line of a label and a number with its unit states [K]."""
+    for _, row in rows:
+        label = recognise(row[0].strip().rstrip(":"))
+        match = _STATED.fullmatch(row[1].strip()) if len(row) > 1 else None
+        if label is None or label.quantity != "temperature" or match is None:
+            continue
+        factor, offset = kelvin(match[2])
+        kelvins = float(match[1].replace(",", ".")) * factor + offset
+        return kelvins if 0 < kelvins < 3000 else None
+    return None
 
 
 def _separator(file: LabFile) -> str | None:

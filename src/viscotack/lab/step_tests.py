@@ -11,10 +11,14 @@ from .assembly import (
     headings_of,
     kept,
     kind_of,
+    no_such_test,
     refuse_stiffer_than_diamond,
+    refuse_what_is_lacking,
     source_of,
     temperatures,
 )
+from .diagnosis import test_of
+from .doubts import doubtful_modulus
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 from .table import Columns, Table
@@ -68,7 +72,7 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
     if not keep.any():
         raise columns.error("no row has all the numbers that are needed")
     try:
-        return ShiftTable(
+        table = ShiftTable(
             temperature[keep],
             horizontal[keep],
             None,
@@ -76,6 +80,17 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
         )
     except ValueError as error:
         raise columns.error(str(error)) from None
+    _refuse_inverse(columns, table)
+    return table
+
+
+def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
+    """Refuse shifts that rise with temperature: they are those of another convention."""
+    if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
+        raise columns.error(
+            "the shift factors rise with temperature; here a_T is above 1 where the solid is "
+            "slower, below the reference temperature: give 1/a_T"
+        )
 
 
 def _test(
@@ -83,32 +98,41 @@ def _test(
 ) -> tuple[Array, Array, str, float | None, Columns]:
     """Return time, modulus or compliance, kind and temperature of the one table that has them."""
     over, under = ("stress", "strain") if wanted == "modulus" else ("strain", "stress")
+    test = "relaxation" if wanted == "modulus" else "creep"
     found = []
     for table in tables:
         columns = Columns(file, table, given.units, given.kind)
         timed = "time" in columns or "step_time" in columns
-        if timed and (wanted in columns or (over in columns and under in columns)):
+        known = under in columns or under in table.levels
+        if table.rows and timed and (wanted in columns or (over in columns and known)):
             found.append(columns)
-    if len(found) != 1:
-        raise file.error(
-            f"expected one table with a time and a {wanted} (or stress and strain), found "
-            f"{len(found)}; {'export one step' if found else f'columns: {headings_of(tables)}'}"
-        )
+    if not found:
+        raise no_such_test(file, tables, given, test)
+    # of creep and recovery, or of several steps, the one in which the stress or strain is held
+    found = [columns for columns in found if test_of(columns) == test] or found
+    if len(found) > 1:
+        raise file.error(f"{len(found)} tables have a {test} test; export one step")
     (columns,) = found
     # the time of the whole test runs on from step to step; the step has its own
-    time = columns.si("step_time" if "step_time" in columns else "time")
+    timed = "step_time" if "step_time" in columns else "time"
+    needed = (wanted,) if wanted in columns else (over, under)
+    refuse_what_is_lacking(
+        columns, given, [name for name in needed if name in columns], timed, "temperature", *needed
+    )
+    time = columns.si(timed)
+    kind = kind_of(columns, given, *needed)
     if wanted in columns:
-        kind = kind_of(columns, given, wanted)
         values = columns.si(wanted)
     else:
-        kind = kind_of(columns, given, over, under)
-        numerator, denominator = columns.si(over), columns.si(under)
-        columns.keep &= denominator != 0
-        values = numerator / np.where(denominator == 0, math.nan, denominator)
+        values = _ratio(columns, over, under)
         columns.notes.append(f"{wanted} from {over} over {under}")
+    if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
+        columns.notes.append(f'"{columns.name("strain")}" has no unit and is taken as a fraction')
+    _leave_out_what_is_not_held(columns, under, test)
     temperature = temperatures(columns, given)
     if wanted == "modulus":
         refuse_stiffer_than_diamond(columns, values)
+        columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
     keep = kept(columns, time, values)
     known = temperature[keep][~np.isnan(temperature[keep])]
     if known.size and np.ptp(known) > 5:
@@ -118,10 +142,38 @@ def _test(
     return time[keep], values[keep], kind, float(np.mean(known)) if known.size else None, columns
 
 
+def _ratio(columns: Columns, over: str, under: str) -> Array:
+    """Return stress over strain or strain over stress, whose level the file may say once."""
+    numerator = columns.si(over)
+    if under not in columns:
+        return numerator / columns.table.levels[under]
+    denominator = columns.si(under)
+    columns.keep &= denominator != 0
+    return numerator / np.where(denominator == 0, math.nan, denominator)
+
+
+def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> None:
+    """Leave out the way to the step and what follows it; refuse where there is no step."""
+    if quantity not in columns:
+        return
+    held = columns.held(quantity)
+    left = int(np.count_nonzero(columns.keep & ~held))
+    if 2 * left > np.count_nonzero(columns.keep):
+        raise columns.error(
+            f'"{columns.name(quantity)}" is not held: {left} of {held.size} points are more than '
+            f"5 % off its level; a {test} test holds its {quantity}"
+        )
+    if left:
+        columns.notes.append(
+            f"left out because the {quantity} is more than 5 % off its level: {left} points"
+        )
+    columns.keep &= held
+
+
 def _level(columns: Columns, quantity: str) -> float | None:
     """Return the middle of a column that the instrument held constant, in SI."""
     if quantity not in columns:
-        return None
+        return columns.table.levels.get(quantity)
     values = columns.factor(quantity) * columns.numbers(quantity, needed=False)
     values = np.abs(values[columns.keep & np.isfinite(values)])
     return float(np.median(values)) if values.size else None

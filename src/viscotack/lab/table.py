@@ -4,8 +4,9 @@ Every format is brought into this one shape first; what the words mean is decide
 """
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -13,8 +14,9 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 
 from .arrays import KINDS
+from .doubts import doubtful_temperature
 from .lab_file import LabFile
-from .numbers import decimal_mark, half_digit, number
+from .numbers import decimal_mark, half_digit, number, plain_numbers
 from .quantities import (
     Heading,
     bare,
@@ -34,10 +36,22 @@ _UNITS = {
     "magnitude": "Pa",
     "modulus": "Pa",
     "stress": "Pa",
+    "phase": "rad",
     "compliance": "1/Pa",
     "time": "s",
     "step_time": "s",
 }
+
+
+# what gives the unit of a column that has none
+_FLAGS = {
+    "Pa": "--modulus-unit Pa, kPa or MPa",
+    "1/Pa": "--modulus-unit Pa, kPa or MPa, of the stress",
+    "s": "--time-unit s or min",
+}
+_IN_FILE = "written in the heading or below it"
+_HELD = 0.05  # of the level of a step; an instrument holds it better
+_TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
 
 
 @dataclass(frozen=True)
@@ -54,6 +68,10 @@ class Table:
         What the file says around the table: geometry, step name.
     temperature : float or None
         Temperature that the file states once for all rows [K].
+    levels : dict of str to float
+        What else the file states once for all rows: the step of ``strain`` [-] or ``stress`` [Pa].
+    label : str
+        What stands above the columns of one table beside others: a temperature, perhaps.
     notes : tuple of str
         What the layout decided.
     """
@@ -64,6 +82,8 @@ class Table:
     words: str = ""
     temperature: float | None = None
     notes: tuple[str, ...] = ()
+    levels: Mapping[str, float] = field(default_factory=dict)
+    label: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,6 +92,8 @@ class Units:
 
     frequency: str | None = None
     modulus: str | None = None
+    time: str | None = None
+    temperature: str | None = None
     decimal: str | None = None
 
 
@@ -84,13 +106,15 @@ def tabulated(
     words: str = "",
     temperature: float | None = None,
     notes: tuple[str, ...] = (),
+    levels: Mapping[str, float] | None = None,
+    label: str = "",
 ) -> Table:
     """Return a table whose rows are as long as its headings, or say which row is not."""
     width = _width(headings)
     chosen = []
     for line, cells in rows:
-        cells = tuple(cell.strip() for cell in cells)
-        if _width(cells) > width or len(cells) < width:
+        cells = tuple(map(str.strip, cells))
+        if len(cells) < width or any(cells[width:]):
             raise file.error(
                 f"{len(cells)} cells where the headings have {width}; a cell is missing or added, "
                 "or the file is cut",
@@ -104,12 +128,18 @@ def tabulated(
         beside = [*units, *[""] * width][:width]
         own = [mine or bare(theirs) for mine, theirs in zip(own, beside, strict=True)]
     names = tuple(heading.strip() for heading in headings[:width])
-    return Table(names, tuple(own), tuple(chosen), words, temperature, notes)
+    return Table(names, tuple(own), tuple(chosen), words, temperature, notes, levels or {}, label)
 
 
 def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
-    """Return the index of the first row that names two or more quantities, or None."""
+    """Return the index of the first row that names two or more quantities, or None.
+
+    A row that begins with a label and a colon speaks of the test and heads no columns, unless two
+    quantities follow.
+    """
     for index, row in enumerate(rows):
+        if row and row[0].rstrip().endswith(":"):
+            row = row[1:]
         if len({heading.quantity for heading in map(recognise, row) if heading is not None}) >= 2:
             return index
     return None
@@ -133,23 +163,20 @@ class Columns:
     def __init__(self, file: LabFile, table: Table, units: Units, kind: str | None = None):
         self.file, self.table, self.units = file, table, units
         self.notes: list[str] = list(table.notes)
-        self._found: dict[str, tuple[int, Heading]] = {}
+        self._found: dict[str, list[tuple[int, Heading]]] = {}
         for index, text in enumerate(table.headings):
             heading = recognise(text)
             if heading is None or (kind and heading.kind and heading.kind != kind):
                 continue
-            if heading.quantity in self._found:
-                other = table.headings[self._found[heading.quantity][0]]
-                cure = "give kind='E' or 'G'" if heading.kind else "keep one of them"
-                raise self.error(f'two columns of one quantity: "{other}" and "{text}"; {cure}')
-            self._found[heading.quantity] = index, heading
+            self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
-        self._decimal = self._mark()
+        self._chosen: dict[str, tuple[int, Heading]] = {}
+        self._decimal = ""
 
     def __contains__(self, quantity: str) -> bool:
         return quantity in self._found
 
-    def error(self, what: str, row: int | None = None) -> ValueError:
+    def error(self, what: str, row: int | None = None) -> InputError:
         """Return an error that names the line of a row, or of the first row."""
         rows = self.table.rows
         line = rows[row][0] if row is not None else rows[0][0] if rows else None
@@ -157,13 +184,14 @@ class Columns:
 
     def name(self, quantity: str) -> str:
         """Return the heading of a quantity as the file has it."""
-        return self.table.headings[self._found[quantity][0]]
+        return self.table.headings[self._found[quantity][0][0]]
 
     def kind(self, *quantities: str) -> str | None:
         """Return the kind of modulus that headings, neighbours or words around the table say."""
-        said = {self._found[q][1].kind for q in quantities if q in self._found} - {None}
+        headings = [h for q in quantities for _, h in self._found.get(q, [])]
+        said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
-            raise self.error("one column is tensile (E), another one is shear (G); give kind=")
+            raise self.error("one column is tensile (E), another one is shear (G); say --kind E|G")
         for kind in said:
             return kind
         beside = {
@@ -181,27 +209,66 @@ class Columns:
 
     def numbers(self, quantity: str, *, needed: bool = True) -> Array:
         """Return a column in the unit of the file; a row without a needed number is left out."""
-        index = self._found[quantity][0]
-        values = np.empty(len(self.table.rows))
-        for row, (_, cells) in enumerate(self.table.rows):
-            values[row] = self._number(cells[index], row, quantity)
+        index, _ = self._column(quantity)
+        values = self._numbers(index, quantity)
         if needed:
             self.keep &= ~np.isnan(values)
         return values
 
     def resolution(self, quantity: str) -> Array:
         """Return half a unit of the last digit written, in the unit of the file."""
-        index = self._found[quantity][0]
+        index, _ = self._column(quantity)
         return np.array([half_digit(cells[index]) for _, cells in self.table.rows])
+
+    def has_unit(self, quantity: str) -> bool:
+        """Return whether the file says in which unit a column is."""
+        return not no_unit(self._unit(quantity))
+
+    def held(self, quantity: str) -> npt.NDArray[np.bool_]:
+        """Return in which rows a column is within 5 % of its level, the middle of its upper half.
+
+        What lies below is the way to the step, or what came after it.
+        """
+        values = np.abs(self.numbers(quantity, needed=False))
+        known = values[np.isfinite(values)]
+        if not known.size or not known.max():
+            return np.zeros(values.size, dtype=bool)
+        level = np.median(known[known > 0.5 * known.max()])
+        return np.abs(values - level) <= _HELD * level
+
+    def lacking(self, *quantities: str) -> list[str]:
+        """Return what neither file nor caller says about columns, each with the flag to say it."""
+        found: dict[str, list[str]] = {}
+        for quantity in quantities:
+            if quantity not in self or not no_unit(self._unit(quantity)):
+                continue
+            target = _UNITS.get(quantity, "1")
+            if quantity == "frequency":
+                flag = "" if self.units.frequency else "--frequency-unit Hz or rad/s"
+            elif quantity == "temperature":
+                flag = "" if self.units.temperature else "--temperature-unit degC or K"
+            else:
+                flag = "" if target == "1" or self._said(target) else _FLAGS.get(target, _IN_FILE)
+            if flag:
+                found.setdefault(flag, []).append(f'"{self.name(quantity)}"')
+        lacking = [f"the unit of {' and '.join(names)} ({flag})" for flag, names in found.items()]
+        label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
+        if "temperature" in quantities and label and not (label[2] or self.units.temperature):
+            lacking.append(
+                f"whether {self.table.label!r} above the columns is a temperature "
+                "(--temperature-unit degC or K)"
+            )
+        return lacking
 
     def factor(self, quantity: str) -> float:
         """Return the factor that takes a column of moduli, times or pure numbers to SI."""
         target = _UNITS.get(quantity, "1")
         unit = self._unit(quantity)
-        if no_unit(unit) and target == "Pa" and self.units.modulus:
-            unit = self.units.modulus
         if no_unit(unit) and target != "1":
-            cure = "; give modulus_unit= or a unit in the file" if target == "Pa" else ""
+            unit = self._said(target)
+        if no_unit(unit) and target != "1":
+            flag = _FLAGS.get(target)
+            cure = f"; say {flag} or write the unit" if flag else ""
             raise self.error(f'the column "{self.name(quantity)}" has no unit{cure}')
         try:
             return scale(unit, target)
@@ -215,15 +282,16 @@ class Columns:
     def temperature(self) -> Array:
         """Return the temperature of each row [K]; nan where the file does not say."""
         if "temperature" not in self:
-            stated = self.table.temperature
+            stated = self.table.temperature if not self.table.label else self._labelled()
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
         try:
-            factor, offset = kelvin(self._unit("temperature"))
+            factor, offset = kelvin(self._temperature_unit())
         except ValueError as error:
             raise self._located("temperature", error) from None
         kelvins = self.numbers("temperature") * factor + offset
         for row in np.flatnonzero(~((kelvins > 0) & (kelvins < 3000) | np.isnan(kelvins))):
             raise self.error(f"a temperature of {kelvins[row]:g} K is not possible", int(row))
+        self.notes += doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
 
     def angular_frequency(self) -> Array:
@@ -256,17 +324,93 @@ class Columns:
                 except ValueError:
                     own = factor  # the file is ambiguous: the caller decides
                 if not math.isclose(own, factor):
-                    raise InputError(f"the file says {bare(unit)}, frequency_unit says {said}")
+                    raise InputError(f"the file says {bare(unit)}, --frequency-unit says {said}")
+            elif no_unit(unit) and angular:
+                factor = 1.0
+                self.notes.append(f'"{self.name(name)}" has no unit and is taken in rad/s')
             elif no_unit(unit):
-                raise InputError("no unit; give frequency_unit='Hz' or 'rad/s', or write it")
+                raise InputError("no unit; say --frequency-unit Hz or rad/s, or write it")
             else:
                 factor = radians_per_second(unit, angular=angular)
         except ValueError as error:
             raise self._located(name, error) from None
         return self.numbers(name) * factor
 
+    def _temperature_unit(self) -> str:
+        unit = self._unit("temperature")
+        if no_unit(unit) and self.units.temperature is None:
+            raise InputError("no unit; say --temperature-unit degC or K, or write it")
+        return (self.units.temperature or "") if no_unit(unit) else unit
+
+    def _labelled(self) -> float:
+        """Return the temperature that stands above the columns of this table [K]."""
+        text = self.table.label
+        match = _TEMPERATURE.fullmatch(text.replace(",", "."))
+        if match is None:
+            raise self.error(
+                f"{text!r} above the columns is no temperature; expected such as '20 °C'"
+            )
+        unit = match[2] or self.units.temperature
+        if unit is None:
+            raise self.error(
+                f"{text!r} above the columns has no unit; if it is a temperature, say "
+                "--temperature-unit degC or K"
+            )
+        factor, offset = kelvin(unit)
+        kelvins = float(match[1]) * factor + offset
+        if not 0 < kelvins < 3000:
+            raise self.error(f"a temperature of {kelvins:g} K is not possible")
+        return kelvins
+
+    def _said(self, target: str) -> str:
+        """Return the unit that the caller gives for columns without one."""
+        if target == "Pa":
+            return self.units.modulus or ""
+        if target == "1/Pa" and self.units.modulus:
+            return f"1/({bare(self.units.modulus)})"
+        return self.units.time or "" if target == "s" else ""
+
+    def _column(self, quantity: str) -> tuple[int, Heading]:
+        """Return the one column of a quantity; of several, the first, if all say the same."""
+        if quantity not in self._chosen:
+            first, *others = self._found[quantity]
+            for other in others:
+                self._refuse_other(quantity, first, other)
+            self._chosen[quantity] = first
+        return self._chosen[quantity]
+
+    def _refuse_other(
+        self, quantity: str, first: tuple[int, Heading], other: tuple[int, Heading]
+    ) -> None:
+        names = [self.table.headings[index] for index, _ in (first, other)]
+        kinds = {heading.kind for _, heading in (first, other)} - {None}
+        units = {bare(heading.unit or self.table.units[index]) for index, heading in (first, other)}
+        if len(kinds) < 2 and len(units) == 1:
+            values = [self._numbers(index, quantity) for index, _ in (first, other)]
+            # a temperature is in degrees, where one percent of the number means nothing
+            slack = 0.5 if quantity == "temperature" else 0.01 * np.abs(values[0])
+            if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
+                self.notes.append(f'of two columns that say the same, "{names[0]}" is used')
+                return
+        cure = "say --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
+        raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
+
+    def _numbers(self, index: int, quantity: str) -> Array:
+        cells = [cells[index] for _, cells in self.table.rows]
+        values = plain_numbers(cells)
+        if values is not None and self.units.decimal != ",":
+            return values
+        mark = self._mark()
+        values = np.empty(len(cells))
+        for row, text in enumerate(cells):
+            try:
+                values[row] = number(text, mark)
+            except ValueError as error:
+                raise self.error(f'column "{self.table.headings[index]}": {error}', row) from None
+        return values
+
     def _unit(self, quantity: str) -> str:
-        index, heading = self._found[quantity]
+        index, heading = self._column(quantity)
         return heading.unit or self.table.units[index]
 
     def _located(self, quantity: str, error: ValueError) -> ValueError:
@@ -275,23 +419,19 @@ class Columns:
             return error
         return self.error(f'column "{self.name(quantity)}": {text}')
 
-    def _number(self, text: str, row: int, quantity: str) -> float:
-        try:
-            return number(text, self._decimal)
-        except ValueError as error:
-            raise self.error(f'column "{self.name(quantity)}": {error}', row) from None
-
     def _mark(self) -> str:
-        """Return the decimal mark, from the numbers of the columns that are read."""
+        """Return the decimal mark, from the numbers of the columns that are recognised."""
         if self.units.decimal is not None:
             return self.units.decimal
-        rows, indices = self.table.rows, [index for index, _ in self._found.values()]
-        try:
-            mark = decimal_mark(cells[index] for _, cells in rows for index in indices)
-        except ValueError as error:
-            raise self.error(str(error)) from None
-        self.notes += ["decimal comma"] * (mark == ",")
-        return mark
+        if not self._decimal:
+            indices = [index for columns in self._found.values() for index, _ in columns]
+            cells = [cells[index] for _, cells in self.table.rows for index in indices]
+            try:
+                self._decimal = decimal_mark(cells)
+            except ValueError as error:
+                raise self.error(str(error)) from None
+            self.notes += ["decimal comma"] * (self._decimal == ",")
+        return self._decimal
 
 
 def _width(cells: Sequence[str]) -> int:

@@ -1,7 +1,9 @@
 """Layout of TA Instruments TRIOS exports as text and csv: a header, then steps with a table each.
 
 A step begins with a line ``[step]``. Its name, its number of points and its table follow, the
-table either named row by row (``Variables``, ``data point 1``) or plain: headings, units, rows.
+table either named row by row (``Variables``, ``data point 1``) or plain: headings, units, rows. An
+export of one step may do without ``[step]``; it begins with ``Filename`` and has ``Variables``.
+Exported with all variables a table has eighty columns; those that are not needed are passed over.
 """
 
 from .lab_file import LabFile
@@ -9,13 +11,14 @@ from .plain_layout import cells
 from .table import Table, first_headings, tabulated
 
 _STEP = "[step]"
+_LOOKED = 500  # lines in which the table of an export of one step begins
 _COUNTED = "number of points"
 Row = tuple[int, list[str]]
 
 
 def name(file: LabFile) -> str | None:
     """Return the name of the format, or None if there is no step."""
-    return "trios" if any(_begins_step(text) for text in file.lines) else None
+    return "trios" if _starts(file) else None
 
 
 def tables(file: LabFile) -> list[Table]:
@@ -27,11 +30,12 @@ def tables(file: LabFile) -> list[Table]:
         If there is no step, a row does not have a cell for each heading, or a step has not as
         many rows as it says.
     """
-    starts = [i for i, text in enumerate(file.lines) if _begins_step(text)]
+    starts = _starts(file)
     if not starts:
         raise file.error(f"expected a line {_STEP!r} before each table")
     separator = "\t" if any("\t" in text for text in file.lines) else ","
-    words = " ".join(text for text in file.lines[: starts[0]] if "geometry" in text.casefold())
+    before = starts[0] or _LOOKED
+    words = " ".join(text for text in file.lines[:before] if "geometry" in text.casefold())
     found = []
     for start, end in zip(starts, [*starts[1:], len(file.lines)], strict=True):
         rows = [
@@ -56,6 +60,10 @@ def _table(file: LabFile, rows: list[Row], words: str) -> Table | None:
         if counted:
             raise file.error(f"the step has {counted} points but no headings", rows[0][0])
         return None
+    if at + 1 < len(rows):
+        # the units end with the last column that has one
+        units = rows[at + 1][1]
+        units += [""] * (len(rows[at][1]) - len(units))
     data: list[Row] = []
     for number, row in rows[at + 2 :]:
         if not any(cell.strip() for cell in row):
@@ -70,7 +78,24 @@ def _table(file: LabFile, rows: list[Row], words: str) -> Table | None:
             f"the step says {counted} points and has {len(data)}: the file is cut or edited",
             rows[at][0],
         )
-    return tabulated(file, rows[at][1], rows[at + 1][1], data, words=words)
+    notes = ()
+    if data and 1 < len(data[0][1]) < len(rows[at][1]):
+        # at the time of the step quotients have no value, and the last cells are not written
+        notes = (f"line {data.pop(0)[0]} left out: it lacks cells, at the beginning of the step",)
+    return tabulated(file, rows[at][1], rows[at + 1][1], data, words=words, notes=notes)
+
+
+def _starts(file: LabFile) -> list[int]:
+    """Return the lines after which a step begins."""
+    starts = [i for i, text in enumerate(file.lines) if _begins_step(text)]
+    if not starts and file.lines and _cell(file.lines[0]) == "filename":
+        starts = [0 for text in file.lines[:_LOOKED] if _cell(text) == "variables"][:1]
+    return starts
+
+
+def _cell(text: str) -> str:
+    """Return the first cell of a line in small letters."""
+    return text.replace(",", "\t").partition("\t")[0].strip().casefold()
 
 
 def _begins_step(text: str) -> bool:

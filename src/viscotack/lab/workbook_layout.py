@@ -5,8 +5,9 @@ need openpyxl; both come with the extra ``lab``.
 """
 
 import io
+import re
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 from typing import Any
 
@@ -17,6 +18,7 @@ from .table import Table, first_headings, tabulated
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
+_FORMULA = re.compile(rb"<f[ >/]")
 _WIDEST, _LONGEST = 500, 200_000
 Cells = list[list[str]]
 
@@ -80,12 +82,33 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
         if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
             raise InputError("it unpacks to more than 200 MB")
+        formulas = any(
+            _FORMULA.search(parts.read(part))
+            for part in parts.namelist()
+            if part.startswith("xl/worksheets/")
+        )
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
+    # a second reading, of what the cells hold in place of their values
+    beside = openpyxl.load_workbook(io.BytesIO(content), read_only=True) if formulas else None
     for sheet in book.worksheets:
         _refuse_huge(sheet.max_row or 0, sheet.max_column or 0)
         rows = [[_text(v) for v in row] for row in sheet.iter_rows(values_only=True)]
+        if beside is not None:
+            _name_formulas(rows, beside[sheet.title].iter_rows(values_only=True))
         width = max(map(len, rows), default=0)
         yield sheet.title, [row + [""] * (width - len(row)) for row in rows]
+
+
+def _name_formulas(rows: Cells, beside: Iterable[tuple[Any, ...]]) -> None:
+    """Put a formula in the place of a value that the workbook does not hold.
+
+    A program that writes workbooks without computing them leaves the value out; the empty cell
+    would be taken for a point that was not measured.
+    """
+    for row, cells in zip(rows, beside, strict=False):
+        for i, formula in enumerate(cells[: len(row)]):
+            if not row[i] and isinstance(formula, str) and formula.startswith("="):
+                row[i] = formula
 
 
 def _refuse_huge(rows: int, columns: int) -> None:

@@ -82,8 +82,13 @@ Time = Annotated[str | None, Option("--time-unit", metavar="UNIT", help="Unit of
 
 @material.command("fit")
 def fit_command(
-    file: Annotated[
-        Path, Argument(metavar="FILE", help="What the instrument wrote.", show_default=False)
+    files: Annotated[
+        list[Path],
+        Argument(
+            metavar="FILE...",
+            help="What the instrument wrote; several files are sweeps of one material.",
+            show_default=False,
+        ),
     ],
     poisson_ratio: Annotated[
         float,
@@ -91,7 +96,9 @@ def fit_command(
     ],
     output: Output = None,
     plot_file: PlotFile = None,
-    test: Annotated[Test, Option(help="What the file holds.")] = Test.DMA,
+    test: Annotated[
+        Test | None, Option(help="What the file holds; else its columns say.", show_default=False)
+    ] = None,
     model: Annotated[
         Model, Option(help="What to fit; best: all, and an information criterion chooses.")
     ] = Model.BEST,
@@ -126,6 +133,10 @@ def fit_command(
     shift_file: Annotated[
         Path | None, Option("--shift-file", metavar="FILE", help="Shift by this table of log_aT.")
     ] = None,
+    format: Annotated[
+        str | None,
+        Option("--format", metavar="NAME", help="Of the file, where it is not found out."),
+    ] = None,
     kind: Annotated[
         str | None, Option(metavar="E|G", help="Tensile or shear, where the file does not say.")
     ] = None,
@@ -138,6 +149,27 @@ def fit_command(
     ] = None,
     modulus_unit: Annotated[
         str | None, Option("--modulus-unit", help="Such as MPa, where the file does not say.")
+    ] = None,
+    time_unit: Annotated[
+        str | None, Option("--time-unit", help="Such as s, where the file does not say.")
+    ] = None,
+    temperature_unit: Annotated[
+        str | None,
+        Option(
+            "--temperature-unit",
+            help="degC, K or degF, where a column or the numbers above columns have none.",
+        ),
+    ] = None,
+    temperature_in_name: Annotated[
+        bool,
+        Option(
+            "--temperature-in-name",
+            help="The temperature stands in the name of each file, as in foam_-25C.csv.",
+        ),
+    ] = False,
+    decimal: Annotated[
+        str | None,
+        Option("--decimal", metavar=",|.", help="Decimal mark, where 1,234 leaves it open."),
     ] = None,
     glassy_modulus: Annotated[
         str | None,
@@ -170,23 +202,33 @@ def fit_command(
     --glass-transition "-115 degC" -o pdms.toml --plot fit.png
     """
     with wrong_input():
-        files = {"--plot": plot_file, "--output": output}
-        check_files(files, as_json=as_json, reads=(file, shift_file))
-        from viscotack.lab import fit
+        written = {"--plot": plot_file, "--output": output}
+        check_files(written, as_json=as_json, reads=(*files, shift_file))
+        from viscotack.lab import FrequencySweeps, RelaxationTest, fit
         from viscotack.lab.fit_passport import issued
         from viscotack.pictures.lab import draw_fit
 
-        given = {"kind": kind, "modulus_unit": modulus_unit, "temperature": _kelvin(measured_at)}
+        given = {
+            "format": format,
+            "kind": kind,
+            "temperature": _kelvin(measured_at),
+            "frequency_unit": frequency_unit,
+            "modulus_unit": modulus_unit,
+            "time_unit": time_unit,
+            "temperature_unit": temperature_unit,
+            "decimal": decimal,
+        }
         shifting = {"glass-transition": glass_transition, "wlf": wlf, "shift-file": shift_file}
-        if test is Test.DMA:
-            given["frequency_unit"] = frequency_unit
-            data, shift = _master_curve(file, given, _kelvin(reference), shifting)
+        data = _measured(files, test, given, temperature_in_name)
+        shift = None
+        if isinstance(data, FrequencySweeps):
+            data, shift = _master_curve(data, _kelvin(reference), shifting)
         else:
+            kind_of_test = Test.RELAXATION if isinstance(data, RelaxationTest) else Test.CREEP
             _refuse(
-                f"for --test {test}",
+                f"for --test {kind_of_test}",
                 {"frequency-unit": frequency_unit, "reference-temperature": reference} | shifting,
             )
-            data, shift = _over_time(file, test, given), None
         known = {"glassy_modulus": glassy_modulus, "rubbery_modulus": rubbery_modulus}
         report = fit(
             data,
@@ -199,12 +241,12 @@ def fit_command(
         )
         passport = issued(
             report,
-            name=name or file.stem,
+            name=name or files[0].stem,
             shift=shift,
             reference=reference_words,
             made_by=f"viscotack {__version__}",
         )
-        passport = _by_file_name(passport, file)
+        passport = _by_file_name(passport, files)
     write = Writing()
     write("wrote", output, lambda target: write_passport(passport, target))
     write.picture(plot_file, lambda: draw_fit(report))
@@ -360,18 +402,37 @@ def _passport(name: str) -> Passport:
     return read_passport(name)
 
 
+def _measured(
+    files: list[Path], test: Test | None, given: dict[str, Any], temperature_in_name: bool
+) -> Any:
+    """Return what the files hold: sweeps of one material, or one test over time."""
+    from viscotack.lab import read, read_creep, read_dma, read_relaxation
+
+    if test is Test.DMA or len(files) > 1 or temperature_in_name:
+        if test in (Test.RELAXATION, Test.CREEP):
+            raise InputError(f"--test {test} reads one file that says its temperature")
+        return read_dma(files, **given, temperature_in_name=temperature_in_name)
+    (file,) = files
+    if test is None:
+        return read(file, **given)
+    if given["frequency_unit"] is not None:
+        _refuse(f"for --test {test}", {"frequency-unit": given["frequency_unit"]})
+    given = {key: value for key, value in given.items() if key != "frequency_unit"}
+    return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
+
+
 def _master_curve(
-    file: Path, given: dict[str, Any], reference: float | None, shifting: dict[str, Any]
+    sweeps: Any, reference: float | None, shifting: dict[str, Any]
 ) -> tuple[Any, Any]:
     """Return the master curve of a DMA, and how times shift."""
-    from viscotack.lab import master_curve, read_dma, read_shifts
+    from viscotack.lab import master_curve, read_shifts
 
+    file = sweeps.source.path
     named = [name for name, value in shifting.items() if value is not None]
     if len(named) > 1:
         raise InputError(f"give one shift, got {' and '.join(f'--{n}' for n in named)}")
     if named and reference is None:
         raise InputError(f"--{named[0]} needs --reference-temperature")
-    sweeps = read_dma(file, **given)
     shift: Any = None
     if shifting["glass-transition"] is not None:
         shift = WLF.from_glass_transition(parse(shifting["glass-transition"], "K"))
@@ -393,12 +454,6 @@ def _master_curve(
         )
     curve = master_curve(sweeps, reference_temperature=reference, shift=shift)
     return curve, shift if isinstance(shift, WLF) else curve.shifts
-
-
-def _over_time(file: Path, test: Test, given: dict[str, Any]) -> Any:
-    from viscotack.lab import read_creep, read_relaxation
-
-    return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
 
 
 def _imported(
@@ -472,9 +527,10 @@ def _notes(passport: Passport, form: PronyForm) -> tuple[str, ...]:
     )
 
 
-def _by_file_name(passport: Passport, file: Path) -> Passport:
-    """Return the passport with the bare name of the file: a path says nothing elsewhere."""
-    return replace(passport, origin=replace(passport.origin, file=file.name))
+def _by_file_name(passport: Passport, files: list[Path]) -> Passport:
+    """Return the passport with the bare names of the files: a path says nothing elsewhere."""
+    names = ", ".join(file.name for file in files)
+    return replace(passport, origin=replace(passport.origin, file=names))
 
 
 def _kelvin(text: str | None) -> float | None:

@@ -1,0 +1,46 @@
+"""What is possible and yet so rare that it is said: it may be a wrong unit."""
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+_ROOM = 263.0, 323.0  # numbers that are a room's or a fridge's temperatures in kelvin
+_COLD = 100.0  # K; below it hardly a laboratory measures
+_HARD, _SOFT = 3e10, 0.1  # Pa: beyond polymers and bones, below weak gels
+
+
+def doubtful_temperature(kelvins: Array, in_kelvin: bool) -> list[str]:
+    """Return a note on temperatures that look as if they were in another unit.
+
+    Examples
+    --------
+    >>> doubtful_temperature(np.array([566.15, 571.15]), False)
+    ['check: temperatures from 293 to 298 C would be those of a room in kelvin']
+    """
+    known = kelvins[np.isfinite(kelvins)]
+    if not known.size:
+        return []
+    low, high = float(known.min()), float(known.max())
+    if in_kelvin:
+        far = f"check: temperatures from {low:.4g} to {high:.4g} K would be usual in Celsius"
+        return [far] if high < _COLD else []
+    low, high = low - 273.15, high - 273.15
+    room = f"check: temperatures from {low:.4g} to {high:.4g} C would be those of a room in kelvin"
+    return [room] if _ROOM[0] <= low and high <= _ROOM[1] else []
+
+
+def doubtful_modulus(modulus: Array) -> list[str]:
+    """Return a note on a modulus that hardly a polymer, a gel or a tissue has.
+
+    Examples
+    --------
+    >>> doubtful_modulus(np.array([1e-3, 2e-3]))
+    ['check: the modulus stays below 0.002 Pa; is its unit right?']
+    """
+    low, high = float(np.min(modulus)), float(np.max(modulus))
+    if high < _SOFT:
+        return [f"check: the modulus stays below {high:.2g} Pa; is its unit right?"]
+    if high > _HARD:
+        return [f"check: the modulus reaches {high:.2g} Pa, from {low:.2g} Pa; is its unit right?"]
+    return []

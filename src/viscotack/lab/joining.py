@@ -1,0 +1,94 @@
+"""Several files as the sweeps of one material, and temperatures that stand in their names."""
+
+import hashlib
+import re
+from collections.abc import Sequence
+from pathlib import PurePath
+
+import numpy as np
+
+from viscotack.errors import InputError
+
+from .lab_file import LabFile
+from .quantities import kelvin
+from .sweeps import FrequencySweeps, Source
+
+_IN_NAME = re.compile(
+    r"(?<![0-9.A-SU-Za-su-z])(?P<number>[+-]?[0-9]+(?:\.[0-9]+)?) ?(?P<unit>degC|°C|C|K)"
+    r"(?![A-Za-z0-9])"
+)
+_HYPHEN = re.compile(r"[A-Za-z0-9](-[0-9.]+ ?(?:degC|°C|C|K))(?![A-Za-z0-9])")
+
+
+def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
+    """Return the sweeps of several files as one set, numbered on from file to file.
+
+    Raises
+    ------
+    ValueError
+        If some are tensile and others shear, or two files are the same.
+
+    Notes
+    -----
+    The source names all files; its hash is that of their hashes in this order, each of which is
+    noted.
+    """
+    if len(parts) == 1:
+        return parts[0]
+    kinds = {part.kind for part in parts}
+    if len(kinds) > 1:
+        raise InputError(
+            "some files are tensile (E), others shear (G); read them apart, or say --kind"
+        )
+    sources = [part.source for part in parts]
+    hashes = [source.sha256 for source in sources]
+    for i, digest in enumerate(hashes):
+        if digest in hashes[:i]:
+            twin = sources[hashes.index(digest)].path
+            raise InputError(f"{sources[i].path} is the same file as {twin}; leave one out")
+    numbers, count = [], 0
+    for part in parts:
+        own, renumbered = np.unique(part.sweep, return_inverse=True)
+        numbers.append(renumbered + count)
+        count += own.size
+    notes = [f"{len(parts)} files as one material"]
+    notes += [f"{source.path}: sha256 {source.sha256}" for source in sources]
+    notes += [f"{source.path}: {note}" for source in sources for note in source.notes]
+    names = ("temperature", "angular_frequency", "storage", "loss")
+    return FrequencySweeps(
+        **{name: np.concatenate([getattr(part, name) for part in parts]) for name in names},
+        kind=kinds.pop(),
+        sweep=np.concatenate(numbers),
+        source=Source(
+            path=", ".join(source.path for source in sources),
+            sha256=hashlib.sha256("".join(hashes).encode()).hexdigest(),
+            format=", ".join(dict.fromkeys(source.format for source in sources)),
+            notes=tuple(notes),
+        ),
+    )
+
+
+def kelvin_in_name(file: LabFile) -> float:
+    """Return the one temperature in the name of a file [K].
+
+    Examples
+    --------
+    >>> kelvin_in_name(LabFile("data/foam_dma_-25C.csv", b"", (), ()))
+    248.15
+    """
+    stem = PurePath(file.path).stem
+    if match := _HYPHEN.search(stem):
+        raise file.error(
+            f"{match[1]!r} in its name may be below zero or behind a hyphen; name it with '_'"
+        )
+    found = {
+        float(match["number"]) * factor + offset
+        for match in _IN_NAME.finditer(stem)
+        for factor, offset in [kelvin(match["unit"])]
+    }
+    if len(found) != 1 or min(found) <= 0:
+        raise file.error(
+            f"its name has {len(found)} temperatures such as '25C'; --temperature-in-name needs "
+            "exactly one, above absolute zero"
+        )
+    return found.pop()

@@ -1,0 +1,431 @@
+"""Layouts that instruments and programs export, and the true cause of a refusal."""
+
+import json
+import time
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import lab_files
+from command_line import exit_status
+from viscotack.lab import read, read_creep, read_dma, read_relaxation, read_shifts
+from viscotack.lab.quantities import is_unit, recognise
+
+
+@pytest.fixture
+def file(tmp_path):
+    """Write a file and return its path."""
+
+    def write(content, name="film.csv"):
+        path = tmp_path / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    return write
+
+
+def notes(test):
+    return "; ".join(test.source.notes)
+
+
+def assert_the_film(sweeps, rtol=1e-10):
+    assert_allclose(sweeps.temperature, lab_files.TEMPERATURE, rtol=1e-14)
+    assert_allclose(sweeps.angular_frequency, lab_files.OMEGA, rtol=1e-10)
+    assert_allclose(sweeps.storage, lab_files.PASCAL[0], rtol=rtol)
+    assert_allclose(sweeps.loss, lab_files.PASCAL[1], rtol=rtol)
+
+
+# ---- headings ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "quantity", "unit"),
+    [
+        ("time_s", "time", "s"),
+        ("modulus_Pa", "modulus", "Pa"),
+        ("omega_rad_s", "angular_frequency", "rad/s"),
+        ("storage_MPa", "storage", "MPa"),
+        ("G_double_prime", "loss", ""),
+        ("Gpp", "loss", ""),
+        ("T [oC]", "temperature", "oC"),
+        ("δ (°)", "phase", "°"),
+        ("E' [Mpa]", "storage", "Mpa"),
+    ],
+)
+def test_a_unit_behind_the_name_is_read(text, quantity, unit):
+    heading = recognise(text)
+    assert (heading.quantity, heading.unit) == (quantity, unit)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["G*/sin(delta)", "G*.sin(delta)", "Stress (step)", "Oscillation stress (cmd)", "1/temperature",
+     "Shear stress (average)", "e'", "e''", "T_ref"],
+)  # fmt: skip
+def test_a_name_that_holds_another_is_another_quantity(text):
+    assert recognise(text) is None
+
+
+def test_units_are_told_from_words():
+    assert all(map(is_unit, ("MPa", "1/MPa", "°C", "%", "min", "rad/s", "Pa.s")))
+    assert not any(map(is_unit, ("step", "cmd", "sample", "Mpa", "sin(delta)")))
+
+
+# ---- layouts -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "unit"), [("delta", "°"), ("δ", "rad"), ("tan delta", "-")])
+def test_size_and_angle_make_both_moduli(file, name, unit):
+    sweeps = read_dma(file(lab_files.polar(name, unit)))
+    assert_the_film(sweeps, rtol=1e-13)
+    assert 'moduli from "|E*| (MPa)" and the loss angle' in notes(sweeps)
+
+
+def test_an_angle_that_is_none_is_refused(file):
+    bad = lab_files.polar("delta", "°").replace("(°)".encode(), b"(rad)")
+    with pytest.raises(ValueError, match=r"line 2: .*a loss angle is between 0 and 90 degrees"):
+        read_dma(file(bad))
+    with pytest.raises(ValueError, match=r"the unit of .delta \(-\). \(written in the heading"):
+        read_dma(file(lab_files.polar("delta", "-")))
+
+
+def test_doubles_that_are_not_needed_are_passed_over(file):
+    sweeps = read_dma(file(lab_files.trios_all()))
+    assert_the_film(sweeps)
+    assert (sweeps.kind, sweeps.source.format) == ("E", "trios")
+
+
+def test_two_columns_that_say_the_same_are_one(file):
+    rows = "1, 3, 0.4, 20.0, 20.1\n2, 4, 0.5, 20.0, 20.1\n"
+    names = "f, E', E'', Temp, Temp\nHz, MPa, MPa, C, C\n"
+    assert 'of two columns that say the same, "Temp" is used' in notes(read_dma(file(names + rows)))
+    with pytest.raises(ValueError, match='two columns of one quantity: "Temp" and "Temp"'):
+        read_dma(file(names + rows.replace("20.1\n2", "25.1\n2")))
+
+
+def test_an_export_of_one_step_does_without_its_mark(file):
+    text = (
+        "Filename\tfilm.tri\nGeometry name\t40 mm parallel plate\nNumber of points\t2\n"
+        "Variables\tAngular frequency\tStorage modulus\tLoss modulus\tStep\n\trad/s\tPa\tPa\n"
+        "Data point\t1\t3e4\t2e3\t1\nData point\t10\t4e4\t3e3\t1\n"
+    )
+    sweeps = read_dma(file(text, "film.txt"))
+    assert (sweeps.source.format, sweeps.kind, len(sweeps)) == ("trios", "G", 2)
+    with pytest.raises(ValueError, match="says 2 points and has 1: the file is cut"):
+        read_dma(file(text.rpartition("Data")[0], "film.txt"))
+
+
+def test_the_first_row_of_a_step_may_lack_its_last_quotient(file):
+    text = (
+        "Filename\tfilm.tri\n[step]\nCreep - 1\nStep time\tStress\tStrain\tTorque\tModulus\n"
+        "min\tkPa\t%\tuN.m\tMPa\n0\t1\t0\t5\n1\t1\t2\t5\t0.05\n2\t1\t4\t5\t0.025\n"
+    )
+    creep = read(file(text, "film.txt"))
+    assert type(creep).__name__ == "CreepTest"
+    assert_allclose(creep.compliance, [2e-5, 4e-5])
+    assert_allclose(creep.time, [60, 120])
+    assert "line 6 left out: it lacks cells" in notes(creep)
+    with pytest.raises(ValueError, match="line 8: 4 cells where the headings have 5"):
+        read(file(text.replace("\t0.025", ""), "film.txt"))
+
+
+def test_json_in_lists_is_read(file):
+    columns = [{"name": "Time", "unit": "s"}, {"name": "Shear Strain", "unit": ""},
+               {"name": "Relaxation Modulus", "unit": "kPa"}]  # fmt: skip
+    values = [[0.1, 0.02, 30.5], [1, 0.02, 20.25], [10, 0.02, None]]
+    data = {"DataSet": [{"Data": {"columns": columns, "values": values}}]}
+    text = json.dumps({"Experiment": {"Results": [data]}})
+    test = read(file(text, "film.json"), kind="G")
+    assert test.source.format == "trios-json"
+    assert test.modulus.tolist() == [30500, 20250]
+    assert test.strain == 0.02
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"a": 1', "the JSON cannot be read, it may be cut"),
+        ('{"a": 1}', "no Results in it"),
+        ('{"Results": {"Rows": []}}', "'ColumnHeaders'.* is missing"),
+        ('{"Results": [3]}', "expected tables of a TRIOS export"),
+        ('{"Results": {"ColumnHeaders": {}, "Rows": [{"x": 1}]}}', "row 1: a cell 'x' without"),
+        ('{"a":' * 5000, "the JSON cannot be read"),
+    ],
+)
+def test_json_of_another_kind_is_refused(file, text, words):
+    with pytest.raises(ValueError, match=words):
+        read_dma(file(text, "film.json"))
+
+
+def test_columns_side_by_side_are_sweeps(file):
+    for within in (False, True):
+        sweeps = read_dma(file(lab_files.wide(within)))
+        assert_the_film(sweeps)
+        assert sweeps.ids == (0, 1, 2)
+
+
+def test_bare_numbers_above_columns_are_asked_for(file):
+    bare = lab_files.wide().replace(" °C".encode(), b"")
+    with pytest.raises(ValueError, match=r"'-40' above the columns is a temperature \(--temp"):
+        read_dma(file(bare))
+    assert_the_film(read_dma(file(bare), temperature_unit="degC"))
+    named = bare.replace(b"-40", b"dry").replace(b"-30", b"wet")
+    with pytest.raises(ValueError, match="'dry' above the columns is no temperature"):
+        read_dma(file(named))
+
+
+def test_a_gap_below_one_temperature_ends_only_its_sweep(file):
+    text = ",20 °C,,30 °C,\nw [rad/s],G' [Pa],G'' [Pa],G' [Pa],G'' [Pa]\n1,30,4,20,3\n2,,,21,4\n"
+    sweeps = read_dma(file(text))
+    assert sweeps.sweep.tolist() == [0, 1, 1]
+    assert_allclose(sweeps.storage, [30, 20, 21])
+
+
+@pytest.mark.parametrize("cells", [6, 11])
+def test_only_the_first_columns_of_reptate_count(file, cells):
+    sweeps = read_dma(file(lab_files.reptate_osc(cells=cells), "film.osc"))
+    assert_allclose(sweeps.storage, lab_files.PASCAL[0][8:], rtol=1e-11)
+    assert_allclose(sweeps.loss, lab_files.PASCAL[1][8:], rtol=1e-11)
+    assert_allclose(sweeps.temperature, 253.15)
+    lines = lab_files.reptate_osc(cells=cells).decode("latin-1").split("\n")
+    lines[4] = "    ".join(lines[4].split()[1:])
+    with pytest.raises(ValueError, match=r"line 5: .Temp. is 1.97 where the file says T=-20"):
+        read_dma(file("\n".join(lines).encode("latin-1"), "film.osc"))
+
+
+def test_steps_of_reptate_stand_in_its_first_line(file):
+    relaxation = read(file("T=20;gamma=0.5; \nt sxy\n0.1 5e5\n1 3e5\n", "melt.gt"))
+    assert relaxation.modulus.tolist() == [1e6, 6e5]
+    assert read(file("gamma=0;\n0.1 5e5\n1 3e5\n", "melt.gt")).modulus[0] == 5e5
+    creep = read(file("T=20;stress=50;\nt strain\ns -\n0 0\n1 0.001\n2 0.002\n", "melt.creep"))
+    assert_allclose(creep.compliance, [2e-5, 4e-5])
+    assert creep.stress == 50
+    with pytest.raises(ValueError, match="line 1: the first line must say the step.*stress=100"):
+        read(file("T=20;Mw=3;\n1 0.001\n", "melt.creep"))
+    with pytest.raises(ValueError, match="the recovery after creep"):
+        read(file("T=20;stress=50;rec=1;\nt strain stress\n1 0.001\n", "melt.creep"))
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("melt.laos", "large amplitude"), ("melt.shear", "start-up of shear flow"),
+     ("melt.dls", "dielectric"), ("melt.gpc", "molar mass"), ("melt.txt", "name it .tts")],
+)  # fmt: skip
+def test_other_files_of_reptate_are_no_sweeps(file, name, words):
+    with pytest.raises(ValueError, match=words):
+        read_dma(file("omega=1;gamma=3;\n1 30 4\n2 40 5\n", name))
+
+
+def test_headings_that_are_not_those_of_the_format_are_refused(file):
+    with pytest.raises(ValueError, match="column 1 is headed 't'; the format has 'w'"):
+        read_dma(file("T=20;Mw=1;\nt G' G''\n1 30 4\n", "melt.osc"))
+    with pytest.raises(ValueError, match="column 2 is in 'kPa'; the format has 'Pa'"):
+        read_dma(file("T=20;Mw=1;\nw G' G''\nrad/s kPa kPa\n1 30 4\n", "melt.osc"))
+
+
+def test_rheocompass_may_leave_out_the_empty_cell_and_state_its_temperature(file):
+    text = "Project:\tx\nGeometry:\tPlate-Plate\nTemperature:\t25.0 °C\n"
+    for number, own in ((1, ""), (2, "Temperature:\t40.0 °C\n")):
+        text += f"\nInterval and data points:\t{number}\t2\n{own}"
+        text += "Interval data:\tAngular Frequency\tStorage Modulus\tLoss Modulus\n"
+        text += "\t[rad/s]\t[Pa]\t[Pa]\n1\t1000\t100\n2\t1100\t150\n"
+    sweeps = read_dma(file(text))
+    assert sweeps.kind == "G"
+    assert_allclose(sweeps.temperature, [298.15, 298.15, 313.15, 313.15])
+    assert sweeps.storage.tolist() == [1000, 1100, 1000, 1100]
+
+
+def test_intervals_with_the_same_headings_are_tables_of_their_own(file):
+    head = "Angular Frequency\tStorage Modulus\tLoss Modulus\n\t\t\n[rad/s]\t[Pa]\t[Pa]\n"
+    text = (
+        f"Test:\tgel\nResult:\tFrequency sweep 10C\nInterval:\t1\n{head}1\t30,5\t4,5\n2\t31,5\t5\n"
+    )
+    text += f"\nTest:\tgel\nResult:\tagain\nInterval:\t2\n{head}1\t20,5\t3\n2\t21\t4\n\t\t\n"
+    sweeps = read_dma(file(text.encode("utf-16")), kind="G")
+    assert sweeps.sweep.tolist() == [0, 0, 1, 1]
+    assert sweeps.storage.tolist() == [30.5, 31.5, 20.5, 21]
+    # a byte too many at the end is half a character
+    odd = read_dma(file(text.encode("utf-16") + b"\n"), kind="G")
+    assert odd.storage.tolist() == sweeps.storage.tolist()
+
+
+# ---- several files -----------------------------------------------------------------------------
+
+
+def halves():
+    """Return the film's sweeps as one file each, without temperatures."""
+    for i, celsius in enumerate(lab_files.CELSIUS):
+        rows = [
+            f"{f:g},{lab_files.STORAGE[i, j]:.8g},{lab_files.LOSS[i, j]:.8g}"
+            for j, f in enumerate(lab_files.HERTZ)
+        ]
+        yield f"film_3_{celsius:g}C.csv", "\n".join(["f,E',E''", "Hz,MPa,MPa", *rows, ""])
+
+
+def test_several_files_are_one_material(file):
+    paths = [file(text, name) for name, text in halves()]
+    sweeps = read_dma(paths, temperature_in_name=True)
+    assert_the_film(sweeps)
+    assert sweeps.ids == (0, 1, 2)
+    assert "3 files as one material" in notes(sweeps)
+    assert all(path.name in sweeps.source.path for path in paths)
+    assert len(sweeps.source.sha256) == 64
+    other = file("f,G',G''\nHz,MPa,MPa\n1,2,3\n", "g_20C.csv")
+    with pytest.raises(ValueError, match="some files are tensile .E., others shear"):
+        read_dma([*paths, other])
+    with pytest.raises(ValueError, match="is the same file as"):
+        read_dma([paths[0], paths[0]])
+    with pytest.raises(ValueError, match="there is no file to read"):
+        read_dma([])
+
+
+def test_a_name_has_one_temperature(file):
+    text = next(halves())[1]
+    for name, found in (("film.csv", 0), ("film_20C_30C.csv", 2), ("PC20K.5C2.csv", 0)):
+        with pytest.raises(ValueError, match=f"its name has {found} temperatures"):
+            read_dma(file(text, name), temperature_in_name=True)
+    with pytest.raises(ValueError, match="'-25C' in its name may be below zero or behind a hyph"):
+        read_dma(file(text, "film-25C.csv"), temperature_in_name=True)
+    assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
+
+
+# ---- which test, and the true cause ------------------------------------------------------------
+
+
+def test_the_test_is_found_out(file):
+    stress = "t [s],stress_kPa,strain_%,shear_x\n"
+    held_strain = stress + "1,9,2,0\n2,8,2,0\n3,7,2.01,0\n"
+    held_stress = stress + "0.1,4,0.5,0\n1,9,2,0\n2,9,3,0\n3,9.1,4,0\n4,0,3.5,0\n"
+    relaxation = read(file(held_strain), kind="G")
+    assert_allclose(relaxation.modulus, [450e3, 400e3, 7e3 / 0.0201])
+    creep = read(file(held_stress), kind="G")
+    assert_allclose(creep.time, [1, 2, 3])
+    assert "the stress is more than 5 % off its level: 1 points" in notes(creep)
+    ramp = file(stress + "1,1,1,0\n2,2,2,0\n3,3,3,0\n4,4,4,0\n")
+    with pytest.raises(ValueError, match="a relaxation test holds its strain"):
+        read_relaxation(ramp, kind="G")
+    assert type(read(file(lab_files.plain()))).__name__ == "FrequencySweeps"
+
+
+def test_a_flag_that_is_lacking_is_named_with_all_others(file):
+    path = file("Time\tCreep Compliance\n0.5\t3e-6\n1\t4e-6\n")
+    with pytest.raises(ValueError, match="--time-unit") as said:
+        read(path)
+    for flag in ("--modulus-unit Pa, kPa or MPa, of the stress", "--kind E or --kind G"):
+        assert flag in str(said.value)
+    assert "=" not in str(said.value).partition("film.csv")[2]
+    creep = read(path, time_unit="min", modulus_unit="kPa", kind="E")
+    assert_allclose(creep.time, [30, 60])
+    assert_allclose(creep.compliance, [3e-9, 4e-9])
+
+
+def test_an_angular_frequency_without_a_unit_is_in_radians(file):
+    path = file("Angular Frequency,Storage Modulus,Loss Modulus\n10,3,0.4\n20,4,0.5\n")
+    sweeps = read_dma(path, modulus_unit="MPa", kind="G")
+    assert sweeps.angular_frequency.tolist() == [10, 20]
+    assert '"Angular Frequency" has no unit and is taken in rad/s' in notes(sweeps)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("Shear Rate,Viscosity\n1/s,Pa.s\n1,2\n2,3\n", "it is a flow curve"),
+        ("t,Shear Rate,Stress\ns,1/s,Pa\n1,2,3\n2,3,4\n", "start-up or the course of a steady"),
+        ("t,stress\ns,Pa\n1,2\n2,3\n", "a stress over time without the strain"),
+        ("t,strain\ns,-\n1,2\n2,3\n", "a strain over time without the stress"),
+        ("f,E'\nHz,Pa\n1,2\n2,3\n", "a loss modulus or a loss angle"),
+        ("T,log_aT\nC,-\n20,0\n30,-1\n", "it holds shift factors, --shift-file"),
+        ("strain\n1\n2\n", "'strain' is the only column"),
+        ("1,2\n3,4\n", "begins with numbers and does not say what they are"),
+    ],
+)  # fmt: skip
+def test_what_a_file_holds_instead_is_said(file, text, words):
+    with pytest.raises(ValueError, match=words):
+        read(file(text))
+
+
+def test_shifts_of_the_other_sign_are_refused(file):
+    rising = file("T [oC],aT\n-40,0.1\n20,1\n60,10\n")
+    with pytest.raises(ValueError, match=r"rise with temperature.*give 1/a_T"):
+        read_shifts(rising)
+    assert len(read_shifts(file("T [oC],aT\n-40,10\n20,1\n60,0.1\n"))) == 3
+
+
+def test_what_is_hardly_possible_is_said(file):
+    def read_with(unit, *celsius, modulus="3"):
+        rows = [f"{i + 1},{modulus},0.4,{t}" for i, t in enumerate(celsius)]
+        text = "\n".join([f"f,E',E'',T\nHz,{unit[0]},{unit[0]},{unit[1]}", *rows, ""])
+        return notes(read_dma(file(text)))
+
+    assert "check: temperatures from 293 to 298 C" in read_with(("MPa", "C"), 293, 298)
+    assert "check: temperatures from 20 to 25 K" in read_with(("MPa", "K"), 20, 25)
+    assert "check: the modulus reaches 1e+11 Pa" in read_with(("GPa", "C"), 20, modulus="100")
+    assert "check: the modulus stays below 0.0001" in read_with(("uPa", "C"), 20, modulus="100")
+    assert "check" not in read_with(("MPa", "C"), -60, 20, 150)
+    assert "check" not in read_with(("MPa", "K"), 150, 293, 400)
+    hot = file("T=298;Mw=5;\n1 30 4\n2 40 5\n", "melt.tts")
+    assert "check: temperatures from 298 to 298 C" in notes(read_dma(hot))
+
+
+def test_a_formula_without_its_value_is_named(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book, path = openpyxl.Workbook(), tmp_path / "film.xlsx"
+    for row in (["f", "E'", "E''"], ["Hz", "MPa", "MPa"], [1, 3, 0.4], [2, "=B3*2", 0.5]):
+        book.active.append(row)
+    book.save(path)
+    with pytest.raises(ValueError, match=r"row 4: column .E'.: .*the formula '=B3\*2' and no val"):
+        read_dma(path)
+    text = "f,E',E''\nHz,MPa,MPa\n1,=B2,0.4\n"
+    path = tmp_path / "film.csv"
+    path.write_text(text)
+    with pytest.raises(ValueError, match="line 3: .*holds the formula '=B2' and no value"):
+        read_dma(path)
+
+
+# ---- the command line --------------------------------------------------------------------------
+
+
+def test_the_command_line_asks_for_flags_and_takes_them(file, capsys):
+    path = file("Time,Relaxation Modulus\n1,3\n2,2\n9,1.5\n20,1.2\n")
+    command = ["material", "fit", path, "--poisson-ratio", "0.5", "--model", "sls"]
+    assert exit_status(command) == 2
+    said = capsys.readouterr().err
+    assert "--time-unit s or min" in said and "--modulus-unit" in said and "--kind E" in said
+    assert "defect" not in said
+    flags = ["--time-unit", "min", "--modulus-unit", "MPa", "--kind", "G", "--json"]
+    assert exit_status([*command, *flags]) == 0
+    assert 1e6 < json.loads(capsys.readouterr().out)["material"]["rubbery_modulus"] < 6e6
+
+
+def test_the_command_line_reads_several_files(file, capsys):
+    paths = [file(text, name) for name, text in halves()]
+    command = ["material", "fit", *paths, "--poisson-ratio", "0.5", "--temperature-in-name"]
+    shift = ["--reference-temperature", "-30 degC", "--wlf", "8.86,101.6 K"]
+    assert exit_status([*command, *shift, "--model", "power-law", "--json"]) == 0
+    origin = json.loads(capsys.readouterr().out)["origin"]
+    assert origin["file"] == "film_3_-40C.csv, film_3_-30C.csv, film_3_-20C.csv"
+    assert exit_status([*command, "--test", "creep"]) == 2
+    assert "--test creep reads one file" in capsys.readouterr().err
+
+
+# ---- sizes -------------------------------------------------------------------------------------
+
+
+def test_a_hundred_thousand_rows_take_seconds(file):
+    rows = 100_000
+    times = np.geomspace(1e-3, 1e3, rows)
+    lines = [f"{t:.9g},{1e6 / (1 + t):.9g},20.0" for t in times]
+    path = file("\n".join(["time_s,G_relax,T", "s,Pa,C", *lines, ""]))
+    start = time.perf_counter()
+    test = read_relaxation(path)
+    assert time.perf_counter() - start < 10
+    assert len(test) == rows
+    assert_allclose(test.modulus[[0, -1]], 1e6 / (1 + times[[0, -1]]), rtol=1e-8)
+
+
+def test_a_decimal_comma_may_be_said(file):
+    path = file("t [s];J [1/Pa]\n1,000;3,125\n2,000;4,125\n")
+    with pytest.raises(ValueError, match="say --decimal , or --decimal ."):
+        read_creep(path, kind="G")
+    assert read_creep(path, kind="G", decimal=",").compliance.tolist() == [3.125, 4.125]
