@@ -236,6 +236,15 @@ def test_rheocompass_may_leave_out_the_empty_cell_and_state_its_temperature(file
     assert sweeps.storage.tolist() == [1000, 1100, 1000, 1100]
 
 
+def test_a_temperature_above_the_table_is_that_of_its_points(file):
+    table = "f [Hz],E' [MPa],E'' [MPa]\n1,3,0.4\n2,4,0.5\n"
+    assert read_dma(file("Temperature: 25.0 °C\n" + table)).temperature[0] == 298.15
+    assert read_dma(file("Name,x\nTemperature,300 K\n" + table)).temperature[0] == 300
+    two = "Temperature,300 K\nTemperature,310 K\n" + table
+    assert np.all(np.isnan(read_dma(file(two)).temperature))
+    assert np.all(np.isnan(read_dma(file("Temperature limit,620 °C\n" + table)).temperature))
+
+
 def test_intervals_with_the_same_headings_are_tables_of_their_own(file):
     head = "Angular Frequency\tStorage Modulus\tLoss Modulus\n\t\t\n[rad/s]\t[Pa]\t[Pa]\n"
     text = (
@@ -381,6 +390,15 @@ def test_a_formula_without_its_value_is_named(tmp_path):
     path.write_text(text)
     with pytest.raises(ValueError, match="line 3: .*holds the formula '=B2' and no value"):
         read_dma(path)
+
+
+def test_the_first_point_of_a_workbook_is_no_row_of_units(tmp_path):
+    openpyxl = pytest.importorskip("openpyxl")
+    book, path = openpyxl.Workbook(), tmp_path / "film.xlsx"
+    for row in (["T=20;Mw=3;"], ["w (rad/s)", "G' (Pa)", "G'' (Pa)"], [1, 3, 0.4], [2, 4, 0.5]):
+        book.active.append(row)
+    book.save(path)
+    assert read_dma(path).angular_frequency.tolist() == [1, 2]
 
 
 # ---- the command line --------------------------------------------------------------------------

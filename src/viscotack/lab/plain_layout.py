@@ -5,10 +5,11 @@ E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) are of this kind.
 """
 
 import csv
+import re
 
 from .lab_file import LabFile
 from .quantities import recognise
-from .table import Table, first_headings, tabulated
+from .table import Table, first_headings, stated_temperature, tabulated
 
 _LOOKED = 200  # lines in which the headings are looked for
 _SEPARATORS = ("\t", ";", ",", None)
@@ -50,17 +51,24 @@ def tables(file: LabFile) -> list[Table]:
         )
     line, separator, headings = found
     words = " ".join(text for text in file.lines[: line - 1] if _speaks_of_geometry(text))
+    preamble = [re.split(r"[\t;,]", text) for text in file.lines[: line - 1]]
+    stated = stated_temperature(preamble)
     # an instrument repeats the headings above each of its intervals
     same = file.lines[line - 1].strip()
     starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
     return [
-        _table(file, headings, separator, range(start, end), words)
+        _table(file, headings, separator, range(start, end), words, stated)
         for start, end in zip(starts, [*(s - 1 for s in starts[1:]), len(file.lines)], strict=True)
     ]
 
 
 def _table(
-    file: LabFile, headings: list[str], separator: str | None, lines: range, words: str
+    file: LabFile,
+    headings: list[str],
+    separator: str | None,
+    lines: range,
+    words: str,
+    temperature: float | None,
 ) -> Table:
     """Return the table below one line of headings; `lines` counts from 0."""
     numbered = [
@@ -78,15 +86,15 @@ def _table(
         if any(cell.strip() for cell in above):
             units = above
             break
-    return tabulated(file, headings, units, numbered, words=words)
+    return tabulated(file, headings, units, numbered, words=words, temperature=temperature)
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
     """Return the cells of one line; quoted cells may hold the separator."""
     if separator is None:
         return text.split() or [""]
-    if separator == "\t":
-        return text.split("\t")
+    if separator == "\t" or '"' not in text:
+        return text.split(separator)
     try:
         row = next(csv.reader([text], delimiter=separator, strict=True, skipinitialspace=True))
         return row or [""]

@@ -11,12 +11,10 @@ import re
 
 from .lab_file import LabFile
 from .plain_layout import cells
-from .quantities import kelvin, recognise
-from .table import Table, first_headings, tabulated
+from .table import Table, first_headings, stated_temperature, tabulated
 
 _LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
 _WHOLE = re.compile(r"\s*[0-9]+\s*")
-_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|K|°F)")
 _UNITS_WITHIN = 4  # lines below the headings
 Row = tuple[int, list[str]]
 
@@ -47,7 +45,7 @@ def tables(file: LabFile) -> list[Table]:
     ]
     starts = [i for i, (_, row) in enumerate(rows) if _begins_interval(row)]
     words = " ".join(text for text in file.lines[: starts[0]] if "geometr" in text.casefold())
-    stated = _temperature(rows[: starts[0]])
+    stated = stated_temperature([row for _, row in rows[: starts[0]]])
     return [
         _interval(file, rows[start:end], words, stated)
         for start, end in zip(starts, [*starts[1:], len(rows)], strict=True)
@@ -83,7 +81,7 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
     headings, unit_cells = ["", *rows[at][1][1:]], rows[units][1]
     if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
         headings, unit_cells = headings[1:], unit_cells[1:]
-    own = _temperature(rows[:at])
+    own = stated_temperature([row for _, row in rows[:at]])
     return tabulated(
         file,
         headings,
@@ -94,21 +92,10 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
     )
 
 
-def _temperature(rows: list[Row]) -> float | None:
-    """Return the temperature that a line of a label and a number with its unit states [K]."""
-    for _, row in rows:
-        label = recognise(row[0].strip().rstrip(":"))
-        match = _STATED.fullmatch(row[1].strip()) if len(row) > 1 else None
-        if label is None or label.quantity != "temperature" or match is None:
-            continue
-        factor, offset = kelvin(match[2])
-        kelvins = float(match[1].replace(",", ".")) * factor + offset
-        return kelvins if 0 < kelvins < 3000 else None
-    return None
-
-
 def _separator(file: LabFile) -> str | None:
     for text in file.lines:
+        if ":" not in text:
+            continue
         for separator in ("\t", ";", ","):
             if separator in text and _begins_interval(text.split(separator)):
                 return separator

@@ -51,6 +51,7 @@ _FLAGS = {
 }
 _IN_FILE = "written in the heading or below it"
 _HELD = 0.05  # of the level of a step; an instrument holds it better
+_STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
 
 
@@ -143,6 +144,31 @@ def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
         if len({heading.quantity for heading in map(recognise, row) if heading is not None}) >= 2:
             return index
     return None
+
+
+def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
+    """Return the one temperature that lines above a table state [K], None for none or several.
+
+    Examples
+    --------
+    >>> stated_temperature([["Temperature", "25 °C"]]), stated_temperature([["Temp: 300 K"]])
+    (298.15, 300.0)
+    """
+    found = set()
+    for row in rows:
+        words = [cell.strip() for cell in row if cell.strip()]
+        label, _, value = words[0].partition(":") if words else ("", "", "")
+        if len(words) > 1:
+            value = words[1]
+        heading = recognise(label) if label else None
+        match = _STATED.fullmatch(value.strip())
+        if heading is None or heading.quantity != "temperature" or match is None:
+            continue
+        factor, offset = kelvin(match[2])
+        kelvins = float(match[1].replace(",", ".")) * factor + offset
+        if 0 < kelvins < 3000:
+            found.add(kelvins)
+    return found.pop() if len(found) == 1 else None
 
 
 class Columns:

@@ -8,7 +8,7 @@ Exported with all variables a table has eighty columns; those that are not neede
 
 from .lab_file import LabFile
 from .plain_layout import cells
-from .table import Table, first_headings, tabulated
+from .table import Table, first_headings, stated_temperature, tabulated
 
 _STEP = "[step]"
 _LOOKED = 500  # lines in which the table of an export of one step begins
@@ -36,18 +36,19 @@ def tables(file: LabFile) -> list[Table]:
     separator = "\t" if any("\t" in text for text in file.lines) else ","
     before = starts[0] or _LOOKED
     words = " ".join(text for text in file.lines[:before] if "geometry" in text.casefold())
+    stated = stated_temperature(text.split(separator) for text in file.lines[:before])
     found = []
     for start, end in zip(starts, [*starts[1:], len(file.lines)], strict=True):
         rows = [
             (number, cells(file, text, number, separator))
             for number, text in enumerate(file.lines[start + 1 : end], start=start + 2)
         ]
-        if (table := _table(file, rows, words)) is not None:
+        if (table := _table(file, rows, words, stated)) is not None:
             found.append(table)
     return found
 
 
-def _table(file: LabFile, rows: list[Row], words: str) -> Table | None:
+def _table(file: LabFile, rows: list[Row], words: str, temperature: float | None) -> Table | None:
     """Return the table of one step; a step that measured nothing has none."""
     counted = None
     for number, row in rows:
@@ -82,7 +83,15 @@ def _table(file: LabFile, rows: list[Row], words: str) -> Table | None:
     if data and 1 < len(data[0][1]) < len(rows[at][1]):
         # at the time of the step quotients have no value, and the last cells are not written
         notes = (f"line {data.pop(0)[0]} left out: it lacks cells, at the beginning of the step",)
-    return tabulated(file, rows[at][1], rows[at + 1][1], data, words=words, notes=notes)
+    return tabulated(
+        file,
+        rows[at][1],
+        rows[at + 1][1],
+        data,
+        words=words,
+        temperature=temperature,
+        notes=notes,
+    )
 
 
 def _starts(file: LabFile) -> list[int]:
@@ -99,4 +108,4 @@ def _cell(text: str) -> str:
 
 
 def _begins_step(text: str) -> bool:
-    return text.strip().strip('",').casefold() == _STEP
+    return "[" in text and text.strip().strip('",').casefold() == _STEP

@@ -14,7 +14,8 @@ from typing import Any
 from viscotack.errors import InputError
 
 from .lab_file import LARGEST, LabFile
-from .table import Table, first_headings, tabulated
+from .plain_layout import is_number
+from .table import Table, first_headings, stated_temperature, tabulated
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
@@ -59,10 +60,14 @@ def tables(file: LabFile) -> list[Table]:
         rows = sheets[title]
         at = first_headings(rows[:_LOOKED])
         if at is not None:
-            units = rows[at + 1] if at + 1 < len(rows) else None
-            below = enumerate(rows[at + 2 :], start=at + 3)
+            below = enumerate(rows[at + 1 :], start=at + 2)
             data = [(number, cells) for number, cells in below if any(cells)]
-            return [tabulated(file, rows[at], units, data)]
+            # a row with a number in it is a point, of headings that hold their units
+            has_units = data and not any(map(is_number, data[0][1]))
+            units = data.pop(0)[1] if has_units else None
+            words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
+            stated = stated_temperature(rows[:at])
+            return [tabulated(file, rows[at], units, data, words=words, temperature=stated)]
     raise file.error(
         f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; "
         f"the sheets are {', '.join(map(repr, sheets))}"

@@ -219,16 +219,16 @@ def fit_command(
             "decimal": decimal,
         }
         shifting = {"glass-transition": glass_transition, "wlf": wlf, "shift-file": shift_file}
+        of_sweeps = {"frequency-unit": frequency_unit, "reference-temperature": reference}
+        if test in (Test.RELAXATION, Test.CREEP):
+            _refuse(f"for --test {test}", of_sweeps | shifting)
         data = _measured(files, test, given, temperature_in_name)
         shift = None
         if isinstance(data, FrequencySweeps):
             data, shift = _master_curve(data, _kelvin(reference), shifting)
         else:
-            kind_of_test = Test.RELAXATION if isinstance(data, RelaxationTest) else Test.CREEP
-            _refuse(
-                f"for --test {kind_of_test}",
-                {"frequency-unit": frequency_unit, "reference-temperature": reference} | shifting,
-            )
+            found = Test.RELAXATION if isinstance(data, RelaxationTest) else Test.CREEP
+            _refuse(f"for a {found} test, which the file holds", of_sweeps | shifting)
         known = {"glassy_modulus": glassy_modulus, "rubbery_modulus": rubbery_modulus}
         report = fit(
             data,
@@ -415,8 +415,6 @@ def _measured(
     (file,) = files
     if test is None:
         return read(file, **given)
-    if given["frequency_unit"] is not None:
-        _refuse(f"for --test {test}", {"frequency-unit": given["frequency_unit"]})
     given = {key: value for key, value in given.items() if key != "frequency_unit"}
     return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
 
