@@ -4,11 +4,15 @@ What no reader can see is a digit changed into another digit in a number that st
 once; so the bytes that are put in here are not digits where the numbers themselves are compared.
 """
 
+import json
+
 import numpy as np
 import pytest
 
 import lab_files
 from reference_data import DMA
+from viscotack import lab
+from viscotack.errors import InputError
 from viscotack.lab import FORMATS, read_creep, read_dma, read_relaxation, read_shifts
 
 TEXTS = {**lab_files.TEXTS, "reptate": lab_files.reptate()}
@@ -18,11 +22,11 @@ ANY = bytes(range(256))
 
 
 def read(path, content):
-    """Return the sweeps of a damaged file, or None; anything but a ValueError is a failure."""
+    """Return the sweeps of a damaged file, or None; anything but a refusal is a failure."""
     path.write_bytes(content)
     try:
         return read_dma(path)
-    except ValueError as error:
+    except InputError as error:
         assert str(path) in str(error)
         return None
 
@@ -149,24 +153,69 @@ def test_two_rows_run_together_give_right_points_or_an_error(name, tmp_path):
             assert_right(sweeps, whole)
 
 
-def test_the_other_readers_and_formats_fail_in_the_same_way(tmp_path):
-    path, rng = tmp_path / "film.gt", np.random.default_rng(3)
-    texts = (
-        b"t,E_relax,T\ns,MPa,C\n1,900,20\n10,500,20\n",
-        b"T=20;Mw=1;\n0.1 5e5\n1 3e5\n",
-        b"T,log_aT\nC,-\n20,0\n-40,5\n",
-        b"t;D(t)\ns;1/Pa\n1,5;3e-6\n10,5;6e-6\n",
-    )
-    for _ in range(100):
-        content = bytearray(texts[rng.integers(len(texts))])
-        for place in rng.integers(0, len(content), rng.integers(0, 4)):
-            content[place] = rng.choice(list(ANY))
-        path.write_bytes(bytes(content[: rng.integers(1, len(content) + 1)]))
-        for reader in (read_relaxation, read_creep, read_shifts):
+COLUMNS = [{"name": "Time", "unit": "s"}, {"name": "G(t)", "unit": "Pa"}]
+LISTS = {"Results": [{"DataSet": [{"Data": {"columns": COLUMNS, "values": [[1, 2.5], [2, 1]]}}]}]}
+OTHERS = {
+    "relaxation.csv": b"t,E_relax,T\ns,MPa,C\n1,900,20\n10,500,20\n",
+    "step.gt": b"T=20;gamma=0.1;\nt sxy\n0.1 5e5\n1 3e5\n",
+    "step.creep": b"T=20;stress=10;\nt strain\ns -\n0.1 5e-5\n1 3e-4\n",
+    "factors.ttsf": b"Mw=1;chem=PI;\nT aT bT\n-40 1000 1.1\n20 1 1\n",
+    "shifts.csv": b"T,log_aT\nC,-\n20,0\n-40,5\n",
+    "creep.csv": b"t;D(t)\ns;1/Pa\n1,5;3e-6\n10,5;6e-6\n",
+    "held.csv": b"time_s,stress_Pa,strain_%,G_x\n0,5,0,1\n1,9,2,1\n2,9.1,3,1\n3,9,4,1\n",
+    "polar.csv": lab_files.polar(),
+    "sweep.osc": lab_files.reptate_osc(),
+    "lists.json": json.dumps(LISTS).encode(),
+} | {f"{name.replace(' ', '_')}.txt": text for name, text in TEXTS.items()}  # fmt: skip
+
+
+def mutated(content, rng):
+    """Return a file with bytes changed, a piece lost, doubled or moved, or an end cut off."""
+    content = bytearray(content)
+    for _ in range(rng.integers(1, 4)):
+        if len(content) < 4:
+            break
+        start = int(rng.integers(0, len(content)))
+        end = min(start + int(rng.integers(1, 30)), len(content))
+        how = rng.integers(6)
+        if how == 0:
+            content[start:end] = rng.integers(0, 256, end - start, dtype=np.uint8).tobytes()
+        elif how == 1:
+            del content[start:end]
+        elif how == 2:
+            content[start:start] = content[start:end]
+        elif how == 3:
+            del content[start:]
+        elif how == 4:
+            lines = bytes(content).split(b"\n")
+            one, other = rng.integers(len(lines), size=2)
+            lines[one], lines[other] = lines[other], lines[one]
+            content = bytearray(b"\n".join(lines))
+        else:
+            mark = rng.choice(list(b",;\t .-+eE0\"'{}[]:=/"))
+            content[start] = mark
+    return bytes(content)
+
+
+@pytest.mark.parametrize("tries", [150, pytest.param(5000, marks=pytest.mark.slow)])
+def test_every_reader_answers_or_refuses_a_mutated_file(tries, tmp_path):
+    rng = np.random.default_rng(3)
+    names, answered = list(OTHERS), 0
+    readers = (lab.read, read_dma, read_relaxation, read_creep, read_shifts)
+    for _ in range(tries):
+        path = tmp_path / names[rng.integers(len(names))]
+        path.write_bytes(mutated(OTHERS[path.name], rng))
+        format = rng.choice([None] * len(FORMATS) + [*FORMATS])
+        for reader in readers:
             try:
-                reader(path, format=rng.choice([None, *FORMATS]))
-            except ValueError as error:
+                test = reader(path, format=format)
+            except InputError as error:
                 assert str(path) in str(error)
+                continue
+            answered += 1
+            columns = (column for column in vars(test).values() if isinstance(column, np.ndarray))
+            assert not any(np.any(np.isinf(column)) for column in columns)
+    assert 0.1 * tries < answered < 2 * tries
 
 
 @pytest.mark.parametrize("name", TEXTS)
@@ -176,7 +225,7 @@ def test_a_file_read_as_another_format_gives_right_points_or_an_error(name, form
     whole = read(path, TEXTS[name])
     try:
         sweeps = read_dma(path, format=format)
-    except ValueError as error:
+    except InputError as error:
         assert str(path) in str(error)
     else:
         assert_right(sweeps, whole)
