@@ -1,0 +1,563 @@
+"""Read every rheology file of public repositories, and hold what was read against another parse.
+
+``python benchmarks/public_files.py FOLDER...`` takes checkouts of RepTate, RheoJAX, pyRheo,
+mastercurves, pyvisco and RHEOS (any folders do), reads each data file in them without a hand on it,
+and prints how many
+
+- are read, and say numbers, temperature and kind of an independent parse (pandas, or a few lines,
+  from a recipe for each kind of file below that knows nothing of the readers),
+- are refused until the flags named in the refusal are given, and then say those numbers,
+- are refused for a reason that a rheologist accepts: they hold no linear viscoelastic test, or do
+  not say what their columns are,
+- are misread, or refused for any other reason. These are listed, and the exit status is then 1.
+
+``--page FILE`` writes the list of all names with their outcome, ``--fuzz N`` reads N mutated copies
+of the files with every reader and counts tracebacks. Half a minute, and three for 5,000 copies.
+"""
+
+import argparse
+import io
+import json
+import re
+import sys
+import tempfile
+import warnings
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from fnmatch import fnmatch
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from viscotack import lab
+from viscotack.errors import InputError
+
+# what a measurement is kept in; scripts, pictures and documents are none
+DATA = {
+    ".csv", ".txt", ".tts", ".osc", ".gt", ".creep", ".ttsf", ".shear", ".shearxs", ".uext",
+    ".laos", ".dls", ".reac", ".rouse", ".sans", ".gpc", ".mwd", ".dmwd", ".xls", ".xlsx", ".json",
+}  # fmt: skip
+# words in paths of what is no measurement: records of programs, texts for people
+NO_DATA = (
+    "*/.*", "*/requirements.txt", "*readme*", "*license*", "*tutorial*", "*egg-info*",
+    "*/graphify*", "*/scripts/*", "*source_code*", "*modified_bob*", "*/runtime.txt",
+    "*/binder/*", "*/schema/*", "*computation_times*",
+)  # fmt: skip
+MEGA = 1e6
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How to parse the files whose path fits, without the readers; `factors` take them to SI."""
+
+    fits: str
+    test: str
+    parse: Callable[[Path], list[pd.DataFrame]]
+    factors: tuple[float, ...] = (1.0, 1.0, 1.0)
+
+
+# ---- independent parses ------------------------------------------------------------------------
+
+
+def text_of(path):
+    """Return the text of a file, without a last line that has no end: the readers leave it out."""
+    content = path.read_bytes()
+    if content[:2] == b"\xff\xfe":
+        return content[: len(content) // 2 * 2].decode("utf-16").rpartition("\n")[0] + "\n"
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = content.decode("latin-1")
+    return text.rpartition("\n")[0] + "\n"
+
+
+def below(word, separator, columns, *, decimal="."):
+    """Return a parse of the rows below each line that holds a word, by the places of columns."""
+
+    def parse(path):
+        lines = text_of(path).replace("\r", "").split("\n")
+        starts = [i for i, line in enumerate(lines) if word in line]
+        tables = []
+        for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+            rows = [
+                line
+                for line in lines[start + 1 : end]
+                if re.match(r"(Data point)?\s*[-+\d.]", line)
+            ]
+            rows = [row for row in rows if row.count(separator) >= max(columns)]
+            if rows:
+                table = pd.read_csv(io.StringIO("\n".join(rows)), sep=separator, header=None,
+                                    decimal=decimal, float_precision="round_trip")  # fmt: skip
+                tables.append(table.iloc[:, list(columns)])
+        return tables
+
+    return parse
+
+
+def either(path):
+    """Return a table of words in the first line, apart by commas or tabs, perhaps of Germany."""
+    text = text_of(path).replace("\r", "")
+    head = next(
+        line for line in text.split("\n") if re.match(r"(Angular|Time|Shear|freq|time|om)", line)
+    )
+    separator = "\t" if "\t" in head else "," if "," in head else " "
+    decimal = "," if separator == "\t" and re.search(r"\d,\d", text) else "."
+    return below(head, separator, range(2 + (head.count(separator) > 1)), decimal=decimal)(path)
+
+
+def from_second(path):
+    """Return the rows of RepTate: whatever is all numbers below the first line."""
+    rows = []
+    for line in path.read_text(encoding="latin-1").rpartition("\n")[0].split("\n")[1:]:
+        try:
+            rows.append([float(word) for word in line.split()][:3])
+        except ValueError:
+            continue
+    return [pd.DataFrame([row for row in rows if row])]
+
+
+def step_of(key):
+    """Return a parse of RepTate's files whose second column is divided by a number of line 1."""
+
+    def parse(path):
+        (table,) = from_second(path)
+        level = re.search(rf"{key}\s*=\s*([\d.eE+-]+)", path.read_text(encoding="latin-1"))
+        table = table.iloc[:, :2].copy()
+        table[1] /= float(level[1]) if level and float(level[1]) else 1.0
+        return [table]
+
+    return parse
+
+
+def excel(sheet, names, skip=(1,), header=0):
+    def parse(path):
+        table = pd.read_excel(path, sheet_name=sheet, skiprows=list(skip), header=header)
+        found = [next(n for n in table.columns if n in name.split("|")) for name in names]
+        return [table[found]]
+
+    return parse
+
+
+def trios(step, names):
+    """Return a parse of the steps of TRIOS whose name holds a word, by the names of columns."""
+
+    def parse(path):
+        blocks = re.split(r"(?im)^\[step\]\s*$", text_of(path).replace("\r", ""))[1:]
+        tables = []
+        for block in blocks:
+            lines = block.split("\n")
+            if step not in lines[1]:
+                continue
+            at = next(i for i, line in enumerate(lines) if names[0] in line.split("\t"))
+            head = lines[at].split("\t")
+            rows = [line.split("\t") for line in lines[at + 2 :] if line.strip()]
+            rows = [row for row in rows if len(row) == len(head)]
+            frame = pd.DataFrame(rows, columns=range(len(head)))
+            tables.append(frame[[head.index(name) for name in names]].astype(float))
+        return tables
+
+    return parse
+
+
+def side_by_side(path):
+    """Return the pairs of columns of a wide table, each with the first column."""
+    table = pd.read_csv(path, skiprows=2, header=None, encoding="utf-8-sig")
+    return [table[[0, i, i + 1]].dropna() for i in range(1, table.shape[1] - 1, 2)]
+
+
+def json_lists(path):
+    data = json.loads(path.read_text())["Experiment"]["Results"][0]["DataSet"][0]["Data"]
+    table = pd.DataFrame(data["values"], columns=[c["name"] for c in data["columns"]])
+    return [table[["Time", "Relaxation Modulus"]]]
+
+
+HERTZ = 2 * np.pi
+SWEEP = ("dma", (1.0, 1.0, 1.0))
+RECIPES = (
+    Recipe("*freq_user_master.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
+    Recipe("*freq_user_raw.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
+    Recipe("*/freq_user_master.csv", "dma", below("f, ", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
+    Recipe("*time_user_master.csv", "relaxation", below("t,", ",", (0, 1)), (1, MEGA)),
+    Recipe("*__shift_factors.csv", "shifts", below("T,", ",", (0, 1))),
+    Recipe("*freq_Eplexor*.xls", "dma", excel("Exported Data", ("f", "E'|G'", "E''|G''")),
+           (HERTZ, MEGA, MEGA)),
+    Recipe("*PI_634.5k_T-35.xlsx", "dma",
+           excel(0, ("w (rad/s)", "G'(Pa)", "G''(Pa)"), skip=(0,))),
+    Recipe("*creep_recovery.xlsx", "creep", lambda path: creep_sheet(path)),
+    Recipe("*.osc", "dma", from_second),
+    Recipe("*PI_94.9k_T-35_TH_h.tts", "dma", either),
+    Recipe("*.tts", "dma", from_second),
+    Recipe("*.gt", "relaxation", step_of("gamma")),
+    Recipe("*.creep", "creep", step_of("stress")),
+    Recipe("*frequency_sweep_tts.txt", "dma",
+           trios("", ("Angular frequency", "Storage modulus", "Loss modulus")), (1, MEGA, MEGA)),
+    Recipe("*multi_technique.txt", "dma",
+           trios("Frequency sweep", ("Angular frequency", "Storage modulus", "Loss modulus")),
+           (1, MEGA, MEGA)),
+    Recipe("*creep_experiment.txt", "creep", trios("Creep", ("Step time", "Compliance")),
+           (60, 1 / MEGA)),
+    Recipe("*trios/frequency_sweep.csv", "dma", below("rad/s", "\t", (1, 2, 3))),
+    Recipe("*trios/relaxation.json", "relaxation", json_lists),
+    Recipe("*trios_synthetic_*mb.txt", "relaxation", lambda path: quotient(path)),
+    Recipe("*rheocompass/creep_test.csv", "creep", below("[s]", "\t", (0, 3))),
+    Recipe("*rheocompass/relaxation_test.csv", "relaxation", below("[s]", "\t", (0, 3))),
+    Recipe("*rheocompass/frequency_sweep.csv", "dma", below("[rad/s]", "\t", (0, 1, 2))),
+    Recipe("*rheocompass/multi_interval.csv", "dma", below("[rad/s]", "\t", (0, 1, 2))),
+    Recipe("*HC1_stressrelaxation*.csv", "relaxation",
+           below("[s]", "\t", (1, 4, 2), decimal=",")),
+    Recipe("*ttw_[0-9][0-9].csv", "dma", side_by_side),
+    Recipe("*/stressrelaxation_*.csv", "relaxation", either),
+    Recipe("*polypropylene_relaxation.csv", "relaxation", either),
+    Recipe("*master_curve_ps_relaxation_data.csv", "relaxation", either),
+    Recipe("*rel_lapo_*.csv", "relaxation", either),
+    Recipe("*relaxation_hb_calibrated.csv", "relaxation", either),
+    Recipe("*epm_relaxation_synthetic.csv", "relaxation", either),
+    Recipe("*relaxation_modulus.csv", "relaxation", either),
+    Recipe("*space_delimited.txt", "relaxation", either),
+    Recipe("*tab_delimited.txt", "relaxation", either),
+    Recipe("*relaxation_sample.csv", "relaxation", either),
+    Recipe("*/creep_ps*.csv", "creep", either),
+    Recipe("*polystyrene_creep.csv", "creep", either),
+    Recipe("*creep_perihepatic_data.csv", "creep", either),
+    Recipe("*creep_mucus_data.csv", "creep", either),
+    Recipe("*creep_compliance.csv", "creep", either),
+    *(Recipe(fits, *SWEEP[:1], either) for fits in (
+        "*/oscillation_*.csv", "*/ttw_*_*.csv", "*/foam_dma_*.csv", "*/cnf_0-3*.csv", "*/PI_*.csv",
+        "*master_curve_ps_oscillation_data.csv", "*ps_saos_mc_data.csv", "*/epstein.csv",
+        "*bayesian_owchirp_tts.csv")),
+)  # fmt: skip
+
+# what is refused, whatever is given: path -> words of the refusal, and why that is right
+REFUSED = (
+    ("*.shearxs", "flow-induced crystallisation", "crystallisation in flow"),
+    ("*.shear", "start-up of shear flow", "start-up of shear"),
+    ("*.uext", "start-up of extensional", "start-up of extension"),
+    ("*.laos", "large amplitude", "oscillation of large amplitude"),
+    ("*.gpc", "molar mass", "no rheology: molar masses"),
+    ("*.mwd", "molar mass", "no rheology: molar masses"),
+    ("*.dmwd", "molar mass", "no rheology: molar masses"),
+    ("*.dls", "dielectric", "no rheology: dielectric spectrum"),
+    ("*.reac", "reaction", "no rheology: molecules"),
+    ("*.sans", "scattering", "no rheology: scattering"),
+    ("*.Rouse", "simulated chain", "no rheology: correlations of a simulation"),
+    ("*CreepRecovery.creep", "recovery after creep", "recovery, not creep"),
+    ("*/input_master.csv", "looks like headings", "no headings, a command of ANSYS above"),
+    ("*prony_terms*.csv", "looks like headings", "no measurement: a fitted series"),
+    ("*data_framework_DMA.txt", "looks like headings", "no measurement: a fitted series"),
+    ("*time_user_raw.csv", "temperature runs over", "relaxation at 21 temperatures in one table"),
+    ("*pyviscoe.csv", "above that of diamond", "pascals labelled MPa"),
+    ("*0.[67][0-9].csv", "flow curve", "flow curve"),
+    ("*0.80.csv", "flow curve", "flow curve"),
+    ("*ec_shear_viscosity*", "flow curve", "flow curve"),
+    ("*rotation_*", "flow curve", "flow curve"),
+    ("*cellulose_hydrogel_flow.csv", "flow curve", "flow curve"),
+    ("*flow_curve.csv", "flow curve", "flow curve"),
+    ("*flow_ramp.*", "flow curve", "flow curve"),
+    ("*ML-IKH*", "flow curve", "flow curves and start-ups"),
+    ("*emulsions_v2.csv", "begins with numbers|looks like headings", "columns without names"),
+    ("*joshi_modulus_25.csv", "begins with numbers", "columns named X and Y"),
+    ("*tts_plazek.csv", "looks like headings", "columns named X and Y"),
+    ("*MSD_MAX1.csv", "looks like headings", "no rheology: displacements of beads"),
+    ("*creep_mucus_data_julia.csv", "begins with numbers", "columns without names"),
+    ("*export_*data_mucus*", "is the only column|begins with numbers", "one column alone"),
+    ("*RHEOS*.csv", "begins with numbers|found .d., +.f., +.t.|found .d., .f., .t.",
+     "columns without names, or d, f, t"),
+    ("*raw_signal_*.txt", "begins with numbers", "raw waves without names"),
+    ("*emulsion_creep_hb_calibrated.csv", "without the stress", "strain without its stress"),
+    ("*epm_creep_synthetic.csv", "looks like headings", "strains without their stress"),
+    ("*creep_sample.csv", "without the stress", "strain without its stress"),
+    ("*bayesian_multi_technique.csv", "looks like headings", "no quantity named: signal"),
+    ("*sin_fundamental.csv", "", "waves"), ("*sin_noisy.csv", "", "waves"),
+    ("*TTS_Acierno.xlsx", "rise with temperature", "1/a_T in the convention of this package"),
+)  # fmt: skip
+
+
+def quotient(path):
+    """Return time and stress over strain of the invented exports of RheoJAX."""
+    (table,) = below("Time(s)", "\t", (0, 1, 2))(path)
+    return [pd.DataFrame({0: table[0], 1: table[1] / table[2]})]
+
+
+def creep_sheet(path):
+    raw = pd.read_excel(path, sheet_name=0, header=None)
+    at = next(i for i, row in raw.iterrows() if {"Time", "Compliance"} <= set(row))
+    head, rows = list(raw.loc[at]), raw.loc[at + 2 :]
+    return [rows[[head.index("Time"), head.index("Compliance")]].dropna().astype(float)]
+
+
+def celsius(path, name):
+    """Return the temperatures that a file states [C], or None where it states none."""
+    if fnmatch(name, "*freq_user_raw.csv"):
+        return below("f,", ",", (3,))(path)[0].to_numpy().ravel()
+    if fnmatch(name, "*freq_Eplexor*.xls"):
+        return excel("Exported Data", ("T",))(path)[0].to_numpy().ravel()
+    if fnmatch(name, "*ttw_[0-9][0-9].csv"):
+        head = pd.read_csv(path, nrows=1, header=None, encoding="utf-8-sig").to_numpy().ravel()
+        return np.array([t for t in head.astype(float) if np.isfinite(t)])
+    for word, step in (("frequency_sweep_tts", ""), ("multi_technique.txt", "Frequency sweep"),
+                       ("creep_experiment", "Creep")):  # fmt: skip
+        if word in name:
+            return pd.concat(trios(step, ("Temperature",))(path)).to_numpy().ravel()
+    if "HC1_" in name:
+        return below("[s]", "\t", (6,), decimal=",")(path)[0].to_numpy().ravel()
+    if "trios/relaxation.json" in name:
+        data = json.loads(path.read_text())["Experiment"]["Results"][0]["DataSet"][0]["Data"]
+        at = [column["name"] for column in data["columns"]].index("Temperature")
+        return np.array([row[at] for row in data["values"]], dtype=float)
+    if "creep_recovery.xlsx" in name:
+        return np.array([25.0])
+    text = path.read_bytes().decode("latin-1")
+    if path.suffix in (".osc", ".tts", ".gt", ".creep"):
+        stated = re.findall(r"(?:^|[;\s])T\s*=\s*([-\d.]+)", text.partition("\n")[0])
+    else:
+        stated = re.findall(r"(?m)^Temperature:?\s*([-\d.]+) *(?:\xc2?\xb0)?C", text)
+    return np.array(stated, dtype=float) if stated else None
+
+
+def other_temperature(test, stated):
+    """Return what is wrong with the temperature that was read, or nothing."""
+    found = np.atleast_1d(np.asarray(test.temperature, dtype=float)) - 273.15
+    if stated is None:
+        return "" if np.all(np.isnan(found)) else "a temperature that the file does not state"
+    if isinstance(test, lab.FrequencySweeps):
+        # of each point one that stands in the file; tables may hold more than the sweeps
+        far = np.min(np.abs(found[:, None] - stated[None, :]), axis=1)
+    else:
+        far = np.abs(found - stated.mean()) - 0.5
+    return "" if np.all(far < 1e-6) else "another temperature than the file states"
+
+
+# ---- what is compared --------------------------------------------------------------------------
+
+
+def expected(path, recipe):
+    """Return the points of the independent parse, in SI, one row each, in a fixed order."""
+    factors = recipe.factors
+    tables = [table.to_numpy(dtype=float) for table in recipe.parse(path)]
+    if "HC1_" in path.name:
+        # strain within 5 % of its level, the middle of the upper half
+        (table,) = tables
+        strain = np.abs(table[:, 2])
+        level = np.median(strain[strain > strain.max() / 2])
+        tables = [table[np.abs(strain - level) <= 0.05 * level][:, :2]]
+    if not tables:
+        raise LookupError(f"the recipe finds nothing in {path}")
+    points = np.concatenate([t[:, : 2 + (t.shape[1] > 2)] for t in tables])
+    points = points * np.array(factors[: points.shape[1]])
+    points = points[np.all(np.isfinite(points), axis=1)]
+    if recipe.test != "shifts":
+        points = points[np.all(points > 0, axis=1)]
+    return ordered(points, recipe.test)
+
+
+def ordered(points, test):
+    # a sweep may repeat a row, of which one is used
+    points = np.unique(points, axis=0) if test == "dma" else points
+    return points[np.lexsort(points.T[::-1])]
+
+
+def found(test, name):
+    if name == "dma":
+        return ordered(np.column_stack((test.angular_frequency, test.storage, test.loss)), name)
+    if name == "shifts":
+        points = np.column_stack((test.temperature - 273.15, test.log10_shift))
+    elif name == "relaxation":
+        points = np.column_stack((test.time, test.modulus))
+    else:
+        points = np.column_stack((test.time, test.compliance))
+    return ordered(points, name)
+
+
+GIVEN = {
+    "--modulus-unit": ("modulus_unit", "Pa"),
+    "--time-unit": ("time_unit", "s"),
+    "--frequency-unit": ("frequency_unit", "rad/s"),
+    "--temperature-unit": ("temperature_unit", "degC"),
+    "--kind": ("kind", "G"),
+}
+
+
+def outcome(path, name):
+    """Return the outcome and the words for one file."""
+    recipe = next((r for r in RECIPES if fnmatch(name, r.fits)), None)
+    refusal = next((r for r in REFUSED if fnmatch(name, r[0])), None)
+    # a shift table is no test, and has a reader of its own
+    shifts = (recipe and recipe.test == "shifts") or "TTS_Acierno" in name
+    reader = lab.read_shifts if shifts else lab.read
+    flags = {}
+    try:
+        try:
+            test = reader(path)
+        except InputError as error:
+            flags = dict(GIVEN[flag] for flag in GIVEN if flag in str(error))
+            if not flags or "does not say" not in str(error):
+                raise
+            test = reader(path, **flags)
+    except InputError as error:
+        words = str(error).replace(str(path), "")
+        if refusal and re.search(refusal[1], words):
+            return "refused", refusal[2]
+        return "UNEXPECTED", words
+    if refusal is not None or recipe is None:
+        return "MISREAD", "read, and should have been refused, or no recipe is there"
+    kind = type(test).__name__
+    names = {"dma": "FrequencySweeps", "relaxation": "RelaxationTest", "creep": "CreepTest",
+             "shifts": "ShiftTable"}  # fmt: skip
+    if kind != names[recipe.test]:
+        return "MISREAD", f"read as {kind}"
+    try:
+        mine, theirs = found(test, recipe.test), expected(path, recipe)
+    except Exception as error:
+        return "MISREAD", f"no independent parse: {error!r}"
+    if mine.shape != theirs.shape:
+        return "MISREAD", f"{len(mine)} points, {len(theirs)} in the independent parse"
+    if not np.allclose(mine, theirs, rtol=1e-9, atol=1e-9 if shifts else 0):
+        return "MISREAD", "other numbers than the independent parse"
+    if recipe.test != "shifts":
+        tensile = ("_user_" in name or "Eplexor" in name) and "shear" not in name
+        if test.kind != ("E" if tensile else "G"):
+            return "MISREAD", f"taken for kind {test.kind}"
+        if wrong := other_temperature(test, celsius(path, name)):
+            return "MISREAD", wrong
+    if flags:
+        missing = {"modulus_unit": "unit", "time_unit": "unit", "frequency_unit": "unit"}
+        lacking = dict.fromkeys(missing.get(flag, flag.replace("_", " ")) for flag in flags)
+        return "asked", "does not say " + ", ".join(lacking)
+    return "read", f"{len(mine)} points"
+
+
+def files_of(folders):
+    for folder in map(Path, folders):
+        for path in sorted(folder.rglob("*")):
+            name = f"{folder.name}/{path.relative_to(folder)}"
+            if path.suffix.lower() not in DATA or not path.is_file() or not path.stat().st_size:
+                continue
+            if not any(fnmatch(name.lower(), word) for word in NO_DATA):
+                yield name, path
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folders", nargs="+", metavar="FOLDER")
+    parser.add_argument("--page", type=Path, help="write the list of names and outcomes here")
+    parser.add_argument("--fuzz", type=int, default=0, help="mutated copies to read")
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    results = {name: outcome(path, name) for name, path in files_of(arguments.folders)}
+    counts = Counter(kind for kind, _ in results.values())
+    print(words_of(counts, len(results)))
+    wrong = {name: why for name, why in results.items() if why[0] in ("MISREAD", "UNEXPECTED")}
+    for name, (kind, why) in wrong.items():
+        print(f"{kind} {name}: {why}")
+    if arguments.page is not None:
+        arguments.page.write_text(page(results, counts), encoding="utf-8")
+    broken = fuzz(arguments.folders, arguments.fuzz) if arguments.fuzz else 0
+    sys.exit(bool(wrong or broken or not results))
+
+
+def words_of(counts, total):
+    lines = {
+        "read": "read as they are, with the numbers of an independent parse",
+        "asked": "read with the flags that the refusal names, with those numbers",
+        "refused": "refused for a reason that stands in the list",
+        "MISREAD": "misread",
+        "UNEXPECTED": "refused for another reason",
+    }
+    return "\n".join([f"{total} files", *(f"{counts[k]:5d} {v}" for k, v in lines.items())])
+
+
+def page(results, counts):
+    """Return the page of names and outcomes: files of one folder and outcome in one row."""
+    groups = {}
+    for name, (kind, why) in results.items():
+        folder, _, file = name.rpartition("/")
+        why = "" if kind == "read" else f": {why}"
+        groups.setdefault((folder, kind + why), []).append(file)
+    rows = [
+        f"| {folder} | {kind} | {len(files)} | {', '.join(files)} |"
+        for (folder, kind), files in groups.items()
+    ]
+    return PAGE.format(counts=words_of(counts, len(results)), rows="\n".join(rows))
+
+
+PAGE = """# Public files, and how they are read
+
+Every data file of RepTate, RheoJAX, pyRheo, mastercurves, pyvisco and RHEOS, read by
+`viscotack.lab` without a hand on it and held against an independent parse. The files themselves
+stay where they are; this list is written by
+
+```console
+python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RHEOS.jl \\
+    --page docs/public-files.md
+```
+
+```text
+{counts}
+```
+
+"asked" files do not say a unit, or whether a modulus is tensile or shear: the refusal names the
+flags, and with them the numbers are those of the independent parse. Of files without headings no
+reader can know what their columns are.
+
+| folder | outcome | files | names |
+|---|---|---|---|
+{rows}
+"""
+
+
+def fuzz(folders, tries):
+    """Return in how many mutated copies a reader fell over."""
+    rng = np.random.default_rng(7)
+    paths = [path for _, path in files_of(folders) if path.stat().st_size < 40_000]
+    readers = (lab.read, lab.read_dma, lab.read_relaxation, lab.read_creep, lab.read_shifts)
+    broken = answered = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(tries):
+            path = paths[rng.integers(len(paths))]
+            copy = Path(folder, path.name)
+            copy.write_bytes(mutated(path.read_bytes(), rng))
+            for reader in readers:
+                try:
+                    reader(copy)
+                    answered += 1
+                except InputError:
+                    pass
+                except Exception as error:
+                    broken += 1
+                    print(f"TRACEBACK {reader.__name__} {path.name}: {error!r}")
+            copy.unlink()
+    print(f"{tries} mutated copies: {answered} answers, {broken} tracebacks")
+    return broken
+
+
+def mutated(content, rng):
+    """Return a file with bytes changed, a piece lost or doubled, lines swapped, or an end cut."""
+    content = bytearray(content)
+    for _ in range(rng.integers(1, 4)):
+        if len(content) < 4:
+            break
+        start = int(rng.integers(0, len(content)))
+        end = min(start + int(rng.integers(1, 60)), len(content))
+        how = rng.integers(6)
+        if how == 0:
+            content[start:end] = rng.integers(0, 256, end - start, dtype=np.uint8).tobytes()
+        elif how == 1:
+            del content[start:end]
+        elif how == 2:
+            content[start:start] = content[start:end]
+        elif how == 3:
+            del content[start:]
+        elif how == 4:
+            lines = bytes(content).split(b"\n")
+            one, other = rng.integers(len(lines), size=2)
+            lines[one], lines[other] = lines[other], lines[one]
+            content = bytearray(b"\n".join(lines))
+        else:
+            content[start] = rng.choice(list(b",;\t .-+eE0\"'{}[]:=/"))
+    return bytes(content)
+
+
+if __name__ == "__main__":
+    main()
