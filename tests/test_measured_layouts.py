@@ -299,6 +299,12 @@ def test_a_name_has_one_temperature(file):
     assert read_dma(file(text, "a 293.15 K.csv"), temperature_in_name=True).temperature[0] == 293.15
 
 
+def test_two_amplitudes_are_no_frequency_sweep(file):
+    two = "f,E',E''\nHz,MPa,MPa\n1,3,0.4\n1,2.9,0.5\n"
+    with pytest.raises(ValueError, match="one temperature and one frequency"):
+        read_dma(file(two))
+
+
 # ---- which test, and the true cause ------------------------------------------------------------
 
 

@@ -25,8 +25,8 @@ _WORDS = {
     "tan_delta": "tandelta tanδ tan(delta) tan(δ) lossfactor verlustfaktor dampingfactor "
     "facteurdeperte factordeperdida",
     "magnitude": "complexmodulus komplexermodul |complexmodulus| dynamicmodulus",
-    "phase": "phase phaseangle phaseshift delta δ lossangle phasenwinkel verlustwinkel "
-    "phasenverschiebungswinkel angledephase",
+    "phase": "phase phaseangle phaseshift phaseshiftangle delta δ lossangle phasenwinkel "
+    "verlustwinkel phasenverschiebungswinkel angledephase",
     "time": "time zeit temps tiempo testtime testzeit",
     "step_time": "steptime intervaltime segmenttime abschnittszeit tempsdintervalle",
     "modulus": "modulus modul relaxationmodulus stressrelaxationmodulus relaxationsmodul "
