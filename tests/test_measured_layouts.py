@@ -96,6 +96,14 @@ def test_doubles_that_are_not_needed_are_passed_over(file):
     assert (sweeps.kind, sweeps.source.format) == ("E", "trios")
 
 
+def test_a_column_that_is_not_needed_needs_no_unit(file):
+    text = "w [rad/s],f,G' [Pa],G'' [Pa],|G*|,delta,tan delta\n"
+    text += "1,9,3,4,99,99,1.333\n2,9,6,8,9,9,1.333\n"
+    sweeps = read_dma(file(text))
+    assert sweeps.angular_frequency.tolist() == [1, 2]
+    assert sweeps.loss.tolist() == [4, 8]
+
+
 def test_two_columns_that_say_the_same_are_one(file):
     rows = "1, 3, 0.4, 20.0, 20.1\n2, 4, 0.5, 20.0, 20.1\n"
     names = "f, E', E'', Temp, Temp\nHz, MPa, MPa, C, C\n"

@@ -89,9 +89,10 @@ def _repeats_one_state(values: dict[str, Array]) -> bool:
 def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
     """Return the columns of one table in SI and the kind of its moduli."""
     parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
-    refuse_what_is_lacking(
-        columns, given, parts, "temperature", "frequency", "storage", "loss", "magnitude", "phase"
-    )
+    by_angle = "loss" not in columns or "storage" not in columns
+    angle = ("phase",) if by_angle and "tan_delta" not in columns else ()
+    frequency = () if "angular_frequency" in columns else ("frequency",)
+    refuse_what_is_lacking(columns, given, parts, "temperature", *frequency, *parts, *angle)
     kind = kind_of(columns, given, *parts)
     values = {
         "temperature": temperatures(columns, given),
@@ -221,7 +222,7 @@ def _agree(columns: Columns, storage: Array, loss: Array) -> None:
             tangent = loss / storage
             slack = (digits[1] + np.abs(tangent) * digits[0]) / np.abs(storage)
         _same(columns, "tan_delta", 1.0, tangent, slack)
-    if "magnitude" in columns:
+    if "magnitude" in columns and not columns.lacking("magnitude"):
         _same(columns, "magnitude", columns.factor("magnitude"), sizes, digits[0] + digits[1])
 
 

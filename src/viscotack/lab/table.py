@@ -322,9 +322,10 @@ class Columns:
 
     def angular_frequency(self) -> Array:
         """Return 2 pi f [rad/s] of each row, from one column or from two that agree."""
-        found = {
-            name: self._angular(name) for name in ("angular_frequency", "frequency") if name in self
-        }
+        names = [name for name in ("angular_frequency", "frequency") if name in self]
+        if len(names) == 2 and self.lacking("frequency"):
+            names.pop()  # not needed, and it does not say what it is
+        found = {name: self._angular(name) for name in names}
         if len(found) == 2:
             both = found["angular_frequency"], found["frequency"]
             for row in np.flatnonzero(np.abs(both[0] - both[1]) > 0.01 * np.abs(both[0])):
