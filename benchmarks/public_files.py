@@ -500,7 +500,9 @@ python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RH
 
 "asked" files do not say a unit, or whether a modulus is tensile or shear: the refusal names the
 flags, and with them the numbers are those of the independent parse. Of files without headings no
-reader can know what their columns are.
+reader can know what their columns are.Measured on RepTate 4aeb671, RheoJAX b79e79e
+(without the two owchirp files of `examples/data/laos`, which were not at hand), pyRheo 9435084,
+mastercurves cb2cc35, pyvisco 252a4b8 and RHEOS a4e6de8.
 
 | folder | outcome | files | names |
 |---|---|---|---|
