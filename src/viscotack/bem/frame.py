@@ -47,7 +47,7 @@ _getrf, _getrs = get_lapack_funcs(("getrf", "getrs"), dtype=np.float64)
 # The profile moves along with the edge within about this part of the way to the middle, or the rim.
 _ALONG = 0.3
 # The edge goes no farther in a step than this part of that: the profile must not fold.
-_FARTHEST = 0.3
+_FARTHEST = 0.15
 # Parts of a step: so many distances of nodes are travelled in one, or this part of the lag to the
 # end. A travel of less than _NONE such distances is none.
 _PART, _LAGGING, _NONE = 0.25, 0.05, 0.02

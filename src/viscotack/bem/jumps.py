@@ -17,7 +17,7 @@ from viscotack.bem.books import Snapshot
 from viscotack.bem.memory import Step, step
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
-from viscotack.bem.remesh import around_edge
+from viscotack.bem.remesh import around_edge, lost
 from viscotack.bem.shut import pressed_shut
 from viscotack.bem.steps import Attempt, arrived, force_change, instant, travel, tried, weighed
 from viscotack.result import Event
@@ -56,19 +56,19 @@ def followed(run: Run, at: Place) -> Place:
     Coarse nodes may hold an edge that has run out of the fine ones where nothing else does, behind
     a soft spring for example. New nodes then tip it over the brink, and it is a jump.
     """
-    moved, lost = _chased(run, at)
+    moved, gone = _chased(run, at)
     now, then = at.seen, moved.seen
     books = moved.books
     tipped = abs(then.force - now.force) > force_change(run, moved)
     if not (tipped or _went_far(run, moved, now)):
-        return replace(moved, books=replace(books, transfer=books.transfer + lost))
+        return replace(moved, books=replace(books, transfer=books.transfer + gone))
     # it lies behind the step that is kept, and before the next
     behind = replace(then, time=float(np.nextafter(now.time, np.inf)))
-    run.history.events.append(_event(now, behind, lost))
+    run.history.events.append(_event(now, behind, gone))
     return replace(
         moved,
         state=run.body.at_rest(moved.state),
-        books=replace(books, jumps=books.jumps + lost),
+        books=replace(books, jumps=books.jumps + gone),
         dt=at.leg.least_step,
     )
 
@@ -110,9 +110,9 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
         books=replace(attempt.entry, jumps=attempt.entry.jumps + missing),
         dt=at.leg.least_step,
     )
-    after, lost = _chased(run, after)
-    missing += lost
-    after = replace(after, books=replace(after.books, jumps=after.books.jumps + lost))
+    after, gone = _chased(run, after)
+    missing += gone
+    after = replace(after, books=replace(after.books, jumps=after.books.jumps + gone))
     if missing > least or (at.seen.edge > 0) != (after.seen.edge > 0):
         run.history.events.append(_event(at.seen, after.seen, missing))
     return after
@@ -124,20 +124,20 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
     The work of the drive, which falls with a dead load, is booked; what is lost is not.
     """
     left: list[Mesh] = []
-    lost = 0.0
+    missing = 0.0
     for _ in range(_MOST_MESHES):
         edge = at.seen.edge
         # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
         if not at.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
             break
         left.append(at.mesh)
-        now, at = at.seen, _on_new_nodes(run, at)
-        if at.seen is now:
+        before, at = at, _on_new_nodes(run, at)
+        if at.seen is before.seen:
             break
-        work = 0.5 * (now.force + at.seen.force) * (at.seen.drive - now.drive)
+        work, gone = lost(before, at)
         at = replace(at, books=replace(at.books, drive=at.books.drive + work))
-        lost += work + now.stored - at.seen.stored
-    return at, lost
+        missing += gone
+    return at, missing
 
 
 def _on_new_nodes(run: Run, at: Place) -> Place:

@@ -119,6 +119,7 @@ def _stepped(run: Run, at: Place) -> Place:
         at = clipped(run, at)
         goal = ahead(run, at)
         if goal is not None:
+            at = replace(at, dt=goal.dt)
             attempt = travelled(run, at, goal)
         else:
             s = step(run.body.modes, at.dt)

@@ -24,6 +24,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import brentq
 
 from viscotack.errors import InputError
 
@@ -78,8 +79,7 @@ class Grading:
             fine = np.linspace(0.0, fine[-1], max(round(fine[-1] / h), 8) + 1)
             inner = np.empty(0)
         else:
-            away = self._growing(fine[0], self.growth_inside, largest=max(fine[0] / 24, h))
-            inner = fine[0] - away[::-1] * (fine[0] / away[-1])  # the last one lands on r = 0
+            inner = fine[0] - self._inwards(fine[0], first_edge)[::-1]
             inner[0] = 0.0
         parts, end, last_step, growth = [inner, fine], fine[-1], h, self.growth_outside
         kept = int(self.scar_half_width / self.scar_spacing)
@@ -94,6 +94,26 @@ class Grading:
         nodes = np.concatenate([*parts, end + outwards])
         check_count(len(nodes))
         return nodes
+
+    def _inwards(self, length: float, first_edge: float) -> npt.NDArray:
+        """Return growing distances from the fine zone, the last one being the length.
+
+        As many as for the first edge, so that their growth changes smoothly as the edge recedes:
+        one node less would change the energy of the solid by more than a step does.
+        """
+        first = max(first_edge - self.half_width, length)
+        many = len(self._growing(first, self.growth_inside, largest=_coarsest(first, self.spacing)))
+        largest = _coarsest(length, self.spacing)
+
+        def away(growth: float) -> npt.NDArray:
+            steps = self.spacing * (1 + growth) ** np.arange(1, many + 1)
+            return np.cumsum(np.minimum(steps, largest))
+
+        if many * largest <= length or many * self.spacing >= length:
+            return length * np.arange(1, many + 1) / many
+        growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, rtol=1e-12)
+        points = away(float(growth))  # type: ignore[arg-type]
+        return points * (length / points[-1])
 
     def _growing(
         self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf
@@ -114,6 +134,11 @@ class Grading:
             from_scar = self.scar_spacing + _HEALED * self.growth_outside * left
             points.append(points[-1] + min(step, from_scar))
         return start + np.array(points[1:-1]) * (length / points[-1])
+
+
+def _coarsest(length: float, spacing: float) -> float:
+    """Return the largest distance of nodes in the contact, which goes so far from the middle."""
+    return max(length / 24, spacing)
 
 
 def check_count(nodes: float) -> None:

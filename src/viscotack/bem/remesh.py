@@ -15,14 +15,26 @@ from viscotack.bem.equilibrium import Balance
 from viscotack.bem.place import Place
 
 
-def around_edge(body: Body, at: Place) -> Place | Balance:
+def around_edge(body: Body, at: Place, edge: float | None = None) -> Place | Balance:
     """Return the march on nodes around its edge, or the balance that is none where it fails there.
 
-    Where the crack has grown the nodes are coarser, and the fine zone is that much longer.
+    Where the crack has grown the nodes are coarser, and the fine zone is that much longer. The
+    edge given is where it will be instead.
     """
-    mesh = at.mesh.around(at.seen.edge, opening(at.state, body.contact))
+    edge = at.seen.edge if edge is None else edge
+    mesh = at.mesh.around(edge, opening(at.state, body.contact))
     state = body.remeshed(at.state, mesh.nodes(), at.hold())
     return state if isinstance(state, Balance) else replace(at, state=state, mesh=mesh)
+
+
+def lost(before: Place, after: Place) -> tuple[float, float]:
+    """Return the drive's work between two states of one instant, and the energy that it lacks.
+
+    The drive falls with a dead load.
+    """
+    now, then = before.seen, after.seen
+    work = 0.5 * (now.force + then.force) * (then.drive - now.drive)
+    return work, work + now.stored - then.stored
 
 
 def opening(state: State, contact: Contact) -> float:

@@ -32,7 +32,7 @@ from viscotack.bem.machine import Leg
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
-from viscotack.bem.remesh import opening
+from viscotack.bem.remesh import around_edge, lost, opening
 from viscotack.bem.span import least_gap, room
 from viscotack.bem.steps import Attempt, changed, entered
 from viscotack.bem.surface import Surface
@@ -52,9 +52,13 @@ _MANY_ZONES, _NEAR = 9.0, 0.3
 _SPEED_CHANGE = 0.2
 # The error of a linear change in the frame may be so many times that at a place.
 _LOOSER = 40.0
+# An edge that goes less than this part of the half width stays within the fine nodes.
+_WITHIN = 0.8
 # On new nodes the energies differ by what the nodes do: less than so many times the tolerated
 # imbalance tells nothing of the step.
-_MOVED = 5.0
+_MOVED = 2.0
+# A step in which the edge would go too far is made so much shorter.
+_SHORTER = 0.8
 # The cubic through four places of the edge is trusted within this part of the parabola.
 _AGREED = 0.2
 # Instants that differ by less than this part of the time are one.
@@ -69,14 +73,16 @@ class Ahead:
 
     Attributes
     ----------
-    travel : float
-        Expected change of the edge.
+    dt, travel : float
+        Length of the step, shorter than was wanted where the edge would go too far; expected
+        change of the edge.
     speed, before : float
         Mean speed of the last step, and its length.
     zone : float
         Length over which the gap opens.
     """
 
+    dt: float
     travel: float
     speed: float
     before: float
@@ -95,12 +101,15 @@ def ahead(run: Run, at: Place) -> Ahead | None:
     if min(widths(x, edge)) < _LEAST_WIDTH * grading.half_width:
         return None
     zone = contact.zone * grading.half_width / at.mesh.finest.half_width
-    travel = _expected(trail, at.dt)
-    if not _LEAST_TRAVEL * zone < abs(travel) < farthest(x, edge):
+    dt, travel = at.dt, _expected(trail, at.dt)
+    if not _LEAST_TRAVEL * zone < abs(travel):
         return None
+    while abs(travel) > farthest(x, edge):
+        dt *= _SHORTER
+        travel = _expected(trail, dt)
     last, now = trail[-2].seen, trail[-1].seen
     before = now.time - last.time
-    return Ahead(travel, (now.edge - last.edge) / before, before, zone)
+    return Ahead(dt, travel, (now.edge - last.edge) / before, before, zone)
 
 
 def _told_apart(trail: tuple[Passed, ...], dt: float) -> bool:
@@ -134,6 +143,7 @@ def _extrapolated(time: npt.NDArray, edge: npt.NDArray, dt: float) -> float:
 
 def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
     """Return a step in the frame of the crack; None where there is no balance at its end."""
+    at = _on_better_nodes(run, at, goal)
     nodes = _Nodes.of(run.body, at, goal)
     way, found, passage = _balanced(run, at, goal, nodes) or (None, None, None)
     if way is None or found is None or passage is None:
@@ -147,6 +157,26 @@ def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
     if moved and not attempt.too_long:
         run.history.meshes += 1
     return replace(attempt, mesh=nodes.mesh)
+
+
+def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
+    """Return the march on other nodes where the present state can be brought to them and balanced.
+
+    So what the move costs is known, and booked. It can be if the edge stays within the fine nodes,
+    or comes into coarser ones for a crack that has grown.
+    """
+    mesh, there = at.mesh, at.seen.edge + goal.travel
+    near = abs(goal.travel) < _WITHIN * mesh.grading.half_width
+    grown = mesh.around(there, opening(at.state, run.body.contact)).grading != mesh.grading
+    if not grown and not (near and mesh.left_by(there)):
+        return at
+    moved = around_edge(run.body, at, there if near else at.seen.edge)
+    if not isinstance(moved, Place):
+        return at
+    work, gone = lost(at, moved)
+    books = moved.books
+    books = replace(books, drive=books.drive + work, transfer=books.transfer + gone)
+    return replace(moved, books=books)
 
 
 @dataclass(frozen=True, eq=False)
