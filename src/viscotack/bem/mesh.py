@@ -111,7 +111,7 @@ class Grading:
 
         if many * largest <= length or many * self.spacing >= length:
             return length * np.arange(1, many + 1) / many
-        growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, rtol=1e-12)
+        growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, xtol=1e-12)
         points = away(float(growth))  # type: ignore[arg-type]
         return points * (length / points[-1])
 
