@@ -15,11 +15,13 @@ Four wings, each of which knows itself and those before it: ``elastic``, ``crack
 from . import crack, elastic, punch, sphere
 from .crack import (
     CrackLaw,
+    SteadyCrack,
     crack_regimes,
     empirical,
     greenwood,
     modulus_file,
     persson_brener,
+    steady,
     tabulated,
     tabulated_modulus,
 )
@@ -38,6 +40,7 @@ from .sphere import bounds, detachment, rate, unloading
 
 __all__ = [
     "CrackLaw",
+    "SteadyCrack",
     "adhesion_map",
     "bounds",
     "bradley",
@@ -58,6 +61,7 @@ __all__ = [
     "punch",
     "rate",
     "sphere",
+    "steady",
     "tabulated",
     "tabulated_modulus",
     "transition",

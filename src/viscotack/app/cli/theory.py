@@ -111,7 +111,7 @@ def theory_jkr(
         "contact_radius_without_load_m": free,
         "instability_depth_m": fold.depth,
     }
-    _answer(answer, curve, ("depth [m]", "force [N]"), as_json, plot_file)
+    answer_with(answer, curve, ("depth [m]", "force [N]"), as_json, plot_file)
 
 
 @theory.command("maugis")
@@ -174,7 +174,7 @@ def theory_maugis(
             f"work_to_pull_off{tails[3]}": maugis.work_to_pull_off(**case) / (load * height),
         }
     curve = (states.depth / height, states.force / load)
-    _answer(answer, curve, labels, as_json, plot_file)
+    answer_with(answer, curve, labels, as_json, plot_file)
 
 
 @theory.command("persson-brener")
@@ -290,7 +290,7 @@ def _crack(
     labels = (f"speed [length of the theory / {unit}]", "amplification")
     curve = (v, np.stack(list(found.values()), axis=-1))
     table = {column: values.tolist() for column, values in answer.items()}
-    _answer(table, curve, labels, as_json, plot_file, logarithmic=True)
+    answer_with(table, curve, labels, as_json, plot_file, logarithmic=True)
 
 
 def _of_material(
@@ -335,7 +335,7 @@ def _of_table(
     }
 
 
-def _answer(
+def answer_with(
     answer: dict[str, Any],
     curve: tuple[Any, Any],
     labels: tuple[str, str],
@@ -369,5 +369,9 @@ def _words(answer: dict[str, Any]) -> str:
     if not isinstance(next(iter(answer.values())), list):
         return "\n".join(f"  {name:<32}{value:>12.5g}" for name, value in answer.items())
     rows = zip(*answer.values(), strict=True)
-    lines = ["  ".join(f"{value:18.6g}" for value in row) for row in rows]
+    lines = ["  ".join(_cell(value) for value in row) for row in rows]
     return "\n".join(["  ".join(f"{name:>18}" for name in answer), *lines])
+
+
+def _cell(value: float | None) -> str:
+    return f"{'-':>18}" if value is None else f"{value:18.6g}"

@@ -7,19 +7,23 @@ from . import (
     law,
     modulus_file,
     persson_brener,
+    steady,
     tabulated,
     tabulated_modulus,
 )
 from .law import CrackLaw
+from .steady import SteadyCrack
 
 __all__ = [
     "CrackLaw",
+    "SteadyCrack",
     "crack_regimes",
     "empirical",
     "greenwood",
     "law",
     "modulus_file",
     "persson_brener",
+    "steady",
     "tabulated",
     "tabulated_modulus",
 ]

@@ -1,0 +1,16 @@
+"""The steady crack with its whole traction law: any law, any linear solid, opening and closing."""
+
+from . import comparison, cracks
+from .comparison import Comparison, best_strength_ratio, compared
+from .cracks import MESH_ERROR, Profile, SteadyCrack
+
+__all__ = [
+    "MESH_ERROR",
+    "Comparison",
+    "Profile",
+    "SteadyCrack",
+    "best_strength_ratio",
+    "compared",
+    "comparison",
+    "cracks",
+]

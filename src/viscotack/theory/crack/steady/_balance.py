@@ -1,0 +1,139 @@
+"""Newton's method for the tractions of a law against those of the solid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ._mesh import Mesh
+
+Array = npt.NDArray[np.floating[Any]]
+
+_ITERATIONS = 30
+# Of the misfit of a gap [h0]: what counts as solved.
+_CLOSE = 1e-10
+# Of a step that does not lessen the misfit, halvings until it is taken all the same; and how many
+# of such steps there may be.
+_SHORTEST, _MOST_SHORT = 0.02, 3
+# Smallest gap [h0] that is looked at; a crack that would need less has not been found.
+_LEAST_GAP = 0.4
+# Changes of the gap over an element below which means of law and stiffness are those of its middle.
+_FLAT, _FLAT_SLOPE = 1e-6, 1e-5
+
+
+class Law(NamedTuple):
+    """A reduced traction law and the gap at which the crack is pinned to place 0."""
+
+    traction: Callable[[Array], Array]
+    energy: Callable[[Array], Array]
+    stiffness: Callable[[Array], Array]
+    pinned: float
+
+    def mean(self, gap: Array) -> tuple[Array, Array, Array]:
+        """Return the mean traction of each element over its gaps, and its two derivatives.
+
+        The energy's difference over that of the gap: the work of all elements is then that of the
+        law, steps and kinks of it included.
+        """
+        change, middle = np.diff(gap), (gap[1:] + gap[:-1]) / 2
+        traction, slope = self.traction(gap), self.stiffness(middle) / 2
+        wide, safe = np.abs(change) > _FLAT, np.where(np.abs(change) > _FLAT, change, 1.0)
+        mean = np.where(wide, np.diff(self.energy(gap)) / safe, self.traction(middle))
+        steep = np.abs(change) > _FLAT_SLOPE
+        first = np.where(steep, (mean - traction[:-1]) / safe, slope)
+        last = np.where(steep, (traction[1:] - mean) / safe, slope)
+        return mean, first, last
+
+    def mixed(self, other: Law, part: float) -> Law:
+        """Return a law between this one and another."""
+
+        def between(first: Any, second: Any) -> Callable[[Array], Array]:
+            return lambda gap: (1 - part) * first(gap) + part * second(gap)
+
+        return Law(
+            between(self.traction, other.traction),
+            between(self.energy, other.energy),
+            between(self.stiffness, other.stiffness),
+            (1 - part) * self.pinned + part * other.pinned,
+        )
+
+
+class System(NamedTuple):
+    """The balance of a crack: kernel u = spread(mean tractions) + inflow, gap = 1 + opening u.
+
+    u is the field less its far part, then the amplitude A of the far part. ``spread`` None is the
+    identity.
+    """
+
+    mesh: Mesh
+    law: Law
+    opening: Array
+    spread: Array | None = None
+    inflow: Callable[[float], Array] | None = None
+
+
+class Solution(NamedTuple):
+    """What balances: u, the gaps at the nodes, the law's and the solid's mean tractions."""
+
+    u: Array
+    gap: Array
+    traction: Array
+    relaxed: Array
+
+    @property
+    def amplification(self) -> float:
+        """Return the energy of the far field over the work of adhesion, pi A^2/16."""
+        return float(np.pi * self.u[-1] ** 2 / 16)
+
+
+def solved(system: System, guess: Array) -> Solution | None:
+    """Return what balances near a guess, or None where nothing was found."""
+    mesh, size = system.mesh, system.mesh.x.size
+    kernel = np.concatenate([mesh.kernel, mesh.far_traction[:, None]], axis=1)
+    largest = np.max(np.abs(mesh.kernel), axis=1)
+    matrix = np.zeros((size + 1, size + 1))
+    # one gap is pinned, and the field is its far part alone at the open end
+    matrix[-2] = system.opening[mesh.middle]
+    matrix[-1, size - 2 : size] = -1.0, 1.0
+    pinned = system.law.pinned - 1
+
+    def state(u: Array) -> tuple[Array, Array, float, Any]:
+        gap = 1 + system.opening @ u
+        parts = system.law.mean(np.maximum(gap, _LEAST_GAP / 2))
+        right = parts[0] if system.spread is None else system.spread @ parts[0]
+        if system.inflow is not None:
+            right = right + system.inflow(u[-1])
+        misfit = np.append(kernel @ u - right, [gap[mesh.middle] - 1 - pinned, u[-2] - u[-3]])
+        # as gaps, so that a stiff wall and a soft tail weigh the same
+        stiff = largest + np.abs(parts[1]) + np.abs(parts[2])
+        size_of = max(np.max(np.abs(misfit[:-2]) / stiff), np.max(np.abs(misfit[-2:])))
+        return gap, misfit, float(size_of), (parts, right)
+
+    u, short = guess, 0
+    gap, misfit, size_now, parts = state(u)
+    for _ in range(_ITERATIONS):
+        if size_now < _CLOSE:
+            return Solution(u, gap, parts[0][0], parts[1])
+        _, first, last = parts[0]
+        slope = first[:, None] * system.opening[:-1] + last[:, None] * system.opening[1:]
+        matrix[:-2] = kernel - (slope if system.spread is None else system.spread @ slope)
+        try:
+            step = np.linalg.solve(matrix, -misfit)
+        except np.linalg.LinAlgError:
+            return None
+        length = 1.0
+        while True:
+            found = state(u + length * step)
+            better = found[0].min() > _LEAST_GAP and found[2] < size_now * (1 - 0.05 * length)
+            if better or length < _SHORTEST or not np.isfinite(size_now):
+                break
+            length /= 2
+        short += length < _SHORTEST
+        if short > _MOST_SHORT:
+            return None
+        u = u + length * step
+        gap, misfit, size_now, parts = found
+    return None

@@ -1,0 +1,178 @@
+"""The cracks of one solid and law in one direction, from the slowest on, found as they are asked.
+
+At speeds a third of a decade apart Newton's method takes the crack before as its guess. Between
+them ln of (Gamma - 1)/(1/k - Gamma), for closing of (1 - Gamma)/(Gamma - k), is a cubic spline in
+ln of the speed; the spline through every second one says how far it may be off.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from viscotack.errors import InputError
+from viscotack.materials import Modes
+
+from ._balance import Law, Solution, System, solved
+from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
+from ._mesh import Mesh
+
+Array = npt.NDArray[np.floating[Any]]
+
+STEP = np.log(10) / 4
+_SHORTEST_STEP = STEP / 64
+# Of the longest mode at the first speed that is solved, over the length of the crack; and speeds
+# below it for which Gamma - 1 = s V + b V^2 gives the odds, with the s of the slowest crack.
+_SLOW, _SLOWER = 0.03, 12
+# Of ln of the odds: where the crack is as good as glassy; and the most speeds that are solved.
+_GLASSY, _MOST = np.log(2e3), 400
+# Points of the inverse between two speeds that are solved.
+_FINE = 16
+# The part of the difference to the coarser spline that is stated: of fourth order it is 1/16.
+_STATED = 0.25
+
+
+class Branch:
+    """Cracks that open (sign 1) or close (sign -1).
+
+    Parameters
+    ----------
+    mesh, law, modes
+        Of the crack; times of the modes in the unit of time.
+    start : Solution
+        The elastic crack.
+    slow : float
+        (Gamma - 1)/V of the slowest crack.
+    sign : int
+        1 or -1.
+    """
+
+    def __init__(
+        self, mesh: Mesh, law: Law, modes: Modes, start: Solution, slow: float, sign: int
+    ) -> None:
+        self._mesh, self._law, self._modes, self._sign = mesh, law, modes, sign
+        self._elastic, self._slow = start, slow
+        self._first = float(np.log(_SLOW * mesh.width / max(modes.times)))
+        self._log_speed: list[float] = []
+        self._odds: list[float] = []
+        self._cracks: list[Solution] = []
+        self._splines: tuple[int, Any, Any] | None = None
+
+    def odds(self, log_speed: Array) -> Array:
+        """Return ln of the odds at ln of speeds: linear below the first, on with slope 1 above."""
+        self._reach(float(np.max(log_speed, initial=-np.inf)))
+        fine, _ = self._curves()
+        first, last = self._log_speed[0], self._log_speed[-1]
+        inside = fine(np.clip(log_speed, first, last))
+        beyond = np.minimum(log_speed - first, 0) + np.maximum(log_speed - last, 0)
+        return inside + beyond
+
+    def log_speed(self, odds: Array) -> Array:
+        """Return ln of the speeds of ln of the odds."""
+        highest = float(np.max(odds, initial=-np.inf))
+        while not self._complete and (not self._odds or self._odds[-1] < highest):
+            self._append()
+        self._reach(self._first)
+        fine, _ = self._curves()
+        x = np.array(self._log_speed)
+        grid = np.interp(np.arange(_FINE * (x.size - 1) + 1) / _FINE, np.arange(x.size), x)
+        # the odds rise; a spline that does not is one of round-off at the ends
+        y = np.maximum.accumulate(fine(grid))
+        inside = np.interp(odds, y, grid)
+        return inside + np.minimum(odds - y[0], 0) + np.maximum(odds - y[-1], 0)
+
+    def interpolation_error(self, log_speed: Array) -> Array:
+        """Return how far ln of the odds may be off for being interpolated."""
+        fine, coarse = self._curves()
+        at = np.clip(log_speed, self._log_speed[0], self._log_speed[-1])
+        between = self._log_speed[0] + STEP / 2 * np.arange(2 * len(self._log_speed))
+        between = between[between < self._log_speed[-1]]
+        differs = np.abs(fine(between) - coarse(between))
+        # the largest nearby: the splines cross
+        near = [float(np.max(differs[np.abs(between - u) < 3 * STEP], initial=0)) for u in at.flat]
+        return _STATED * np.reshape(near, at.shape)
+
+    def at(self, log_speed: float) -> Solution:
+        """Return the crack at ln of a speed, solved and not interpolated."""
+        self._reach(log_speed)
+        i = int(np.argmin(np.abs(np.array(self._log_speed) - log_speed)))
+        return self._walk(self._log_speed[i], self._cracks[i], log_speed)
+
+    @property
+    def _complete(self) -> bool:
+        return bool(self._odds) and (self._odds[-1] > _GLASSY or len(self._odds) >= _MOST)
+
+    def _reach(self, log_speed: float) -> None:
+        """Solve the cracks up to ln of a speed and one beyond."""
+        least = max(log_speed, self._first) + STEP
+        while not self._complete and (not self._odds or self._log_speed[-1] < least):
+            self._append()
+
+    def _append(self) -> None:
+        if self._cracks:
+            before, crack = self._log_speed[-1], self._cracks[-1]
+            log_speed = before + STEP
+        else:
+            before, crack, log_speed = self._first - STEP, self._elastic, self._first
+        found = self._walk(before, crack, log_speed)
+        if not self._cracks:
+            self._begin(found)
+        self._log_speed.append(log_speed)
+        self._cracks.append(found)
+        self._odds.append(self._odds_of(self._gained(found)))
+
+    def _begin(self, first: Solution) -> None:
+        """Put down the slow cracks below the first one that is solved."""
+        over = self._gained(first) / (self._slow * np.exp(self._first))
+        for i in range(-_SLOWER, 0):
+            part = np.exp(i * STEP)
+            gained = self._slow * np.exp(self._first) * part * (1 + (over - 1) * part)
+            self._log_speed.append(self._first + i * STEP)
+            self._odds.append(self._odds_of(gained))
+            self._cracks.append(self._elastic)
+
+    def _walk(self, before: float, crack: Solution, aim: float) -> Solution:
+        """Return the crack at ln of a speed, from one at another, in steps that succeed."""
+        at, step = before, aim - before
+        while at != aim:
+            towards = aim if abs(aim - at) <= abs(step) else at + step
+            found = solved(self._system(np.exp(towards)), crack.u)
+            if found is not None:
+                at, crack, step = towards, found, 1.5 * step
+                continue
+            step /= 2
+            if abs(step) < _SHORTEST_STEP:
+                speed = self._sign * np.exp(towards)
+                raise InputError(
+                    f"no steady crack was found at the speed {speed:.4g} E0* h0^2/(dg tau); "
+                    "ask a slower one, or simulate the contact"
+                )
+        return crack
+
+    def _system(self, speed: float) -> System:
+        weights, times = np.array(self._modes.weights), np.array(self._modes.times)
+        modes = lengths_of(self._mesh, self._modes.instantaneous, weights, speed * times)
+        if self._sign > 0:
+            return System(self._mesh, self._law, opening_matrix(self._mesh, modes))
+        own = np.concatenate([np.eye(self._mesh.x.size), self._mesh.far[:, None]], axis=1)
+        inflow = closing_inflow(self._mesh, modes, self._law.traction)
+        return System(self._mesh, self._law, own, closing_matrix(self._mesh, modes), inflow)
+
+    def _gained(self, crack: Solution) -> float:
+        """Return how far the amplification is from 1, positive."""
+        return self._sign * (crack.amplification / self._elastic.amplification - 1)
+
+    def _odds_of(self, gained: float) -> float:
+        k = self._modes.instantaneous
+        largest = 1 / k - 1 if self._sign > 0 else 1 - k
+        return float(np.log(gained / max(largest - gained, 1e-12)))
+
+    def _curves(self) -> tuple[Any, Any]:
+        if self._splines is None or self._splines[0] != len(self._odds):
+            x, y = np.array(self._log_speed), np.array(self._odds)
+            every = np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))
+            self._splines = (x.size, CubicSpline(x, y), CubicSpline(x[every], y[every]))
+        return self._splines[1:]

@@ -1,0 +1,123 @@
+r"""How far simpler theories of the moving crack are off, for one solid and one law.
+
+Persson and Brener's and Greenwood's cracks need a length, and have it from the strength of the law:
+:math:`l_0 = \lambda/(\pi \alpha^2 \bar\sigma_0^2)` (Eq. 4.23) with any alpha,
+:math:`l = \pi \lambda/(4 \bar\sigma_0^2)`,
+:math:`\bar\sigma_0 = \sigma_0 h_0/\Delta\gamma_0`. The slow asymptote is :math:`1 + s V`, the
+fast one 1/k. All of them are of cracks that open.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import minimize_scalar
+
+from viscotack.errors import InputError
+from viscotack.theory._checks import positive
+from viscotack.theory.crack import greenwood, persson_brener
+
+from .cracks import SteadyCrack
+
+Array = npt.NDArray[np.floating[Any]]
+
+# Of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
+THESIS_RATIO = np.pi / 9
+# Ratios among which the best one is sought, and the amplifications over which: parts of ln(1/k).
+_RATIOS, _PARTS = (0.05, 5.0), (0.02, 0.98)
+_POINTS = 60
+
+
+class Comparison(NamedTuple):
+    """Amplifications of a crack that opens, by theory; arrays of the shape of the speeds.
+
+    Attributes
+    ----------
+    speed : ndarray
+        In E0* h0^2/(dg tau).
+    steady, error : ndarray
+        The steady crack with its whole law, and the part by which it may be off.
+    persson_brener, greenwood, slow, fast : ndarray
+        The other ones.
+    """
+
+    speed: Array
+    steady: Array
+    error: Array
+    persson_brener: Array
+    greenwood: Array
+    slow: Array
+    fast: Array
+
+    def off(self, theory: str) -> Array:
+        """Return by which part of the steady crack's amplification a theory is off, with sign."""
+        return getattr(self, theory) / self.steady - 1
+
+
+def compared(
+    crack: SteadyCrack, speed: npt.ArrayLike, *, strength_ratio: float = THESIS_RATIO
+) -> Comparison:
+    """Return what the theories say of a crack that opens at speeds [E0* h0^2/(dg tau)].
+
+    Parameters
+    ----------
+    crack : SteadyCrack
+        The solid and the law.
+    speed : array_like
+        Positive.
+    strength_ratio : float
+        Alpha of Persson and Brener's length.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.traction import LennardJones
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> found = compared(SteadyCrack(solid, LennardJones(1, 1)), 10.0)
+    >>> f"Persson-Brener {found.off('persson_brener'):+.1%}"
+    'Persson-Brener +6.4%'
+    """
+    v, alpha = positive(speed=speed, strength_ratio=strength_ratio)
+    law = crack.traction.reduced()
+    case = {"contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": law.strength}
+    tip = persson_brener.crack_tip_length(**case, strength_ratio=alpha)
+    zone = greenwood.cohesive_zone_length(**case)
+    solid = crack.material
+    return Comparison(
+        speed=v,
+        steady=np.asarray(crack.amplification(v)),
+        error=np.asarray(crack.error(v)),
+        persson_brener=np.asarray(persson_brener.amplification(v / tip, material=solid)),
+        greenwood=np.asarray(greenwood.amplification(v / zone, material=solid)),
+        slow=1 + crack.slow_coefficient * v,
+        fast=np.full(v.shape, crack.largest),
+    )
+
+
+def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
+    """Return the alpha with which Persson and Brener come nearest, and how far they are off then.
+
+    The largest part of the amplification by which they miss, over all speeds.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.traction import LennardJones
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> alpha, off = best_strength_ratio(SteadyCrack(solid, LennardJones(1, 1)))
+    >>> f"{alpha:.2f}, {off:.0%}"
+    '0.32, 7%'
+    """
+    if crack.largest == 1:
+        raise InputError("an elastic solid has an amplification of 1 at every speed")
+    gamma = crack.largest ** np.linspace(*_PARTS, _POINTS)
+    speed = np.asarray(crack.speed(gamma))
+
+    def misses(log_ratio: float) -> float:
+        found = compared(crack, speed, strength_ratio=float(np.exp(log_ratio)))
+        return float(np.max(np.abs(found.off("persson_brener"))))
+
+    found: Any = minimize_scalar(misses, bounds=np.log(_RATIOS), method="bounded")
+    return float(np.exp(found.x)), float(found.fun)

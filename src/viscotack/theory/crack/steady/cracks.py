@@ -1,0 +1,330 @@
+r"""The steady crack with its whole traction law, without a fitted constant.
+
+A crack runs at a constant speed v between a rigid flat and a viscoelastic half-space, plane
+strain. Along it
+
+.. math:: \sigma(1 + w) = -\frac{1}{2\pi} PV \int \frac{e'(s)}{x - s} ds, \quad
+          w = c_\infty e + \sum_j w_j d_j, \quad v \tau_j d_j' = e - d_j,
+
+with gaps in h0, lengths in :math:`\lambda = E_0^* h_0^2/\Delta\gamma_0` and stresses in
+:math:`\Delta\gamma_0/h_0`. e is the opening that the tractions would cause in the relaxed solid;
+far away :math:`e \to A \sqrt x`, and the crack takes the energy :math:`\Gamma = \pi A^2/16` in
+works of adhesion. Speeds are in :math:`\lambda/\tau`, with the material's ``time_unit`` for tau:
+positive where the crack opens, and Gamma goes from 1 to glassy over rubbery modulus, 1/k; negative
+where it closes, and Gamma, the energy that adhesion can spend on closing, falls from 1 to k.
+
+It is the limit of large Tabor numbers of every contact, for any linear solid and any law. Source:
+this package; docs/steady_crack.md derives it. No DOI: for the cohesive zones between
+see Greenwood (2004), J. Phys. D 37, 2557, and Barber, Donley & Langer (1989),
+doi:10.1103/PhysRevA.40.366.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.materials import Modes
+from viscotack.theory._checks import Number, plain
+from viscotack.traction import Dugdale, Traction, effective_range
+
+from . import _branch, _mesh, _start
+from ._balance import Law, Solution
+
+Array = npt.NDArray[np.floating[Any]]
+
+# Half of the mesh over the length of the glassy zone.
+_REACH = 3e4
+# Of the creep, in glassy compliances, and the window of time of its modes [time units].
+_MODES_TOLERANCE, _WINDOW = 2e-4, (1e-30, 1e30)
+# Part of Gamma by which the mesh is off at most: against meshes three times finer, with the laws
+# of this package, k from 1e-3, both signs (`benchmarks/steady_crack.py`).
+MESH_ERROR = 5e-4
+# What Dugdale's rise and fall change for being softened, over what they are softened by: against
+# Greenwood's crack, which has neither, and against half of them.
+_RISE_ERROR, _FALL_ERROR = 0.25, 0.02
+# Part of the strength at which the zone is said to end.
+_ZONE_ENDS = 0.1
+
+
+@dataclass(frozen=True)
+class Profile:
+    """One steady crack: what it looks like and what it costs.
+
+    Attributes
+    ----------
+    speed : float
+        In E0* h0^2/(dg tau).
+    amplification : float
+        Energy over the work of adhesion.
+    heat : float
+        Dissipated in the solid, in works of adhesion, positive; the amplification is 1 + heat
+        of a crack that opens, 1 - heat of one that closes.
+    zone_length : float
+        From the gap of the largest tension to where it has fallen to a tenth [E0* h0^2/dg].
+    position, gap : ndarray, shape (n,)
+        Place [E0* h0^2/dg], ascending towards the open side; 0 where half of the work is done.
+        Gap [h0].
+    middle, traction : ndarray, shape (n - 1,)
+        Places between, and mean tractions there [dg/h0], tension positive.
+    """
+
+    speed: float
+    amplification: float
+    heat: float
+    zone_length: float
+    position: Array
+    gap: Array
+    middle: Array
+    traction: Array
+
+
+@dataclass(frozen=True)
+class SteadyCrack:
+    r"""The steady cracks of a solid with a traction law.
+
+    Parameters
+    ----------
+    material : viscoelastic material of :mod:`viscotack.materials`
+        Its creep in proportion; its contact modulus gives :attr:`speed_unit`.
+    traction : LennardJones, Exponential, Dugdale, Tabulated or a law of the user's
+        In SI or reduced. Of Dugdale's a rise below 0.02 and a fall below 0.5 are taken as that;
+        the stated error says what it may change.
+
+    Notes
+    -----
+    A speed costs 10 to 40 ms when it is first asked, all later ones nothing: the cracks are solved
+    a quarter of a decade apart, kept for all equal solids and laws, and interpolated.
+    :meth:`error` states how far that may be off.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.traction import LennardJones
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> crack = SteadyCrack(solid, LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-9))
+    >>> f"{crack.amplification(10.0):.2f} opening, {crack.amplification(-10.0):.3f} closing"
+    '3.96 opening, 0.335 closing'
+    >>> f"{crack.speed_unit * 1e9:.1f} nm/s is a speed of 1"
+    '26.7 nm/s is a speed of 1'
+    """
+
+    material: Any
+    traction: Traction
+
+    def __post_init__(self) -> None:
+        for name, wanted in (("material", "retardation_modes"), ("traction", "stiffness")):
+            if not hasattr(getattr(self, name), wanted):
+                raise InputError(
+                    f"{name} must be one of viscotack.{'materials' if name == 'material' else name}"
+                    f", got {getattr(self, name)!r}"
+                )
+
+    @property
+    def speed_unit(self) -> float:
+        """Return a speed of 1 in m/s, E0* h0^2/(dg tau)."""
+        return self.length_unit / self.material.time_unit
+
+    @property
+    def length_unit(self) -> float:
+        """Return a length of 1 in m, E0* h0^2/dg."""
+        law = self.traction
+        return self.material.contact_modulus * law.equilibrium_gap**2 / law.work_of_adhesion
+
+    @property
+    def largest(self) -> float:
+        """Return the amplification at infinite speed, glassy over rubbery modulus."""
+        return 1 / self._modes.instantaneous
+
+    def amplification(self, speed: npt.ArrayLike) -> Number:
+        """Return the energy over the work of adhesion at speeds [E0* h0^2/(dg tau)], any sign."""
+        v = _finite("speed", speed)
+        gamma = np.ones(v.shape)
+        if self._modes.times:
+            for sign, moving in ((1, v > 0), (-1, v < 0)):
+                if np.any(moving):
+                    branch = self._branch(sign)
+                    odds = np.exp(branch.odds(np.log(np.abs(v[moving]))))
+                    gamma[moving] = self._of_odds(odds, sign)
+        return plain(gamma)
+
+    def speed(self, amplification: npt.ArrayLike) -> Number:
+        """Return speeds [E0* h0^2/(dg tau)]: opening above an amplification of 1, else closing.
+
+        The amplification must lie between k and 1/k.
+        """
+        gamma, k = _finite("amplification", amplification), self._modes.instantaneous
+        if np.any((gamma <= k) | (gamma >= 1 / k)) and np.any(gamma != 1):
+            raise InputError(
+                f"amplification must lie between {k:.6g} and {1 / k:.6g}, which infinite speeds "
+                f"have, got {gamma[(gamma <= k) | (gamma >= 1 / k)].flat[0]:g}"
+            )
+        v = np.zeros(gamma.shape)
+        for sign, moving in ((1, gamma > 1), (-1, gamma < 1)):
+            if np.any(moving):
+                of = gamma[moving]
+                ratio = (of - 1) / (1 / k - of) if sign > 0 else (1 - of) / (of - k)
+                v[moving] = sign * np.exp(self._branch(sign).log_speed(np.log(ratio)))
+        return plain(v)
+
+    def error(self, speed: npt.ArrayLike) -> Number:
+        """Return the part by which :meth:`amplification` may be off: mesh, steps and softening."""
+        v = _finite("speed", speed)
+        if not self._modes.times:
+            return plain(np.zeros(v.shape))
+        of_odds = np.zeros(v.shape)
+        self.amplification(v)
+        for sign, moving in ((1, v > 0), (-1, v < 0)):
+            if np.any(moving):
+                log = np.log(np.abs(v[moving]))
+                # d ln Gamma/d ln odds is below a quarter of ln(1/k), and below 1
+                share = min(1.0, np.log(self.largest) / 4)
+                of_odds[moving] = share * self._branch(sign).interpolation_error(log)
+        return plain(MESH_ERROR + of_odds + self._softening)
+
+    def at(self, speed: float) -> Profile:
+        """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
+        v, found = float(speed), self._elastic
+        if v != 0 and self._modes.times:
+            found = self._branch(1 if v > 0 else -1).at(float(np.log(abs(v))))
+        return self._profile(v, found)
+
+    @property
+    def slow_coefficient(self) -> float:
+        r"""Return s of the slowest cracks, :math:`\Gamma \to 1 + s \, V`, of either sign.
+
+        .. math:: s = - \langle\tau\rangle \int \sigma'(w) \, (w')^2 dx, \quad
+                  \langle\tau\rangle = \sum_j w_j \tau_j
+
+        over the elastic crack: one number of the law times the mean time of the solid.
+        """
+        mean_time = float(np.dot(self._modes.weights, self._modes.times))
+        return mean_time * _slow_of(self._elastic, self._grid)
+
+    @cached_property
+    def _modes(self) -> Modes:
+        return _modes_of(self.material)
+
+    @property
+    def _reduced(self) -> Any:
+        return _start.softened(self.traction.reduced())
+
+    @cached_property
+    def _softening(self) -> float:
+        law = self.traction
+        if not isinstance(law, Dugdale):
+            return 0.0
+        rise = max(_start.LEAST_RISE - law.rise, 0.0) * _RISE_ERROR
+        return rise + max(_start.LEAST_FALL - law.fall, 0.0) * _FALL_ERROR
+
+    @cached_property
+    def _law(self) -> Law:
+        return _start.pinned(self._reduced)
+
+    @cached_property
+    def _grid(self) -> _mesh.Mesh:
+        return _grid_of(self._reduced, self._modes.instantaneous)
+
+    @property
+    def _elastic(self) -> Solution:
+        return _kept(_elastic_of, self._reduced, self._modes.instantaneous)
+
+    def _branch(self, sign: int) -> _branch.Branch:
+        return _kept(_branch_of, self._reduced, self._modes, sign)
+
+    def _of_odds(self, odds: Array, sign: int) -> Array:
+        k = self._modes.instantaneous
+        return (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
+
+    def _profile(self, speed: float, found: Solution) -> Profile:
+        mesh, law = self._grid, self._law
+        if speed < 0:
+            heat = float(np.sum((found.traction - found.relaxed) * np.diff(found.gap)))
+        else:
+            relaxed = found.u[:-1] + found.u[-1] * mesh.far
+            heat = float(np.sum(found.traction * np.diff(relaxed - found.gap)))
+        calibrated = found.amplification / self._elastic.amplification
+        return Profile(
+            speed=speed,
+            amplification=calibrated,
+            heat=heat,
+            zone_length=_zone_length(mesh, found.gap, self._reduced, law),
+            position=mesh.x,
+            gap=found.gap,
+            middle=(mesh.x[1:] + mesh.x[:-1]) / 2,
+            traction=found.traction,
+        )
+
+
+def _zone_length(mesh: _mesh.Mesh, gap: Array, traction: Any, law: Law) -> float:
+    """Return the length over which the tension falls from its largest to a tenth."""
+    gaps = np.geomspace(traction.edge_gap, 1e3 * traction.edge_gap, 4000)
+    tension = law.traction(gaps)
+    end = gaps[np.flatnonzero(tension >= _ZONE_ENDS * traction.strength)[-1]]
+    # the gap rises along the crack
+    rising = np.maximum.accumulate(gap)
+    begin, stop = np.interp([traction.edge_gap, end], rising, mesh.x)
+    return float(stop - begin)
+
+
+def _finite(name: str, value: npt.ArrayLike) -> Array:
+    x = np.asarray(value, dtype=float)
+    if not np.all(np.isfinite(x)):
+        raise InputError(f"{name} must be finite, got {x[~np.isfinite(x)].flat[0]}")
+    return x
+
+
+def _modes_of(material: Any) -> Modes:
+    """Return the modes of a solid, times in its unit of time."""
+    unit, k = material.time_unit, material.modulus_ratio
+    shortest, longest = (unit * edge for edge in _WINDOW)
+    modes = material.retardation_modes(
+        shortest=shortest, longest=longest, tolerance=min(_MODES_TOLERANCE * k, 0.5)
+    )
+    total = modes.instantaneous + sum(modes.weights)
+    return Modes(
+        modes.instantaneous / total,
+        tuple(w / total for w in modes.weights),
+        tuple(t / unit for t in modes.times),
+        modes.error,
+    )
+
+
+def _kept(maker: Any, *key: Any) -> Any:
+    """Return what a maker makes of a key, kept where the key can be."""
+    try:
+        hash(key)
+    except TypeError:
+        return maker.__wrapped__(*key)
+    return maker(*key)
+
+
+def _grid_of(law: Traction, modulus_ratio: float) -> _mesh.Mesh:
+    length = effective_range(law) ** 2
+    return _mesh.mesh(length, _REACH * length / modulus_ratio)
+
+
+@lru_cache(maxsize=32)
+def _elastic_of(law: Traction, modulus_ratio: float) -> Solution:
+    return _start.elastic(law, _grid_of(law, modulus_ratio))
+
+
+@lru_cache(maxsize=64)
+def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
+    start = _kept(_elastic_of, law, modes.instantaneous)
+    grid = _grid_of(law, modes.instantaneous)
+    slow = float(np.dot(modes.weights, modes.times)) * _slow_of(start, grid)
+    return _branch.Branch(grid, _start.pinned(law), modes, start, slow, sign)
+
+
+def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:
+    """Return the integral of -sigma' w' over the elastic crack, from the means of the elements."""
+    slope = np.diff(elastic.gap) / grid.dx
+    return -float(np.sum(np.diff(elastic.traction) * (slope[1:] + slope[:-1]) / 2))
