@@ -21,10 +21,12 @@ if TYPE_CHECKING:
     from .cards import Quantity as Quantity
     from .errors import InputError as InputError
     from .forecast import Advice as Advice
+    from .forecast import CrackContact as CrackContact
     from .forecast import Estimate as Estimate
     from .forecast import OutOfRange as OutOfRange
     from .forecast import Prediction as Prediction
     from .forecast import advise as advise
+    from .forecast import crack_contact as crack_contact
     from .forecast import predict as predict
     from .forecast import predict_table as predict_table
     from .forecast import prediction_summary as prediction_summary
@@ -157,6 +159,8 @@ _NAMES = {
         "Advice",
         "Estimate",
         "threshold_contact_radius",
+        "crack_contact",
+        "CrackContact",
         "predict",
         "predict_table",
         "Prediction",

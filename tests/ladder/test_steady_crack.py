@@ -113,7 +113,7 @@ def test_finer_meshes_change_less_than_the_stated_error():
         start = _start.elastic(law, mesh)
         for sign in (1, -1):
             fine = _branch.Branch(
-                mesh, _start.pinned(law), crack._modes, start, crack.slow_coefficient, sign
+                mesh, _start.pinned(law), crack.modes, start, crack.slow_coefficient, sign
             )
             for speed in (0.1, 2.0):
                 found = fine.at(np.log(speed)).amplification / start.amplification
@@ -140,7 +140,7 @@ def check_limits(solid, law):
     k = 1 / crack.largest
     assert k == pytest.approx(solid.modulus_ratio, rel=1e-3)
     # a spectrum has its fastest mode last
-    fast = 1e7 / min(crack._modes.times)
+    fast = 1e7 / min(crack.modes.times)
     assert crack.amplification(fast) == pytest.approx(1 / k, rel=1e-3)
     assert crack.amplification(-fast) == pytest.approx(k, rel=2e-3)
     speed = np.geomspace(slow, fast, 200)

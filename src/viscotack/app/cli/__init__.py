@@ -5,7 +5,16 @@ from importlib import import_module
 from typing import Any
 
 # Each of these modules adds its commands to the one application.
-_COMMANDS = ("predict", "theory", "steady_crack", "punch", "material", "campaign", "schema")
+_COMMANDS = (
+    "predict",
+    "theory",
+    "steady_crack",
+    "crack_contact",
+    "punch",
+    "material",
+    "campaign",
+    "schema",
+)
 
 
 def application() -> Any:

@@ -141,13 +141,13 @@ class SteadyCrack:
     @property
     def largest(self) -> float:
         """Return the amplification at infinite speed, glassy over rubbery modulus."""
-        return 1 / self._modes.instantaneous
+        return 1 / self.modes.instantaneous
 
     def amplification(self, speed: npt.ArrayLike) -> Number:
         """Return the energy over the work of adhesion at speeds [E0* h0^2/(dg tau)], any sign."""
         v = _finite("speed", speed)
         gamma = np.ones(v.shape)
-        if self._modes.times:
+        if self.modes.times:
             for sign, moving in ((1, v > 0), (-1, v < 0)):
                 if np.any(moving):
                     branch = self._branch(sign)
@@ -160,7 +160,7 @@ class SteadyCrack:
 
         The amplification must lie between k and 1/k.
         """
-        gamma, k = _finite("amplification", amplification), self._modes.instantaneous
+        gamma, k = _finite("amplification", amplification), self.modes.instantaneous
         if np.any((gamma <= k) | (gamma >= 1 / k)) and np.any(gamma != 1):
             raise InputError(
                 f"amplification must lie between {k:.6g} and {1 / k:.6g}, which infinite speeds "
@@ -177,7 +177,7 @@ class SteadyCrack:
     def error(self, speed: npt.ArrayLike) -> Number:
         """Return the part by which :meth:`amplification` may be off: mesh, steps and softening."""
         v = _finite("speed", speed)
-        if not self._modes.times:
+        if not self.modes.times:
             return plain(np.zeros(v.shape))
         of_odds = np.zeros(v.shape)
         self.amplification(v)
@@ -192,9 +192,14 @@ class SteadyCrack:
     def at(self, speed: float) -> Profile:
         """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
         v, found = float(speed), self._elastic
-        if v != 0 and self._modes.times:
+        if v != 0 and self.modes.times:
             found = self._branch(1 if v > 0 else -1).at(float(np.log(abs(v))))
         return self._profile(v, found)
+
+    @cached_property
+    def zone_length(self) -> float:
+        """Return the length of the zone of the elastic crack [E0* h0^2/dg], see `Profile`."""
+        return self.at(0.0).zone_length
 
     @property
     def slow_coefficient(self) -> float:
@@ -205,11 +210,12 @@ class SteadyCrack:
 
         over the elastic crack: one number of the law times the mean time of the solid.
         """
-        mean_time = float(np.dot(self._modes.weights, self._modes.times))
+        mean_time = float(np.dot(self.modes.weights, self.modes.times))
         return mean_time * _slow_of(self._elastic, self._grid)
 
     @cached_property
-    def _modes(self) -> Modes:
+    def modes(self) -> Modes:
+        """Creep in modes: times in the unit of time, compliances in that of the relaxed solid."""
         return _modes_of(self.material)
 
     @property
@@ -230,17 +236,17 @@ class SteadyCrack:
 
     @cached_property
     def _grid(self) -> _mesh.Mesh:
-        return _grid_of(self._reduced, self._modes.instantaneous)
+        return _grid_of(self._reduced, self.modes.instantaneous)
 
     @property
     def _elastic(self) -> Solution:
-        return _kept(_elastic_of, self._reduced, self._modes.instantaneous)
+        return _kept(_elastic_of, self._reduced, self.modes.instantaneous)
 
     def _branch(self, sign: int) -> _branch.Branch:
-        return _kept(_branch_of, self._reduced, self._modes, sign)
+        return _kept(_branch_of, self._reduced, self.modes, sign)
 
     def _of_odds(self, odds: Array, sign: int) -> Array:
-        k = self._modes.instantaneous
+        k = self.modes.instantaneous
         return (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
 
     def _profile(self, speed: float, found: Solution) -> Profile:

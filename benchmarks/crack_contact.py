@@ -1,0 +1,201 @@
+"""Contact with a steady crack for its edge against simulation, on random problems.
+
+    python benchmarks/crack_contact.py --first 0 --count 10 --store compared.csv
+
+Problem i is the same whatever else is asked. Rows that the store has are not run again, so that an
+interrupted comparison goes on; without --store nothing is kept. Prints a line a problem and, at the
+end, errors of the pull-off force by Tabor number, of the time, and how often the band held.
+"""
+
+import argparse
+import csv
+import time
+from pathlib import Path
+
+import numpy as np
+
+import viscotack as vt
+
+# The problems: Tabor numbers, modulus ratios, and every fifth one a whole history.
+TABOR, RATIO, HISTORY_EVERY = (3.0, 100.0), (0.03, 0.5), 5
+# What a simulation is asked to know the force to.
+ACCURACY = 2e-3
+COLUMNS = (
+    *("problem", "kind", "tabor", "modulus_ratio", "amplification", "zones", "force", "simulated"),
+    *("error", "band", "time_error", "work_error", "hysteresis_error", "largest_error"),
+    *("seconds", "seconds_simulated", "note"),
+)
+
+
+def problem(i, tabor=TABOR):
+    """Return the words for a random problem and the problem."""
+    rng = np.random.default_rng([2026, i])
+    mu = float(np.exp(rng.uniform(*np.log(tabor))))
+    k = float(np.exp(rng.uniform(*np.log(RATIO))))
+    kind, solid = material(rng, k)
+    shape, geometry = [
+        ("sphere", vt.Sphere(1.0)),
+        ("sphere", vt.Sphere(1.0)),
+        ("cone", vt.Cone(1.0)),
+        ("power", vt.PowerLawProfile(0.25, 4.0)),
+    ][int(rng.integers(4))]
+    rate = mu * float(10 ** rng.uniform(-0.5, 2))
+    if i % HISTORY_EVERY:
+        # a relaxed start about as wide as the pull-off of the fastest crack, and wider
+        q, bare = {"sphere": (2, 1.65), "cone": (1, 5.73), "power": (4, 1.18)}[shape]
+        k_start = max(k, 0.3) if shape == "cone" else k
+        radius = bare * k_start ** (-1 / (2 * q - 1)) * float(rng.uniform(0.9, 2.0))
+        start = vt.AtRadius(radius / np.pi ** (1 / 3))
+        stiffness = float(rng.uniform(0.1, 3)) / mu if rng.uniform() < 0.2 else None
+        return f"{shape} {kind}", vt.Groups(
+            tabor=mu, material=solid, start=start, rate=rate, geometry=geometry, stiffness=stiffness
+        )
+    speed = mu * float(10 ** rng.uniform(-0.5, 1.5))
+    moves = [vt.Approach(speed, vt.AtDepth(mu * float(rng.uniform(5, 20))))]
+    if rng.uniform() < 0.5:
+        moves.append(vt.Dwell(float(10 ** rng.uniform(-1, 1)), str(rng.choice(["drive", "force"]))))
+    return f"{shape} {kind} history", vt.Groups(
+        tabor=mu,
+        material=solid,
+        start=vt.Apart(20.0),
+        moves=tuple(moves),
+        rate=rate,
+        geometry=geometry,
+    )
+
+
+def material(rng, k):
+    """Return a word and a reduced solid of modulus ratio k."""
+    match int(rng.integers(3)):
+        case 0:
+            kind = "sls"
+            solid = vt.StandardSolid(
+                rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0
+            )
+        case 1:
+            kind, n = "power-law", float(rng.uniform(0.4, 1.6))
+            solid = vt.RetardationPowerLaw(
+                rubbery_modulus=1.0, glassy_modulus=1 / k, exponent=n, tau0=1.0, poisson_ratio=0.0
+            )
+        case _:
+            kind, number = "prony", int(rng.integers(2, 6))
+            weights = rng.dirichlet(np.ones(number)) * (1 / k - 1)
+            times = np.sort(10 ** rng.uniform(-2, 0, number))
+            solid = vt.Prony(
+                rubbery_modulus=1.0,
+                poisson_ratio=0.0,
+                branches=tuple(zip(weights, times, strict=True)),
+            )
+    return kind, solid
+
+
+def compared(i, tabor, accuracy, time_limit):
+    """Return the row of problem i."""
+    words, case = problem(i, tabor)
+    row = dict.fromkeys(COLUMNS, "") | {
+        "problem": i,
+        "kind": words,
+        "tabor": case.tabor,
+        "modulus_ratio": case.modulus_ratio,
+    }
+    try:
+        vt.crack_contact(case)
+        begin = time.perf_counter()
+        answer = vt.crack_contact(case)
+        row["seconds"] = time.perf_counter() - begin
+        begin = time.perf_counter()
+        until = "detached" if case.moves else "pull-off"
+        result = vt.solve(
+            case, until=until, accuracy=accuracy, estimate_error=False, time_limit=time_limit
+        )
+        row["seconds_simulated"] = time.perf_counter() - begin
+        found = vt.pull_off(result)
+        row |= errors(answer, result, found)
+    except (ValueError, vt.SimulationError) as error:
+        row["note"] = str(error)[:120]
+    return row
+
+
+def errors(answer, result, found):
+    """Return what the theory is off."""
+    row = {
+        "amplification": answer.amplification_at_pull_off,
+        "zones": answer.zones,
+        "force": answer.pull_off_force,
+        "simulated": found.force,
+        "error": answer.pull_off_force / found.force - 1,
+        "band": answer.band,
+        "time_error": answer.pull_off_time / found.time - 1,
+        "work_error": answer.work_to_pull_off / vt.work_to_pull_off(result) - 1,
+    }
+    if answer.hysteresis is not None:
+        loop = np.sum((result.force[1:] + result.force[:-1]) / 2 * np.diff(result.depth))
+        row["hysteresis_error"] = answer.hysteresis / loop - 1
+    if result.groups.moves:
+        row["largest_error"] = answer.force.max() / result.force.max() - 1
+    return row
+
+
+def summary(rows):
+    """Print errors by Tabor number and what the bands held."""
+    good = [
+        {k: float(v) for k, v in row.items() if k not in ("kind", "note") and v != ""}
+        | {"history": "history" in row["kind"]}
+        for row in rows
+        if row["error"] != ""
+    ]
+    print(f"{len(rows)} problems, {len(good)} compared")
+    for low, high in ((3, 5), (5, 10), (10, 20), (20, 50), (50, 101)):
+        for history in (False, True):
+            part = [r for r in good if low <= r["tabor"] < high and r["history"] == history]
+            if part:
+                off = np.abs([r["error"] for r in part])
+                late = np.abs([r["time_error"] for r in part])
+                words = "histories" if history else "from rest"
+                print(
+                    f"mu {low:>3} to {high:<3} {words:9} {len(part):3}:"
+                    f" force median {np.median(off):.2%} worst {off.max():.2%},"
+                    f" time median {np.median(late):.2%} worst {late.max():.2%}"
+                )
+    if good:
+        held = np.mean([abs(r["error"]) <= r["band"] for r in good])
+        print(f"bands held {held:.0%}, median band {np.median([r['band'] for r in good]):.2%}")
+    if loops := [abs(r["hysteresis_error"]) for r in good if "hysteresis_error" in r]:
+        print(f"hysteresis: median {np.median(loops):.2%}, worst {np.max(loops):.2%}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=10)
+    parser.add_argument("--tabor", type=float, nargs=2, default=TABOR)
+    parser.add_argument("--accuracy", type=float, default=ACCURACY)
+    parser.add_argument("--time-limit", type=float, default=None, help="seconds of a simulation")
+    parser.add_argument("--store", type=Path)
+    asked = parser.parse_args()
+    known = {}
+    if asked.store and asked.store.exists():
+        with asked.store.open(newline="") as file:
+            known = {int(row["problem"]): row for row in csv.DictReader(file)}
+    rows = []
+    for i in range(asked.first, asked.first + asked.count):
+        row = known.get(i)
+        if row is None:
+            row = compared(i, tuple(asked.tabor), asked.accuracy, asked.time_limit)
+            if asked.store:
+                new = not asked.store.exists()
+                with asked.store.open("a", newline="") as file:
+                    writer = csv.DictWriter(file, COLUMNS)
+                    if new:
+                        writer.writeheader()
+                    writer.writerow(row)
+        rows.append(row)
+        numbers = "  ".join(
+            f"{name} {float(row[name]):.4g}" for name in COLUMNS[2:-1] if row[name] != ""
+        )
+        print(f"{row['problem']:>3} {row['kind']:<28} {numbers} {row['note']}", flush=True)
+    summary(rows)
+
+
+if __name__ == "__main__":
+    main()

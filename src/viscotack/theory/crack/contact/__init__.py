@@ -1,0 +1,25 @@
+"""Contacts whose edge is a steady crack: receding from rest, and through any history.
+
+Lengths along the surface in beta, heights in beta^2/R, forces in R dg, times in the unit of the
+material; :func:`viscotack.crack_contact` takes a problem in any units.
+"""
+
+from . import history, recession
+from ._profile import Profile, profile_of
+from ._start import radius_at_depth, radius_at_force
+from .history import Contact, Curve, Drive
+from .recession import Curves, recede
+
+__all__ = [
+    "Contact",
+    "Curve",
+    "Curves",
+    "Drive",
+    "Profile",
+    "history",
+    "profile_of",
+    "radius_at_depth",
+    "radius_at_force",
+    "recede",
+    "recession",
+]

@@ -1,0 +1,40 @@
+"""The energy of an edge as a table: fast, for one speed or for thousands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory.crack.steady import SteadyCrack
+
+from ._even import Even
+
+Array = npt.NDArray[np.floating[Any]]
+
+# ln of the odds of Gamma at both ends of the table, and its rows.
+_ODDS, _ROWS = (-14.0, 12.0), 8000
+
+
+class Edge:
+    """Gamma against ln V of a crack that opens (sign 1) or closes (-1)."""
+
+    def __init__(self, crack: SteadyCrack, sign: int) -> None:
+        k = 1 / crack.largest
+        self.limit, self.sign = (1 / k if sign > 0 else k), sign
+        self.elastic = k == 1
+        if self.elastic:
+            return
+        odds = np.exp(np.array(_ODDS))
+        ends = (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
+        first, last = np.log(np.abs(np.asarray(crack.speed(ends))))
+        speed = np.exp(np.linspace(first, last, _ROWS))
+        self._gamma = Even(first, last, np.asarray(crack.amplification(sign * speed)))
+
+    def amplification(self, speed: Any) -> Any:
+        """Return Gamma at speeds, not negative."""
+        if self.elastic:
+            return np.ones(np.shape(speed))
+        with np.errstate(divide="ignore"):
+            return self._gamma(np.log(speed))

@@ -1,0 +1,46 @@
+"""The bulk's memory: modes of the creep for annuli, and the hereditary travel of a retraction."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.materials import Modes
+from viscotack.materials.interconversion import reciprocal
+
+Array = npt.NDArray[np.floating[Any]]
+
+
+class Chain(NamedTuple):
+    """Creep in exponential modes: compliance at once, weights, retardation times."""
+
+    instantaneous: float
+    weights: Array
+    times: Array
+
+    def step(self, dt: float) -> tuple[Array, Array, Array, float]:
+        """Return decay, weights of the old and of the new e, and the compliance of a step."""
+        x = dt / self.times
+        mean = np.where(x < 1e-8, 1 - x / 2, -np.expm1(-x) / np.maximum(x, 1e-300))
+        decay = np.exp(-x)
+        compliance = self.instantaneous + float(self.weights @ (1 - mean))
+        return decay, mean - decay, 1 - mean, compliance
+
+
+def chain_of(modes: Modes) -> Chain:
+    """Return the modes as arrays."""
+    return Chain(modes.instantaneous, np.array(modes.weights), np.array(modes.times))
+
+
+def hereditary_travel(chain: Chain, time: Array) -> Array:
+    r"""Return :math:`\int_0^t \psi(s) ds`, psi the relaxation from 1/k to 1.
+
+    What is retracted at a constant speed, as an elastic solid would have had to be.
+    """
+    if not chain.times.size:
+        return np.asarray(time, dtype=float)
+    weights, times = reciprocal(chain.instantaneous, chain.weights, chain.times)
+    x = np.asarray(time)[..., None] / times
+    return np.asarray(time) + (-np.expm1(-x) * times) @ weights

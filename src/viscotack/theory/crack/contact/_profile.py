@@ -1,0 +1,76 @@
+r"""A shape as its contact feels it: the depth of each of its annuli, by Abel's transform.
+
+.. math:: g(s) = s \int_0^s \frac{f'(r)}{\sqrt{s^2 - r^2}} dr
+
+is the depth at which a contact without adhesion has the radius s; a contact of radius a and depth
+D carries :math:`P = 2 \int_0^a (D - g(s)) ds`, and its edge has the energy
+:math:`(D - g(a))^2/2 \pi a`, with lengths along the surface in :math:`\beta`, heights in
+:math:`\beta^2/R` and forces in R dg, for which E* and dg are 1.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+from scipy.special import gammaln
+
+from viscotack.theory.elastic import indenter
+
+Array = npt.NDArray[np.floating[Any]]
+
+# Radii between which a shape of the user's is tabulated [beta], and rows a decade.
+_RADII, _ROWS = (1e-6, 1e4), 60
+
+
+class Profile:
+    """Depths g of the annuli of a reduced shape of revolution, and their integral."""
+
+    def __init__(self, shape: Any) -> None:
+        q = 2.0 if shape.word == "sphere" else getattr(shape, "exponent", None)
+        if q is not None:
+            # r^q/q, of slope 1 at distance 1
+            factor = np.exp(gammaln(q / 2) - gammaln((q + 1) / 2)) * np.sqrt(np.pi) / 2
+            self._power = float(q), float(factor)
+            return
+        self._power = None
+        s = np.geomspace(*_RADII, int(_ROWS * np.log10(_RADII[1] / _RADII[0])))
+        depth = np.asarray(indenter.bare_depth(s, shape=shape))
+        self._depth = CubicSpline(np.log(s), np.log(depth))
+        self._inner = (s[0], depth[0] * s[0])
+        total = CubicSpline(np.log(s), depth * s).antiderivative()
+        self._total = lambda a: total(np.log(a)) + self._inner[1] / 2
+
+    def depth(self, radius: Any) -> Any:
+        """Return g at radii, not negative."""
+        s = np.asarray(radius, dtype=float)
+        if self._power is not None:
+            q, factor = self._power
+            return factor * s**q
+        return np.exp(self._depth(np.log(np.maximum(s, self._inner[0]))))
+
+    def total(self, radius: Any) -> Any:
+        """Return the integral of g from 0 to radii."""
+        s = np.asarray(radius, dtype=float)
+        if self._power is not None:
+            q, factor = self._power
+            return factor * s ** (q + 1) / (q + 1)
+        return self._total(np.maximum(s, self._inner[0]))
+
+    def relaxed_depth(self, radius: Any) -> Any:
+        """Return the depth of a relaxed contact with its adhesion (JKR)."""
+        return self.depth(radius) - np.sqrt(2 * np.pi * np.asarray(radius))
+
+    def relaxed_force(self, radius: Any) -> Any:
+        """Return the force of a relaxed contact with its adhesion (JKR)."""
+        a = np.asarray(radius)
+        return 2 * (a * self.relaxed_depth(a) - self.total(a))
+
+
+@lru_cache(maxsize=32)
+def profile_of(shape: Any) -> Profile:
+    """Return the profile of a reduced shape, kept."""
+    return Profile(shape)

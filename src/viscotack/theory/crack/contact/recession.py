@@ -1,0 +1,186 @@
+r"""A contact that recedes from rest at a constant speed: the whole curve of thousands of cases.
+
+Inside the contact the opening has been zero at all times, so that the pressure is that of the
+relaxed solid at the hereditary depth :math:`D_e = D_0 - r \int_0^t \psi ds`, psi the relaxation
+from 1/k to 1: exact for forces of short range and any spectrum. The edge is the steady crack,
+
+.. math:: \frac{(D_e - g(a))^2}{2 \pi a} = \Gamma(V), \quad V = -\mu^2 \frac{da}{dt}.
+
+The radius is the variable: from one radius to the next the time is found in which the edge goes
+there. Units as in :mod:`._profile`; times in the unit of the material.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory.crack.steady import SteadyCrack
+
+from ._edge import Edge
+from ._even import Even
+from ._memory import Chain, chain_of, hereditary_travel
+from ._profile import Profile
+
+Array = npt.NDArray[np.floating[Any]]
+
+# Radii of a curve, and the smallest: over the start's, and over the elastic pull-off's.
+_RADII, _SMALLEST = 360, 0.25
+# Half of the first bracket of ln t around that of the step before, and rounds to the root.
+_NEAR, _ROUNDS, _CLOSE = 0.2, 60, 1e-6
+# Rows of the travel as a table.
+_ROWS = 4000
+
+
+class Curves(NamedTuple):
+    """Curves of receding contacts, each array of shape (radii, cases).
+
+    Attributes
+    ----------
+    time : ndarray
+        Since the start [unit of the material].
+    radius : ndarray
+        Contact radius [beta].
+    depth : ndarray
+        Depth [beta^2/R].
+    force : ndarray
+        Force of short-range adhesion [R dg], compression positive.
+    speed : ndarray
+        Of the edge [E0* h0^2/(dg tau)], positive.
+    amplification : ndarray
+        Energy at the edge [dg].
+    """
+
+    time: Array
+    radius: Array
+    depth: Array
+    force: Array
+    speed: Array
+    amplification: Array
+
+
+def recede(
+    crack: SteadyCrack, profile: Profile, *, radius: Array, rate: Array, tabor: Array
+) -> Curves:
+    """Return the curves of contacts that recede from relaxed ones.
+
+    Parameters
+    ----------
+    crack : SteadyCrack
+        Of the solid and the reduced law, for all of the cases.
+    profile : Profile
+        Of the reduced shape.
+    radius, rate, tabor : ndarray
+        Of each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
+        material], Tabor number.
+    """
+    a0, r, mu = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (radius, rate, tabor)))
+    chain = chain_of(crack.modes)
+    edge = Edge(crack, 1)
+    travel = _Travel(chain, profile, a0, r, mu)
+    start = profile.relaxed_depth(a0)
+    # what the smallest, elastic contact has at pull-off, not to end above any of them
+    least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
+    part = np.linspace(0.0, 1.0, _RADII)[:, None]
+    a = a0 * np.exp(part * np.log(least / a0))
+    time, speed = np.zeros_like(a), np.zeros_like(a)
+    energy = np.ones_like(a)
+    guess = np.full(a0.shape, (travel.first + travel.last) / 2)
+    for i in range(1, _RADII):
+        g, around = profile.depth(a[i]), 2 * np.pi * a[i]
+        step = mu**2 * (a[i - 1] - a[i])
+
+        def excess(
+            log: Array,
+            before: Array = time[i - 1],
+            step: Array = step,
+            g: Array = g,
+            around: Array = around,
+        ) -> tuple[Array, Array, Array]:
+            t = np.exp(log)
+            effective = start - r * travel(before + t)
+            found = np.minimum(effective - g, 0.0) ** 2 / around
+            asked = edge.amplification(step / t)
+            return np.log((found + 1e-300) / asked), found, t
+
+        guess, energy[i], t = _root(excess, guess, (travel.first - 12.0, travel.last))
+        time[i], speed[i] = time[i - 1] + t, step / t
+    effective = start - r * travel(time)
+    return Curves(
+        time=time,
+        radius=a,
+        depth=start - r * time,
+        force=2 * (a * effective - profile.total(a)),
+        speed=speed,
+        # beyond, where the contact jumps, no crack takes what is there
+        amplification=np.minimum(energy, edge.limit),
+    )
+
+
+def _root(
+    excess: Callable[[Array], tuple[Array, Array, Array]],
+    guess: Array,
+    ends: tuple[float, float],
+) -> tuple[Array, Array, Array]:
+    """Return where a rising function passes zero, near a guess if it can be, and what is there.
+
+    Where it does not between the ends, the nearer of them. Regula falsi; an end that stays loses
+    weight as Anderson and Bjorck have it.
+    """
+    low, high, width = guess - _NEAR, guess + _NEAR, _NEAR
+    below, above = excess(low)[0], excess(high)[0]
+    while np.any(far := (below > 0) & (low > ends[0])) or np.any((above < 0) & (high < ends[1])):
+        width *= 4
+        beyond = (above < 0) & (high < ends[1])
+        high, above = np.where(far, low, high), np.where(far, below, above)
+        low, below = np.where(beyond, high, low), np.where(beyond, above, below)
+        low = np.where(far, np.maximum(low - width, ends[0]), low)
+        high = np.where(beyond, np.minimum(high + width, ends[1]), high)
+        below = np.where(far, excess(low)[0], below)
+        above = np.where(beyond, excess(high)[0], above)
+    inside = (below < 0) & (above > 0)
+    x = np.where(below >= 0, low, high)
+    found, side = excess(x), np.zeros(guess.shape, dtype=int)
+    for _ in range(_ROUNDS):
+        span = np.where(inside, above - below, 1.0)
+        x = np.where(inside, low - below * (high - low) / span, x)
+        found = excess(x)
+        if np.max(np.abs(found[0]) * inside) < _CLOSE:
+            break
+        left = found[0] < 0
+        old = np.where(left, below, above)
+        weight = 1 - found[0] / np.where(old == 0, 1.0, old)
+        weight = np.where(weight > 0, weight, 0.5)
+        scaled = np.where(side == np.where(left, -1, 1), weight, 1.0)
+        above = np.where(left, above * scaled, found[0])
+        below = np.where(left, found[0], below * scaled)
+        side = np.where(left, -1, 1)
+        low, high = np.where(left, x, low), np.where(left, high, x)
+    return x, found[1], found[2]
+
+
+class _Travel:
+    """The hereditary travel as a table in ln t, for times that matter."""
+
+    def __init__(self, chain: Chain, profile: Profile, a0: Array, r: Array, mu: Array) -> None:
+        far = np.max(profile.depth(a0) + 4 * np.sqrt(a0) + 4) * 30
+        self.last = float(np.log(np.max(far / r)))
+        self.first = float(np.log(np.min(1e-9 / r)))
+        log = np.linspace(self.first, self.last + 1, _ROWS)
+        travel = np.log(hereditary_travel(chain, np.exp(log)))
+        self._travel = Even(self.first, self.last + 1, travel)
+
+    def __call__(self, time: Array) -> Array:
+        with np.errstate(divide="ignore"):
+            log = np.log(time)
+        # before that the solid is glassy
+        return np.exp(self._travel(log) + np.minimum(log - self.first, 0.0))
+
+
+def _elastic_radius(profile: Profile) -> float:
+    """Return the radius of the largest elastic tension."""
+    a = np.geomspace(1e-3, 1e2, 2000)
+    return float(a[np.argmin(profile.relaxed_force(a))])
