@@ -68,3 +68,46 @@ def test_words_and_picture_of_the_range_that_matters(capsys, tmp_path):
 def test_wrong_input_is_refused_in_words(flags, words, capsys):
     assert exit_status(["theory", "steady-crack", *flags]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_a_contact_with_a_crack_for_its_edge_in_json_csv_and_a_picture(capsys, tmp_path):
+    curve, picture = tmp_path / "curve.csv", tmp_path / "curve.png"
+    problem = ["--tabor", 1e4, "--material", "sls", "--modulus-ratio", 0.1]
+    problem += ["--preload", 2e5, "--rate", 1e3]
+    files = ["--curve", curve, "--plot", picture]
+    assert exit_status(["theory", "crack-contact", *problem, *files, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert 1 < answer["pull_off_force"] < 10
+    low, high = answer["interval"]
+    assert low < answer["pull_off_force"] < high
+    assert answer["method"] == "crack contact"
+    header, *rows = curve.read_text().splitlines()
+    assert header.split(",") == [
+        *("time", "depth", "force", "contact_radius"),
+        *("edge_speed", "amplification", "move"),
+    ]
+    force = [float(row.split(",")[2]) for row in rows]
+    assert -min(force) == pytest.approx(answer["pull_off_force"], rel=1e-3)
+    assert picture.stat().st_size > 1000
+
+
+def test_a_contact_in_si_is_told_in_si_and_in_words(capsys):
+    scales = ["--radius", "1 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 nm"]
+    scales += ["--tau0", "1 ms", "--poisson-ratio", 0.5]
+    problem = ["--tabor", 500, "--material", "sls", "--modulus-ratio", 0.1, "--preload", 1e4]
+    command = ["theory", "crack-contact", *problem, "--rate", 100, *scales]
+    assert exit_status(command) == 0
+    words = capsys.readouterr().out
+    assert "pull_off_force_N" in words
+    assert exit_status([*command, "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    # 1.5 pi R dg with dg = (mu^3 E*^2 h0^3/R)^(1/2)
+    work = (500**3 * 4e12 * 1e-27 / 1e-3) ** 0.5
+    unit = 1.5 * 3.141592653589793 * 1e-3 * work
+    assert answer["pull_off_force_N"] == pytest.approx(answer["pull_off_force"] * unit, rel=1e-6)
+
+
+def test_a_contact_that_the_theory_does_not_hold_for_is_refused(capsys):
+    problem = ["--tabor", 0.5, "--material", "sls", "--modulus-ratio", 0.1]
+    assert exit_status(["theory", "crack-contact", *problem, "--preload", 20, "--rate", 1]) == 2
+    assert "zone at the edge is too large" in capsys.readouterr().err

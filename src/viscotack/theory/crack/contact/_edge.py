@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import log
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from viscotack.theory.crack.steady import SteadyCrack
 
 from ._even import Even
 
-Array = npt.NDArray[np.floating[Any]]
+Array = npt.NDArray[np.float64]
 
 # ln of the odds of Gamma at both ends of the table, and its rows.
 _ODDS, _ROWS = (-14.0, 12.0), 8000
@@ -38,3 +39,9 @@ class Edge:
             return np.ones(np.shape(speed))
         with np.errstate(divide="ignore"):
             return self._gamma(np.log(speed))
+
+    def one(self, speed: float) -> float:
+        """Return Gamma at one speed, not negative."""
+        if self.elastic or speed == 0:
+            return 1.0
+        return self._gamma.one(log(speed))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.floating[Any]]
+Array = npt.NDArray[np.float64]
 
 
 class Even:
@@ -23,3 +23,9 @@ class Even:
         place = np.clip((x - self._first) * self._per, 0.0, self._last)
         i = place.astype(np.intp)
         return self._values[i] + (place - i) * self._rise[i]
+
+    def one(self, x: float) -> float:
+        """Return the value at one x, without the overhead of arrays."""
+        place = min(max((x - self._first) * self._per, 0.0), float(self._last))
+        i = int(place)
+        return float(self._values[i] + (place - i) * self._rise[i])

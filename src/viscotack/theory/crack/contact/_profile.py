@@ -20,7 +20,7 @@ from scipy.special import gammaln
 
 from viscotack.theory.elastic import indenter
 
-Array = npt.NDArray[np.floating[Any]]
+Array = npt.NDArray[np.float64]
 
 # Radii between which a shape of the user's is tabulated [beta], and rows a decade.
 _RADII, _ROWS = (1e-6, 1e4), 60
@@ -46,7 +46,7 @@ class Profile:
 
     def depth(self, radius: Any) -> Any:
         """Return g at radii, not negative."""
-        s = np.asarray(radius, dtype=float)
+        s = radius if isinstance(radius, float) else np.asarray(radius, dtype=float)
         if self._power is not None:
             q, factor = self._power
             return factor * s**q
@@ -54,7 +54,7 @@ class Profile:
 
     def total(self, radius: Any) -> Any:
         """Return the integral of g from 0 to radii."""
-        s = np.asarray(radius, dtype=float)
+        s = radius if isinstance(radius, float) else np.asarray(radius, dtype=float)
         if self._power is not None:
             q, factor = self._power
             return factor * s ** (q + 1) / (q + 1)

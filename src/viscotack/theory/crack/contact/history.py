@@ -28,7 +28,7 @@ from ._edge import Edge
 from ._memory import Chain, chain_of
 from ._profile import Profile
 
-Array = npt.NDArray[np.floating[Any]]
+Array = npt.NDArray[np.float64]
 
 # Annuli, the part of them below the tenth of the largest radius, and how far beyond the start.
 _ANNULI, _SMALLEST = 360, 0.01
@@ -133,10 +133,13 @@ class Contact:
         self._chain: Chain = chain_of(crack.modes)
         self._opening, self._closing = Edge(crack, 1), Edge(crack, -1)
         inner = _SMALLEST * largest
+        # at even distances beyond the innermost
         self._s = np.append(0.0, np.linspace(inner, largest, _ANNULI))
+        self._inner, self._apart = inner, (largest - inner) / (_ANNULI - 1)
         self._g = np.asarray(profile.depth(self._s))
         self._ds, self._dg = np.diff(self._s), np.diff(self._g)
-        self._total = np.diff(np.asarray(profile.total(self._s)))
+        self._whole = np.asarray(profile.total(self._s))
+        self._total = np.diff(self._whole)
 
     def relaxed(self, radius: float) -> _State:
         """Return a relaxed contact of a radius."""
@@ -212,7 +215,7 @@ class Contact:
         dt, moved = now.time - before.time, before.radius - now.radius
         speed = self._mu2 * moved / dt if dt > 0 else 0.0
         edge = self._opening if speed >= 0 else self._closing
-        rows.append((now, speed, float(edge.amplification(abs(speed))), number))
+        rows.append((now, speed, edge.one(abs(speed)), number))
 
     def _to_the_end(
         self, state: _State, drive: Drive, given: float, begin: float, dt: float
@@ -272,17 +275,19 @@ class _Step:
 
     def _memory_at(self, a: float, memory: Array, total: Array) -> tuple[float, float]:
         """Return a memory at a radius, and its integral up to there."""
+        a = float(a)
         of = self._of
-        i = min(max(int(np.searchsorted(of._s, a)) - 1, 0), of._s.size - 2)
+        i = min(int(max(a - of._inner, 0.0) / of._apart) + (a > of._inner), of._s.size - 2)
         rise = (memory[i + 1] - memory[i]) / of._dg[i]
-        g, s = float(of._profile.depth(a)), of._s[i]
-        whole = float(of._profile.total(a)) - float(of._profile.total(s))
+        g, s = float(of._profile.depth(a)), float(of._s[i])
+        whole = float(of._profile.total(a)) - of._whole[i]
         part = memory[i] * (a - s) + rise * (whole - of._g[i] * (a - s))
         return float(memory[i] + rise * (g - of._g[i])), float(total[i] + part)
 
     def at(self, a: float) -> tuple[float, float, float]:
         """Return depth, force and memory in front of the edge for a radius at the end."""
         before = self._before.radius
+        a = float(a)
         lag, whole = self._memory_at(min(a, before), self._in, self._sum_in)
         if a > before:
             _, until = self._memory_at(before, self._out, self._sum_out)
@@ -327,7 +332,7 @@ class _Step:
             depth, _, lag = self.at(a)
             lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
             speed = self._of._mu2 * (before - a) / self._dt
-            asked = float(self._of._opening.amplification(speed))
+            asked = self._of._opening.one(speed)
             return lift**2 / (2 * np.pi * a) - asked
 
         low, shrink = before, 1e-7
@@ -347,7 +352,7 @@ class _Step:
             out = self._memory_at(a, self._out, self._sum_out)[0]
             jump = min(depth - float(self._of._profile.depth(a)) - out, 0.0)
             speed = self._of._mu2 * (a - before) / self._dt
-            return float(self._of._closing.amplification(speed)) - jump**2 / (2 * np.pi * a)
+            return self._of._closing.one(speed) - jump**2 / (2 * np.pi * a)
 
         grow, low, high = 1e-7, before, before
         while True:

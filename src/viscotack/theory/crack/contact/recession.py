@@ -13,7 +13,7 @@ there. Units as in :mod:`._profile`; times in the unit of the material.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,10 +25,12 @@ from ._even import Even
 from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
 
-Array = npt.NDArray[np.floating[Any]]
+Array = npt.NDArray[np.float64]
 
 # Radii of a curve, and the smallest: over the start's, and over the elastic pull-off's.
-_RADII, _SMALLEST = 360, 0.25
+_RADII, _SMALLEST = 160, 0.25
+# Part of the time by which the two may differ to be extrapolated.
+_LARGE_ERROR = 0.05
 # Half of the first bracket of ln t around that of the step before, and rounds to the root.
 _NEAR, _ROUNDS, _CLOSE = 0.2, 60, 1e-6
 # Rows of the travel as a table.
@@ -84,14 +86,53 @@ def recede(
     start = profile.relaxed_depth(a0)
     # what the smallest, elastic contact has at pull-off, not to end above any of them
     least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
-    part = np.linspace(0.0, 1.0, _RADII)[:, None]
-    a = a0 * np.exp(part * np.log(least / a0))
+    part = np.linspace(0.0, 1.0, 2 * _RADII - 1)[:, None]
+    radii = a0 * np.exp(part * np.log(least / a0))
+
+    def marched(a: Array) -> tuple[Array, Array]:
+        return _marched(a, profile, edge, travel, start=start, rate=r, mobility=mu**2)
+
+    # of first order in the steps: of two runs at the same radii the difference is the error
+    (coarse, slow), (fine, fast) = marched(radii[::2]), marched(radii)
+    a = radii[::2]
+    fine, fast = fine[::2], fast[::2]
+
+    def lifted(time: Array) -> tuple[Array, Array]:
+        effective = start - r * travel(time)
+        return effective, np.minimum(effective - profile.depth(a), 0.0) ** 2 / (2 * np.pi * a)
+
+    # but where that is no small part, or leads to more than a crack can take
+    time = 2 * fine - coarse
+    bad = (np.abs(fine - coarse) > _LARGE_ERROR * fine) | (lifted(time)[1] > edge.limit)
+    time = np.maximum.accumulate(np.where(bad, fine, time), axis=0)
+    effective, energy = lifted(time)
+    return Curves(
+        time=time,
+        radius=a,
+        depth=start - r * time,
+        force=2 * (a * effective - profile.total(a)),
+        speed=np.where(bad, fast, np.maximum(2 * fast - slow, 0.0)),
+        # beyond, where the contact jumps, no crack takes what is there
+        amplification=np.minimum(energy, edge.limit),
+    )
+
+
+def _marched(
+    a: Array,
+    profile: Profile,
+    edge: Edge,
+    travel: _Travel,
+    *,
+    start: Array,
+    rate: Array,
+    mobility: Array,
+) -> tuple[Array, Array]:
+    """Return the times at which the edges are at radii, and their speeds on the way there."""
     time, speed = np.zeros_like(a), np.zeros_like(a)
-    energy = np.ones_like(a)
-    guess = np.full(a0.shape, (travel.first + travel.last) / 2)
-    for i in range(1, _RADII):
+    guess = np.full(start.shape, (travel.first + travel.last) / 2)
+    for i in range(1, len(a)):
         g, around = profile.depth(a[i]), 2 * np.pi * a[i]
-        step = mu**2 * (a[i - 1] - a[i])
+        step = mobility * (a[i - 1] - a[i])
 
         def excess(
             log: Array,
@@ -99,32 +140,22 @@ def recede(
             step: Array = step,
             g: Array = g,
             around: Array = around,
-        ) -> tuple[Array, Array, Array]:
+        ) -> tuple[Array, Array]:
             t = np.exp(log)
-            effective = start - r * travel(before + t)
+            effective = start - rate * travel(before + t)
             found = np.minimum(effective - g, 0.0) ** 2 / around
-            asked = edge.amplification(step / t)
-            return np.log((found + 1e-300) / asked), found, t
+            return np.log((found + 1e-300) / edge.amplification(step / t)), t
 
-        guess, energy[i], t = _root(excess, guess, (travel.first - 12.0, travel.last))
+        guess, t = _root(excess, guess, (travel.first - 12.0, travel.last))
         time[i], speed[i] = time[i - 1] + t, step / t
-    effective = start - r * travel(time)
-    return Curves(
-        time=time,
-        radius=a,
-        depth=start - r * time,
-        force=2 * (a * effective - profile.total(a)),
-        speed=speed,
-        # beyond, where the contact jumps, no crack takes what is there
-        amplification=np.minimum(energy, edge.limit),
-    )
+    return time, speed
 
 
 def _root(
-    excess: Callable[[Array], tuple[Array, Array, Array]],
+    excess: Callable[[Array], tuple[Array, Array]],
     guess: Array,
     ends: tuple[float, float],
-) -> tuple[Array, Array, Array]:
+) -> tuple[Array, Array]:
     """Return where a rising function passes zero, near a guess if it can be, and what is there.
 
     Where it does not between the ends, the nearer of them. Regula falsi; an end that stays loses
@@ -159,7 +190,7 @@ def _root(
         below = np.where(left, found[0], below * scaled)
         side = np.where(left, -1, 1)
         low, high = np.where(left, x, low), np.where(left, high, x)
-    return x, found[1], found[2]
+    return x, found[1]
 
 
 class _Travel:

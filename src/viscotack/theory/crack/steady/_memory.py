@@ -15,6 +15,7 @@ so that the memory acts on the tractions, which are zero where the material come
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,6 +29,8 @@ Array = npt.NDArray[np.floating[Any]]
 # A mode shorter than this part of the finest element has no memory, one longer than so many
 # reaches of the mesh has not begun to creep where there are tractions.
 _SHORT, _LONG = 1e-3, 1e4
+# Decay lengths after which nothing is left: e^-50, and no numbers too small for the processor.
+_FORGOTTEN = 50.0
 # Places at which the tractions beyond the mesh are summed, in lengths of a mode.
 _BEYOND = np.geomspace(1e-4, 50.0, 60)
 
@@ -76,27 +79,53 @@ def lagged_far(mesh: Mesh, length: float) -> Array:
 
 
 def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
-    """Return the openings w at the nodes, of (e - A far field, A)."""
+    """Return the openings w at the nodes, of (e - A far field, A); see `lagged`."""
     size = mesh.x.size
-    matrix = np.zeros((size, size + 1))
-    np.fill_diagonal(matrix, modes.instantaneous)
-    matrix[:, -1] = modes.instantaneous * mesh.far
+    later, earlier = _pairs(size)
+    distance = mesh.x[later] - mesh.x[earlier]
+    # what an opening leaves at its own node and later, and what it has left before the next one
+    own, before = np.zeros(distance.size), np.zeros(distance.size)
+    far = modes.instantaneous * mesh.far
     for weight, length in zip(modes.weights, modes.lengths, strict=True):
-        matrix[:, :-1] += weight * lagged(mesh, length)
-        matrix[:, -1] += weight * lagged_far(mesh, length)
+        step = mesh.dx / length
+        mean = _mean_decay(step)
+        decay = np.exp(-np.minimum(distance / length, _FORGOTTEN))
+        own += decay * (weight * np.append(1.0, 1 - mean))[earlier]
+        before += decay * (weight * np.append(0.0, mean - np.exp(-step)))[earlier]
+        far += weight * lagged_far(mesh, length)
+    matrix, shifted = np.zeros((2, size, size + 1))
+    matrix[later, earlier] = own
+    shifted[later, earlier] = before
+    matrix[:, : size - 1] += shifted[:, 1:size]
+    matrix[np.arange(size), np.arange(size)] += modes.instantaneous
+    matrix[:, -1] = far
     return matrix
 
 
 def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:
     """Return the tractions c sigma + sum w_j T_j, means of the elements, of the mean sigma."""
-    matrix = modes.instantaneous * np.eye(mesh.dx.size)
-    distance = np.maximum(mesh.x[None, :-1] - mesh.x[1:, None], 0.0)
+    size = mesh.dx.size
+    # of two elements the one where the material comes from, and where it goes
+    source, place = _pairs(size)
+    distance = np.maximum(mesh.x[source] - mesh.x[place + 1], 0.0)
+    reached, kept_here = np.zeros(distance.size), np.zeros(size)
     for weight, length in zip(modes.weights, modes.lengths, strict=True):
         step = mesh.dx / length
         kept = _mean_decay(step)
-        passed = np.triu(np.exp(-distance / length), 1)
-        matrix += weight * (np.diag(1 - kept) - kept[:, None] * passed * np.expm1(-step))
+        decay = np.exp(-np.minimum(distance / length, _FORGOTTEN))
+        reached += (weight * kept)[place] * decay * (-np.expm1(-step))[source]
+        kept_here += weight * (1 - kept)
+    matrix = np.zeros((size, size))
+    matrix[place, source] = reached
+    np.fill_diagonal(matrix, modes.instantaneous + kept_here)
     return matrix
+
+
+@lru_cache(maxsize=16)
+def _pairs(size: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """Return all pairs of numbers, the first not below the second."""
+    first, second = np.tril_indices(size)
+    return first, second
 
 
 def closing_inflow(
