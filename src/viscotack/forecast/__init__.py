@@ -2,7 +2,7 @@
 
 from .advice import Advice, Estimate, advise, threshold_contact_radius
 from .answer import predict
-from .crack_contact import CrackContact, crack_contact
+from .by_crack import CrackContact, crack_contact
 from .prediction import OutOfRange, Prediction, prediction_summary
 from .table import predict_table
 

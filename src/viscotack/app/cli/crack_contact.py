@@ -10,8 +10,8 @@ from typer import Option
 
 from viscotack.app.questions import SPHERE
 from viscotack.files.whole import write_whole
-from viscotack.forecast.crack_contact import CrackContact, crack_contact
-from viscotack.forecast.crack_contact import summary as summary_of
+from viscotack.forecast.by_crack import CrackContact, crack_contact
+from viscotack.forecast.by_crack import summary as summary_of
 from viscotack.problem import Groups, Problem
 
 from .asking import asking

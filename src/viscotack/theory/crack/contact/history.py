@@ -34,7 +34,7 @@ Array = npt.NDArray[np.float64]
 _ANNULI, _SMALLEST = 360, 0.01
 # Bounds of a step: change of the radius over it, of the drive over the height of JKR's pull-off,
 # of its length over the one before; and the first one over the time of a move.
-_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.012, 0.1, 1.6, 1e-5
+_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.006, 0.05, 1.6, 1e-5
 # Rounds of a root and its tolerance; steps of a history at most.
 _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 60_000
 # Below this part of the elastic pull-off radius nothing is left of a contact.

@@ -259,7 +259,7 @@ _AT_PULL_OFF = (
 # Bands: what simulations at the default accuracy are off, what the second correction for the
 # range leaves [over effective^2], what a start a few zones wide does where Gamma is near 1/k, what
 # a history adds (`benchmarks/crack_contact.py`).
-_LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.1, 0.012
+_LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.2, 0.012
 
 
 def _zones(groups: Groups, crack: SteadyCrack, series: dict[str, Any], at: dict[str, Any]) -> float:
