@@ -208,8 +208,8 @@ def _answer(
 ) -> CrackContact:
     """Return the record of a history."""
     status = "detached" if detached else "still in contact"
-    pull_off = _pull_off(groups, series)
-    at = pull_off if pull_off is not None else dict.fromkeys(_AT_PULL_OFF)
+    pull_off = _pull_off(series)
+    at: dict[str, Any] = pull_off if pull_off is not None else dict.fromkeys(_AT_PULL_OFF)
     energy = float(at["amplification_at_pull_off"] or np.max(series["amplification"]))
     effective = float(_effective(groups, energy))
     if effective < LEAST_TABOR:
@@ -290,7 +290,7 @@ def _band(groups: Groups, energy: float, effective: float, zones: float) -> tupl
     return band, inside, why
 
 
-def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, float] | None:
+def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
     """Return the state at the largest tension of the last retraction, between steps."""
     force, depth = series["force"], series["depth"]
     number = series["move"]
