@@ -152,7 +152,7 @@ def test_a_march_begins_pressed_as_hard_as_the_contact_then_pulls():
     cone = case(2000.0, tabor=3.24, material=ELASTIC, geometry=PowerLawProfile(1.0, 1.0))
     result = pulled(cone)
     assert result.force[0] >= pull_off_force(result)
-    assert work_to_pull_off(result) == pytest.approx(42.1, rel=0.02)
+    assert work_to_pull_off(result) == pytest.approx(41.8, rel=0.02)  # converged: 41.80
 
 
 def test_a_crack_behind_a_soft_spring_comes_up_to_its_speed():

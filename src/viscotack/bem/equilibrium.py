@@ -200,6 +200,7 @@ def descend(
             return Balance(gap, solid.depth(gap), iteration, True)
         if np.min(gap) < GONE:
             return Balance(gap, solid.depth(gap), iteration, False)
-        if hold.stiffness == 0 and released(gap, span):
+        opens = change[np.argmin(gap)] > 0  # a load that grows brings them together from there
+        if hold.stiffness == 0 and opens and released(gap, span):
             return Balance(gap, solid.depth(gap), iteration, False, released=True)
     return Balance(gap, solid.depth(gap), most_iterations, False)

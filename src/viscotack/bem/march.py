@@ -16,7 +16,7 @@ from math import isfinite
 import numpy as np
 
 from viscotack.bem.body import Body
-from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest
+from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest, Snapshot
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
@@ -33,6 +33,8 @@ from viscotack.materials import Modes
 
 # A depth, a force or an edge has been met within this, in its unit.
 _MET = 1e-9
+# Part of the force by which a dead load changes at once where it begins at the brink.
+_NOTICED = 1e-3
 
 
 def march(
@@ -89,7 +91,8 @@ def _first(run: Run, start: Relaxed, grading: Grading) -> Place:
 
 def _begun(run: Run, at: Place, number: int) -> Place:
     """Begin a leg: the machine takes hold of the contact as it is."""
-    before, leg = at.seen, run.legs[number].beginning(at.seen)
+    before = at.seen
+    leg = _noticed(run.legs[number].beginning(before), before)
     state = run.body.stopped(at.state, leg.hold(before, 0.0, at.state.surface.unit))
     # The drive does the work that tightens the spring where another machine held the contact.
     drive = at.books.drive + (state.seen.spring - before.spring)
@@ -111,6 +114,18 @@ def _begun(run: Run, at: Place, number: int) -> Place:
         lattice = replace(begun.mesh, lattice=begun.seen.edge)
         return followed(run, replace(begun, mesh=lattice))
     return begun
+
+
+def _noticed(leg: Leg, before: Snapshot) -> Leg:
+    """Return a leg whose first change of a dead load is more than what balances left over.
+
+    Surfaces apart that attract each other are at the brink under a dead load: a load that grows
+    tips them together, and round-off must not tip them the other way.
+    """
+    if not (leg.dead_load and leg.rate > 0) or before.edge > 0:
+        return leg
+    least = min(_NOTICED * abs(before.force) / leg.rate, leg.duration)
+    return replace(leg, least_step=max(leg.least_step, least))
 
 
 def _stepped(run: Run, at: Place) -> Place:

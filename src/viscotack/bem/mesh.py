@@ -30,9 +30,9 @@ from viscotack.errors import InputError
 
 # Of a mesh: a matrix of these has 130 MB, and a run holds several.
 MOST_NODES = 4000
-# Away from a scar that the edge has left, nodes may grow so many times as fast as outside the edge:
-# no pressure is there any more, only what slow modes remember.
-_HEALED = 2.0
+# Away from a scar that the edge has left, nodes may grow so many times as fast as outside the edge,
+# but no faster than this: no pressure is there any more, only what slow modes remember.
+_HEALED, _FASTEST_GROWTH = 2.0, 0.25
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Grading:
         scar = first_edge + self.scar_spacing * np.arange(-kept, kept + 1)
         if kept and scar[-1] > end + h / 2:
             if scar[0] > end + h / 2:
-                growth *= _HEALED
+                growth = self._healed
                 parts.append(self._bridge(end, scar[0]))
             parts.append(scar[scar > end + self.scar_spacing / 2])
             end, last_step = scar[-1], self.scar_spacing
@@ -95,13 +95,20 @@ class Grading:
         check_count(len(nodes))
         return nodes
 
+    @property
+    def _healed(self) -> float:
+        """Growth of the distance from node to node away from a scar."""
+        return max(self.growth_outside, min(_HEALED * self.growth_outside, _FASTEST_GROWTH))
+
     def _inwards(self, length: float, first_edge: float) -> npt.NDArray:
         """Return growing distances from the fine zone, the last one being the length.
 
-        As many as for the first edge, so that their growth changes smoothly as the edge recedes:
-        one node less would change the energy of the solid by more than a step does.
+        As many as for the first edge until the edge has halved, and so on, so that their growth
+        changes smoothly as the edge recedes: one node less would change the energy of the solid by
+        more than a step does.
         """
         first = max(first_edge - self.half_width, length)
+        first /= 2.0 ** np.floor(np.log2(first / length))
         many = len(self._growing(first, self.growth_inside, largest=_coarsest(first, self.spacing)))
         largest = _coarsest(length, self.spacing)
 
@@ -131,7 +138,7 @@ class Grading:
         while points[-1] < length:
             left = max(length - points[-1], 0.0)
             step = self.spacing + self.growth_outside * points[-1]
-            from_scar = self.scar_spacing + _HEALED * self.growth_outside * left
+            from_scar = self.scar_spacing + self._healed * left
             points.append(points[-1] + min(step, from_scar))
         return start + np.array(points[1:-1]) * (length / points[-1])
 
