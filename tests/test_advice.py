@@ -180,21 +180,22 @@ def test_the_same_start_said_in_three_ways_is_one():
 
 
 @pytest.mark.parametrize(
-    "case",
+    ("case", "soon"),
     [
-        dict(rate=1.0),
-        dict(rate=316.23),
-        dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4),
+        (dict(rate=1.0), 0.02),
+        (dict(rate=316.23), 0.02),
+        # a contact with a crack for its edge is asked there, its cracks being known
+        (dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4), 0.3),
     ],
 )
-def test_advice_comes_at_once(case):
+def test_advice_comes_at_once(case, soon):
     problem = groups(**case)
     times = []
     for _ in range(7):
         began = process_time()
         vt.advise(problem)
         times.append(process_time() - began)
-    assert min(times) < 0.02
+    assert min(times) < soon
 
 
 # A hand-made table: a wall, a peak, a tail that ends.
@@ -333,7 +334,7 @@ def test_advise_prints_sentences_or_one_object(capsys):
     assert "Use: unloading." in capsys.readouterr().out
     assert exit_status(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["use"] == "unloading" and len(found["estimates"]) == 6
+    assert found["use"] == "unloading" and len(found["estimates"]) == 7
     assert found["sentences"][-1] == "Use: unloading."
 
 

@@ -163,7 +163,7 @@ def test_the_summary_has_the_names_of_a_simulation():
     answer = vt.prediction_summary(vt.predict(problem))
     simulated = vt.summary(vt.solve(problem, until="pull-off", accuracy=1e-2))
     own = {"interval", "interval_N", "work_interval", "work_interval_J"}
-    assert set(answer) - set(simulated) == own | {"method", "inside", "confidence", "why"}
+    assert set(answer) - set(simulated) == own | {"inside", "confidence", "why"}
     for name in ("problem", "run_id", "tabor", "modulus_ratio", "rate"):
         assert answer[name] == simulated[name]
     theory = vt.prediction_summary(vt.predict(in_si(sphere(rate=1e13))))
@@ -224,7 +224,7 @@ def test_the_band_of_a_theory_is_not_claimed_where_it_was_not_measured():
     for groups, where in (
         (sphere(rate=1e13), "rate 0.1 to 1e+08, not 1e+13"),
         (sphere(material=replace(solid, tau0=1e13), rate=1.0), "rate 0.1 to 1e+08, not 1e+13"),
-        (sphere(tabor=12.0, exponent=0.25), "tabor 0.3 to 8, not 12, exponent 0.3 to 1.6, not 0.2"),
+        (sphere(tabor=4.0, exponent=0.25, rate=1e13), "exponent 0.3 to 1.6, not 0.25, rate 0.1"),
         (sphere(material=vt.Elastic(**UNIT)), "power laws and standard solids, not Elastic"),
     ):
         answer = vt.predict(groups)
@@ -271,7 +271,7 @@ def refused(problem, **options):
 )
 def test_other_tests_are_refused(changed, words):
     error = refused(replace(sphere(), **changed))
-    assert words in error and error.endswith("`viscotack simulate` answers it")
+    assert words in error and "simulate it" in error
 
 
 def test_another_law_is_answered_by_a_theory_with_its_band():
@@ -282,7 +282,7 @@ def test_another_law_is_answered_by_a_theory_with_its_band():
     assert "not known to hold" not in answer.why
     force = vt.pull_off_force(vt.solve(case, until="pull-off", estimate_error=False))
     assert answer.interval[0] <= force <= answer.interval[1]
-    steep = replace(case, traction=vt.Dugdale(1.0, 1.0, fall=0.1))
+    steep = replace(case, tabor=2.0, traction=vt.Dugdale(1.0, 1.0, fall=0.1))
     assert "steepest fall 0.76 to 6.7, not 19" in vt.predict(steep).why
 
 

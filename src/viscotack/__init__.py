@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from . import lab as lab
     from . import materials as materials
     from . import theory as theory
+    from .bem import CrackContact as CrackContact
     from .bem import SimulationError as SimulationError
+    from .bem import crack_contact as crack_contact
     from .bem import solve as solve
     from .cards import Quantity as Quantity
     from .errors import InputError as InputError
+    from .errors import OutOfRange as OutOfRange
     from .forecast import Advice as Advice
-    from .forecast import CrackContact as CrackContact
     from .forecast import Estimate as Estimate
-    from .forecast import OutOfRange as OutOfRange
     from .forecast import Prediction as Prediction
     from .forecast import advise as advise
-    from .forecast import crack_contact as crack_contact
     from .forecast import predict as predict
     from .forecast import predict_table as predict_table
     from .forecast import prediction_summary as prediction_summary
@@ -106,7 +106,7 @@ if TYPE_CHECKING:
 # Room -> the public names it has, in the order in which data flow.
 _NAMES = {
     "units": ("parse",),
-    "errors": ("InputError",),
+    "errors": ("InputError", "OutOfRange"),
     "cards": ("Quantity",),
     "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
     "geometry": (
@@ -135,7 +135,7 @@ _NAMES = {
     "problem": ("Problem", "Groups", "PunchGroups", "Scales", "PunchScales"),
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),
-    "bem": ("solve", "SimulationError"),
+    "bem": ("solve", "SimulationError", "crack_contact", "CrackContact"),
     "result": ("Result", "Energies", "Event", "Outcome", "save", "load", "columns", "write_csv"),
     "result.observables": (
         "Observable",
@@ -159,12 +159,9 @@ _NAMES = {
         "Advice",
         "Estimate",
         "threshold_contact_radius",
-        "crack_contact",
-        "CrackContact",
         "predict",
         "predict_table",
         "Prediction",
-        "OutOfRange",
         "prediction_summary",
     ),
     "pictures.plot": (

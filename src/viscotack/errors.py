@@ -7,3 +7,7 @@ class InputError(ValueError):
     Whatever else escapes from the package, other than an error of the operating system or of a
     missing library, is a defect of it.
     """
+
+
+class OutOfRange(InputError):
+    """A problem that a theory, or what was learned, does not answer; says what is out of range."""

@@ -110,13 +110,13 @@ class Grading:
         first = max(first_edge - self.half_width, length)
         first /= 2.0 ** np.floor(np.log2(first / length))
         many = len(self._growing(first, self.growth_inside, largest=_coarsest(first, self.spacing)))
-        largest = _coarsest(length, self.spacing)
+        h, largest = self.spacing, _coarsest(length, self.spacing)
 
         def away(growth: float) -> npt.NDArray:
-            steps = self.spacing * (1 + growth) ** np.arange(1, many + 1)
-            return np.cumsum(np.minimum(steps, largest))
+            grown = np.minimum(np.arange(1, many + 1) * np.log1p(growth), np.log(largest / h))
+            return np.cumsum(h * np.exp(grown))
 
-        if many * largest <= length or many * self.spacing >= length:
+        if many * largest <= length or many * h >= length:
             return length * np.arange(1, many + 1) / many
         growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, xtol=1e-12)
         points = away(float(growth))  # type: ignore[arg-type]

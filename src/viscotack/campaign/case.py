@@ -36,6 +36,7 @@ _LEFT_OUT = (
     *(
         "accuracy",
         "accuracy_met",
+        "method",
         "shallow_start",
         "cycles",
         "time_to_detachment",

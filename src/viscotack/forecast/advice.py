@@ -1,9 +1,10 @@
 """Which answer may be trusted: the regime of a problem, and what each tier says about it.
 
-Nothing here simulates, but :func:`threshold_contact_radius`. The limits of the tiers and their
-errors were measured against :func:`viscotack.solve`: power laws and standard solids, modulus
-ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates 0.1 to 1e8. A law other than
-Lennard-Jones is taken for the one of the same work and strength, at its effective Tabor number;
+Nothing here simulates, but :func:`threshold_contact_radius`. From an effective Tabor number of 5
+on the contact whose edge is a steady crack is asked first (docs/steady_crack.md). The limits of
+the other tiers and their errors were measured against :func:`viscotack.solve`: power laws and
+standard solids, modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates
+0.1 to 1e8. A law other than Lennard-Jones is taken for the one of the same work and strength, at its effective Tabor number;
 what that costs was measured with exponential laws of decay 0.25 to 3, Dugdale's with falls of 0.3
 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective Tabor numbers 0.1 to 10.
 """
@@ -15,10 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from viscotack.bem.by_crack import MEASURED_TABOR, METHOD, crack_contact, too_short
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
-from viscotack.problem.revolution import LARGEST_CONTACT, SIMULATED_TABOR
+from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import (
     CrackLaw,
@@ -71,6 +73,8 @@ _OTHER_LAW = {
 LINEAR_SPEED = 100e-6
 # Up to this effective Tabor number a simulation takes about a second.
 _SOON = 15.0
+# From this one on a contact whose edge is a steady crack is asked: its band is 2 % there.
+_CRACK_TABOR = 5.0
 _SMALL_STRAIN = 0.2
 _TIP = np.pi ** (1 / 3)
 # The search for a threshold: its smallest radius, how many simulations it takes,
@@ -86,7 +90,7 @@ class Estimate:
     Attributes
     ----------
     tier : str
-        "elastic", "unloading", "detachment", "rate-fit", "glassy" or "simulation".
+        "crack contact", "elastic", "unloading", "detachment", "rate-fit", "glassy" or "simulation".
     pull_off_force : float or None
         In 1.5 pi R dg0; None where the tier has no answer, or is not run here.
     error : float or None
@@ -232,6 +236,7 @@ def advise(problem: Problem | Groups) -> Advice:
         _glassy(groups, regime, fastest, start, slowest, gamma),
     )
     estimates = (
+        _by_crack(problem, asked),
         *(_of_law(e, asked) for e in estimates),
         _simulated(asked),
     )
@@ -430,11 +435,31 @@ def _error(estimate: Estimate) -> float:
 
 def _simulated(groups: Groups) -> Estimate:
     low, high = SIMULATED_TABOR
-    if not low <= groups.effective_tabor <= high:
-        note = f"solve takes effective Tabor numbers from {low:g} to {high:g}"
-        return Estimate("simulation", None, 2e-3, False, note)
-    soon = "in about a second" if groups.effective_tabor < _SOON else "in a minute or so"
+    if not low <= groups.effective_tabor <= high or too_short(groups):
+        note = f"solve simulates effective Tabor numbers from {low:g} to {high:g}, elastic ones to "
+        return Estimate("simulation", None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
+    soon = "in about a second" if groups.effective_tabor < _SOON else "in seconds"
     return Estimate("simulation", None, 2e-3, True, f"solve covers all of this, {soon}")
+
+
+def _by_crack(problem: Problem | Groups, groups: Groups) -> Estimate:
+    """Return what a contact says whose edge is a steady crack."""
+    if groups.effective_tabor < _CRACK_TABOR:
+        why = (
+            f"zones are too large beside the contact: effective Tabor number "
+            f"{groups.effective_tabor:.3g}, and it is asked from {_CRACK_TABOR:g} on"
+        )
+        return Estimate(METHOD, None, None, False, why)
+    try:
+        found = crack_contact(problem)
+    except InputError as error:
+        return Estimate(METHOD, None, None, False, str(error))
+    if found.pull_off_force is None:
+        return Estimate(METHOD, None, None, False, "it comes to no pull-off")
+    why = "the edge is a steady crack, the bulk remembers, and no constant is fitted"
+    if not found.inside:
+        why += f"; compared with simulations to a Tabor number of {MEASURED_TABOR:g}"
+    return Estimate(METHOD, found.pull_off_force, found.band, True, why)
 
 
 def _of_law(estimate: Estimate, groups: Groups) -> Estimate:

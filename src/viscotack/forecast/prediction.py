@@ -12,17 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from viscotack import __version__
-from viscotack.errors import InputError
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.problem.record import run_id, to_dict
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Curves
-
-
-class OutOfRange(InputError):
-    """A problem that neither the surrogate nor a theory answers; says what is out of range."""
 
 
 @dataclass(frozen=True, eq=False)

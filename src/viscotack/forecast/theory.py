@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.errors import InputError
+from viscotack.bem.by_crack import METHOD, crack_contact
+from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
@@ -12,7 +13,7 @@ from viscotack.theory import hertz
 from viscotack.traction import LennardJones, effective_range, softening
 
 from .advice import Estimate, advise, lennard_jones_alike
-from .prediction import OutOfRange, Prediction
+from .prediction import Prediction
 
 SIMULATE = "`viscotack simulate` answers it"
 # Largest start that the theories are asked about, a radius in (pi R^2 dg0/E0*)^(1/3): their curves
@@ -77,7 +78,7 @@ def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: f
     why = f"{out}; by the theory {best.tier!r}: {best.why}"
     if confidence != THEORY_CONFIDENCE:
         why += f"; its band is one for {THEORY_CONFIDENCE:.0%} of the cases, not {confidence:.0%}"
-    if elsewhere := _not_measured(groups):
+    if best.tier != METHOD and (elsewhere := _not_measured(groups)):
         why += f"; its band was measured elsewhere, and is not known to hold here: {elsewhere}"
     return Prediction(
         value=force,
@@ -88,6 +89,35 @@ def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: f
         method=best.tier,
         inside=False,
         why=why,
+        curve=None,
+        problem=problem,
+    )
+
+
+def by_crack(problem: Problem | Groups, out: str) -> Prediction:
+    """Return what a contact says whose edge is a steady crack, for other tests and shapes.
+
+    Raises
+    ------
+    OutOfRange
+        If the theory does not hold there.
+    """
+    try:
+        found = crack_contact(problem)
+    except InputError as error:
+        words = f"{out}, and the theory of a crack at the edge has no answer: {error}"
+        raise type(error)(words) from None
+    if found.pull_off_force is None or found.interval is None:
+        raise OutOfRange(f"{out}, and by the theory of a crack at the edge it comes to no pull-off")
+    return Prediction(
+        value=found.pull_off_force,
+        interval=found.interval,
+        work_to_pull_off=found.work_to_pull_off,
+        work_interval=None,
+        confidence=THEORY_CONFIDENCE,
+        method=METHOD,
+        inside=False,
+        why=f"{out}; by the theory {METHOD!r}: {found.why}",
         curve=None,
         problem=problem,
     )

@@ -212,7 +212,7 @@ _TAKEN = frozenset(
     "shallow_start events wall_time_s "
     "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
     "size thickness cohesion preload preload_force preload_radius steps nodes modes "
-    "newton_iterations jumps travel_to_pull_off accuracy until".split()
+    "newton_iterations jumps travel_to_pull_off accuracy until method".split()
 )
 
 
@@ -291,6 +291,7 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
         "cycles": [] if result.outcome is Outcome.STOPPED else cycle_rows(result),
         "accuracy": result.accuracy,
         "accuracy_met": result.accuracy_met,
+        "method": result.method,
         "error_estimate": _plain(result.error_estimate),
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),

@@ -166,6 +166,10 @@ class Result:
     shallow_start : ShallowStart or None
         Where the series begin if not at the start that was asked for, which was so deep that its
         depth does not matter.
+    method : str
+        "simulation"; "crack contact" where the range of the forces is too short to be simulated and
+        the theory of a contact whose edge is a steady crack answers (:func:`crack_contact`), its
+        band being the error of the force.
     versions : dict
         Versions of this package, numpy and scipy that made it.
     """
@@ -186,6 +190,7 @@ class Result:
     move: npt.NDArray[np.intp] | None = None
     shallow_start: ShallowStart | None = None
     accuracy: float | None = None
+    method: str = "simulation"
     versions: Mapping[str, str] = field(default_factory=_versions)
 
     def __post_init__(self) -> None:
@@ -329,6 +334,7 @@ def save(result: Result, path: Target) -> None:
         "events": [asdict(event) for event in result.events],
         "statistics": dict(result.statistics),
         "accuracy": result.accuracy,
+        "method": result.method,
         "error_estimate": result.error_estimate and dict(result.error_estimate),
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),
@@ -413,5 +419,6 @@ def _from_parts(
         move=arrays.get("move"),
         shallow_start=None if began is None else ShallowStart(**began),
         accuracy=header.get("accuracy"),
+        method=header.get("method", "simulation"),
         versions=header["versions"],
     )

@@ -41,7 +41,7 @@ class Edge:
             return self._gamma(np.log(speed))
 
     def one(self, speed: float) -> float:
-        """Return Gamma at one speed, not negative."""
-        if self.elastic or speed == 0:
+        """Return Gamma at one speed; one below zero is round-off in the place of the edge."""
+        if self.elastic or speed <= 0:
             return 1.0
         return self._gamma.one(log(speed))

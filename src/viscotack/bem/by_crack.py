@@ -15,7 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem, PunchGroups
+from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -27,6 +29,7 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
+from viscotack.result import Outcome, Result
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
@@ -38,13 +41,13 @@ from viscotack.theory.crack.contact import (
     recede,
 )
 
-from .prediction import OutOfRange
-
 Array = npt.NDArray[np.float64]
 
 METHOD = "crack contact"
 # Effective Tabor number over the cube root of the amplification below which nothing is answered.
 LEAST_TABOR = 2.0
+# Largest one: beyond, lengths of the zone and of the contact are no numbers side by side.
+LARGEST_TABOR = 1e9
 # Largest Tabor number for which simulations were compared.
 MEASURED_TABOR = 100.0
 # Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
@@ -156,6 +159,11 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     '10.0 within 0.4%'
     """
     groups = _groups(problem)
+    if groups.effective_tabor > LARGEST_TABOR:
+        raise OutOfRange(
+            f"an effective Tabor number of {groups.effective_tabor:.4g} is too large: the theory "
+            f"goes to {LARGEST_TABOR:g}"
+        )
     law, unit = groups.traction, groups.material.time_unit
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
     start, largest = _start_of(groups, profile)
@@ -199,6 +207,49 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     return _answer(problem, groups, crack, series, detached)
 
 
+def too_short(groups: Groups) -> bool:
+    """Return whether the range of the forces is too short to be simulated."""
+    least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
+    return least < groups.effective_tabor <= LARGEST_TABOR
+
+
+def has_start(groups: Groups) -> bool:
+    """Return whether the relaxed contact exists in which a test begins."""
+    try:
+        _start_of(groups, profile_of(groups.geometry))
+    except InputError:
+        return False
+    return True
+
+
+def answered(problem: Problem | Groups) -> Result:
+    """Return the answer of :func:`crack_contact` as a simulation would give it.
+
+    Energies are not known; the error of the force is the band.
+    """
+    found = crack_contact(problem)
+    outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
+    if not np.any(found.contact_radius > 0):
+        outcome = Outcome.NEVER
+    groups, radius = problem.groups(), found.contact_radius
+    return Result(
+        problem=problem,
+        time=found.time,
+        depth=found.depth,
+        force=found.force,
+        contact_radius=np.where(radius > 0, radius, np.nan),
+        edge_speed=np.where(radius > 0, found.edge_speed, np.nan),
+        status=(
+            f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
+            "is too short to be simulated: answered as a contact whose edge is a steady crack"
+        ),
+        statistics={"steps": found.time.size - 1},
+        error_estimate=None if found.pull_off_force is None else {"force": found.band},
+        move=found.move,
+        method=METHOD,
+    )
+
+
 def _answer(
     problem: Problem | Groups,
     groups: Groups,
@@ -223,8 +274,8 @@ def _answer(
     if pull_off is not None and zones < LEAST_ZONES and energy > _SLOW:
         raise OutOfRange(
             f"the edge goes {zones:.2g} zones until the pull-off, and is no steady crack before it "
-            f"has gone {LEAST_ZONES:g}: the start is too small for this rate; press deeper, or "
-            "simulate it"
+            f"has gone {LEAST_ZONES:g}: the start is too small for this rate; press deeper, "
+            "pull more slowly, or simulate it"
         )
     band, inside, why = _band(groups, energy, effective, zones)
     return CrackContact(
