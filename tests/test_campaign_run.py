@@ -158,16 +158,16 @@ def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
 
 
 def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
-    collect = crew.outcome
+    collect = crew.collect
 
-    def twice(future):
-        answer = collect(future)
+    def twice(seconds):
+        answers = collect(seconds)
         if len(crew.done) == 10:
             os.kill(os.getpid(), signal.SIGINT)
             os.kill(os.getpid(), signal.SIGINT)
-        return answer
+        return answers
 
-    monkeypatch.setattr(crew, "outcome", twice)
+    monkeypatch.setattr(crew, "collect", twice)
     with pytest.raises(KeyboardInterrupt):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
     assert 0 < len(rates(tmp_path / "c")) <= 10
@@ -176,7 +176,7 @@ def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, c
 def test_a_death_of_a_worker_costs_nothing(tmp_path, monkeypatch):
     crew = employ(monkeypatch, InlineCrew(deaths=[7.0]))
     end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert (end.done, end.failed, crew.renewed) == (20, 0, 1)
+    assert (end.done, end.failed, crew.deaths) == (20, 0, [])
 
 
 def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
@@ -186,24 +186,27 @@ def test_a_case_that_kills_its_workers_is_found(tmp_path, monkeypatch):
     (row,) = Store(tmp_path / "c").failures().to_pylist()
     assert row["rate"] == 7 and row["failure"] == "worker died"
     # twice among others, once alone
-    assert crew.renewed == 3 and len(crew.deaths) == 6
+    assert crew.alone == [False, False, True] and len(crew.deaths) == 6
 
 
-def test_a_case_that_a_cluster_has_given_up_is_a_failure(tmp_path, monkeypatch):
-    employ(monkeypatch, InlineCrew(deaths=[7.0], certain=True))
+def test_a_case_is_not_blamed_for_machines_that_leave(tmp_path, monkeypatch):
+    crew = employ(monkeypatch, InlineCrew(deaths=[7.0] * 19, blame=False))
     end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
-    assert (end.done, end.failed) == (19, 1)
+    assert (end.done, end.failed) == (20, 0)
+    crew.deaths += [7.0] * 30
+    end = run(plan_of(tmp_path), tmp_path / "d", work=stand_in)
+    assert (end.done, end.failed) == (19, 1) and len(crew.deaths) == 10
 
 
 def test_a_lost_scheduler_ends_the_run_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
-    outcome = crew.outcome
+    collect = crew.collect
 
-    def lose(future):
+    def lose(seconds):
         if len(crew.done) >= 10:
             raise Gone("the connection was lost")
-        return outcome(future)
+        return collect(seconds)
 
-    monkeypatch.setattr(crew, "outcome", lose)
+    monkeypatch.setattr(crew, "collect", lose)
     with pytest.raises(Gone):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
     assert 0 < len(rates(tmp_path / "c")) < 10
@@ -211,7 +214,7 @@ def test_a_lost_scheduler_ends_the_run_and_keeps_what_has_come_back(tmp_path, cr
 
 def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, monkeypatch):
     folder, plan = tmp_path / "c", plan_of(tmp_path, cases=60)
-    sync, left = os.fsync, [12]
+    sync, left = os.fsync, [60]
 
     def fill_up(handle):
         left[0] -= 1
@@ -221,7 +224,7 @@ def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, 
 
     with monkeypatch.context() as patch:
         patch.setattr(os, "fsync", fill_up)
-        with pytest.raises(OSError, match="no space left for .*results"):
+        with pytest.raises(OSError, match="no space left for .*(results|provenance)"):
             run(plan, folder, work=stand_in, store_every=0.0)
     stored = rates(folder)
     assert 0 < len(stored) < 60
@@ -364,6 +367,6 @@ def test_a_cluster_gives_the_same_table_also_when_a_worker_is_killed(tmp_path, m
 
 def test_a_scheduler_that_is_not_there_is_named(tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="the cluster extra is not installed")
-    monkeypatch.setattr("viscotack.campaign.crew._PATIENCE", 0.2)
+    monkeypatch.setattr("viscotack.campaign.cluster._CONNECT", 0.2)
     with pytest.raises(ConnectionError, match="no scheduler answers at 'tcp://127.0.0.1:9'"):
         run(plan_of(tmp_path), tmp_path / "c", scheduler="tcp://127.0.0.1:9", work=stand_in)

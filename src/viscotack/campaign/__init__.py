@@ -3,20 +3,25 @@
 from viscotack.files.lock import FolderInUse
 
 from .case import CaseSettings, measure
+from .crew import NoWorker
 from .exporting import export
 from .plan import Plan, read_plan
 from .running import AllCrashed, Progress, run
 from .store import Store
+from .verifying import Verdict, verify
 
 __all__ = [
     "AllCrashed",
     "CaseSettings",
     "FolderInUse",
+    "NoWorker",
     "Plan",
     "Progress",
     "Store",
+    "Verdict",
     "export",
     "measure",
     "read_plan",
     "run",
+    "verify",
 ]

@@ -85,7 +85,8 @@ def _teller() -> Callable[[int, int], None]:
 
 def read_table(path: Path) -> dict[str, list[str]]:
     """Return the columns of a CSV file as words; the first row names them."""
-    names, rows = read_words(path)
+    names, found = read_words(path)
+    rows = list(found)
     return {name: [row[i].strip() for _, row in rows] for i, name in enumerate(names)}
 
 
