@@ -113,6 +113,50 @@ def overhead(root: Path) -> None:
         )
 
 
+def million(root: Path, cases: int) -> None:
+    """Plan, run, count and export very many stand-ins, each in a process of its own."""
+    folder = root / "million"
+    for part in ("run", "status", "export", "verify"):
+        began = perf_counter()
+        command = [sys.executable, __file__, "child", "--folder", str(folder), "--part", part]
+        done = subprocess.run([*command, "--cases", str(cases)], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        took = perf_counter() - began
+        print(f"{part:8} {cases} cases: {took:.0f} s; {done.stdout.strip()}", flush=True)
+
+
+def part_of_million(folder: Path, part: str, cases: int) -> None:
+    """Do one part, and say how much memory this process had at most."""
+    from viscotack.campaign import export, verify
+
+    if part == "run":
+        began = perf_counter()
+        plan = many(cases)
+        planned = perf_counter() - began
+        end = run(plan, folder, workers=WORKERS, work=stand_in)
+        assert (end.done, end.failed) == (cases, 0)
+        files = sum(1 for _ in folder.rglob("*.parquet"))
+        print(
+            f"plan {planned:.0f} s, {1e3 * end.elapsed_s / cases:.2f} ms a case, {files} files,"
+            f" a worker {end.peak_memory / 1e6:.0f} MB",
+            end=", ",
+        )
+    elif part == "status":
+        store = Store(folder)
+        assert store.standing(store.plan().cases).done.sum() == cases
+        assert not store.reasons()
+    elif part == "verify":
+        assert not verify(Store(folder)).wrong
+    else:
+        with Store(folder).ordered_results() as rows:
+            assert rows.rows == cases
+            for ending in (".csv", ".parquet"):
+                export(rows, folder / f"table{ending}")
+                print(f"{(folder / f'table{ending}').stat().st_size / 1e6:.0f} MB", end=", ")
+                (folder / f"table{ending}").unlink()
+    print(f"this process {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
+
+
 def harassed(fast: bool) -> tuple[Plan, dict[str, Any]]:
     """Return what is run under kills: the real thing, or stand-ins that are stored one by one."""
     if fast:
@@ -248,17 +292,21 @@ def disk(root: Path) -> None:
         subprocess.run(["umount", str(place)], check=True)
 
 
-PARTS = ("speed", "overhead", "kill", "cluster", "disk")
+PARTS = ("speed", "overhead", "million", "kill", "cluster", "disk")
 
 
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", help=", ".join(PARTS), default=[])
+    parser.add_argument("--cases", type=int, default=1_000_000)
+    parser.add_argument("--part", help=argparse.SUPPRESS)
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--fast", action="store_true", help=argparse.SUPPRESS)
     chosen = parser.parse_args()
+    if chosen.parts == ["child"] and chosen.part:
+        return part_of_million(chosen.folder, chosen.part, chosen.cases)
     if chosen.parts == ["child"]:
         return child(chosen.folder, chosen.fast)
     parts = chosen.parts or PARTS
@@ -268,6 +316,8 @@ def main() -> None:
         reference = speed(root) if {"speed", "kill", "cluster"} & set(parts) else root
         if "overhead" in parts:
             overhead(root)
+        if "million" in parts:
+            million(root, chosen.cases)
         if "kill" in parts:
             kill(root, reference, chosen.kills, fast=False)
             plan, options = harassed(True)

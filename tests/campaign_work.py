@@ -9,7 +9,7 @@ from time import sleep
 import numpy as np
 
 from viscotack import InputError
-from viscotack.campaign import read_plan
+from viscotack.campaign import Store, read_plan
 from viscotack.campaign.case import attempt
 from viscotack.campaign.crew import Lost
 
@@ -132,6 +132,30 @@ def interrupting(problem, settings):
     if problem.rate == 7:
         os.kill(os.getpid(), signal.SIGINT)
     return stand_in(problem, settings)
+
+
+def told(folder):
+    """Return all that a campaign says, but for wall times."""
+    store = Store(folder)
+    tables = [table.to_pylist() for table in (store.results(), store.failures())]
+    for row in (row for table in tables for row in table):
+        row.pop("wall_time_s")
+    return *tables, store.plan().cases, store.settings
+
+
+@contextmanager
+def flipped(folder, chance):
+    """Turn one bit of a file that is read, for the block."""
+    files = [*folder.glob("*/*.parquet"), folder / "cases.parquet", folder / "provenance.json"]
+    path = chance.choice(sorted(files))
+    content = path.read_bytes()
+    turned = bytearray(content)
+    turned[chance.randrange(len(turned))] ^= 1 << chance.randrange(8)
+    path.write_bytes(turned)
+    try:
+        yield path
+    finally:
+        path.write_bytes(content)
 
 
 class InlineCrew:

@@ -197,7 +197,7 @@ def test_a_damaged_part_is_named(tmp_path):
 def test_pages_have_checksums_of_their_own(tmp_path):
     # of a copy in another place nobody has a hash
     rows = [{"name": f"{i}", "rate": 1000.0 + i} for i in range(50)]
-    content = bytearray(parquet(table_of(rows)).to_pybytes())
+    content = bytearray(parquet(lambda: iter([table_of(rows)])).to_pybytes())
     content[len(content) // 3] ^= 4
     with pytest.raises(ValueError, match="a.parquet is damaged"):
         table_in(tmp_path)

@@ -136,7 +136,10 @@ class Parts:
         number = kept[-1].span[1] + 1 if kept else 1
         while (self.folder / _name((number, number))).exists():  # a stranger has the name
             number += 1
-        self._write(table_of(rows), (number, number), lambda part: Ledger(kept, coming=part))
+        table = table_of(rows)
+        content = parquet(lambda: iter([table]))
+        span = (number, number)
+        self._write(content, len(rows), span, lambda part: Ledger(kept, coming=part))
         self._merge()
 
     def tables(self, columns: Sequence[str] | None = None) -> Iterator[Any]:
@@ -233,25 +236,25 @@ class Parts:
         size = sum(path.stat().st_size if path.exists() else _LARGEST for path in paths)
         if size > _LARGEST or (self.folder / _name(whole)).exists():
             return
-        pa = arrow()
-        tables = [self._read(part, None) for part in last]
         merged = self._write(
-            pa.concat_tables(tables, promote_options="permissive"),
+            parquet(lambda: (self._read(part, None) for part in last)),
+            sum(part.rows for part in last),
             whole,
             lambda part: Ledger(kept, coming=part, instead_of=_MERGED),
         )
-        del tables
-        pa.default_memory_pool().release_unused()
         self._note(Ledger((*kept[:-_MERGED], merged), replaced=last))
         for part in last:
             (self.folder / part.name).unlink()
         self._merge()
 
     def _write(
-        self, table: Any, span: tuple[int, int], announced: Callable[[Part], Ledger]
+        self,
+        content: Any,
+        rows: int,
+        span: tuple[int, int],
+        announced: Callable[[Part], Ledger],
     ) -> Part:
-        content = parquet(table)
-        part = Part(_name(span), hashlib.sha256(content).hexdigest(), table.num_rows)
+        part = Part(_name(span), hashlib.sha256(content).hexdigest(), rows)
         self.folder.mkdir(parents=True, exist_ok=True)
         ledger = announced(part)
         self._note(ledger)
@@ -342,17 +345,26 @@ def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
         ) from None
 
 
-def parquet(table: Any) -> Any:
-    """Return a table as the bytes of a Parquet file, with a checksum of every page."""
+def parquet(tables: Callable[[], Iterator[Any]]) -> Any:
+    """Return tables as the bytes of one Parquet file, with a checksum of every page.
+
+    They are asked for twice, and only one of them is held at a time: columns may differ.
+    """
     pa = arrow()
+    schema = pa.unify_schemas([table.schema for table in tables()], promote_options="permissive")
     sink = pa.BufferOutputStream()
-    pa.parquet.write_table(table, sink, compression="zstd", write_page_checksum=True)
+    options = {"compression": "zstd", "write_page_checksum": True}
+    with pa.parquet.ParquetWriter(sink, schema, **options) as writer:
+        for table in tables():
+            both = [schema.empty_table(), table]
+            writer.write_table(pa.concat_tables(both, promote_options="permissive"))
+    pa.default_memory_pool().release_unused()
     return sink.getvalue()
 
 
 def write_table(table: Any, path: Target) -> None:
     """Write a table to a Parquet file, whole or not at all, and durably."""
-    write_whole(path, parquet(table))
+    write_whole(path, parquet(lambda: iter([table])))
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:

@@ -105,7 +105,8 @@ class Store:
             _check_same(folder, old, header)
             old = _of_today(folder, old)
             header |= {name: old[name] for name in ("runs", "parts", "lost")}
-        files = {"cases.parquet": parquet(table_of_cases(plan.cases))}
+        cases = table_of_cases(plan.cases)
+        files = {"cases.parquet": parquet(lambda: iter([cases]))}
         if plan.source:
             files[f"plan{plan.suffix}"] = plan.source.encode()
         hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
