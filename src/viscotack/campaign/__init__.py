@@ -3,10 +3,12 @@
 from viscotack.files.lock import FolderInUse
 
 from .case import CaseSettings, measure
+from .cluster import Security
 from .crew import NoWorker
 from .exporting import export
 from .plan import Plan, read_plan
 from .running import AllCrashed, Progress, run
+from .sharing import merge, shard_of
 from .store import Store
 from .verifying import Verdict, verify
 
@@ -17,11 +19,14 @@ __all__ = [
     "NoWorker",
     "Plan",
     "Progress",
+    "Security",
     "Store",
     "Verdict",
     "export",
     "measure",
+    "merge",
     "read_plan",
     "run",
+    "shard_of",
     "verify",
 ]

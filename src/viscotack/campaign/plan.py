@@ -50,7 +50,7 @@ class Plan:
     suffix : str
         Its ending, ".toml" or ".csv".
     shard : str or None
-        Which part of the whole plan this is, "3/20"; see `part`.
+        Which part of the whole plan this is, "3/20".
     """
 
     kind: Kind
@@ -115,11 +115,12 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         own = (*_own(path, tables), *changed.get("own", ()))
         changed |= {"own": own} if own else {}
         kind, base = _kind(path, tables, blocks, own)
+    settings = _settings(path, tables.get("settings", {}), changed)
     cases, rejected, repeated = _cases(path, kind, blocks)
     return Plan(
         kind=kind,
         cases=cases,
-        settings=_settings(path, tables.get("settings", {}), changed),
+        settings=settings,
         base=base,
         rejected=rejected,
         repeated=repeated,
@@ -175,7 +176,7 @@ def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
             if any(x.strip() for x in row):
                 yield reader.line_num, row
     except csv.Error as error:
-        raise InputError(f"{path}, line {reader.line_num + 1}: {error}") from None
+        raise InputError(f"{path}, line {reader.line_num}: {error}") from None
 
 
 class _Listed:

@@ -201,6 +201,12 @@ class Store:
         self._write(runs=runs)
         return number
 
+    def note_merged(self, runs: list[dict[str, Any]]) -> None:
+        """Keep the runs of the campaigns that this one was made of; the caller holds the lock."""
+        for parts in (self._results, self._failures):
+            parts.settle()
+        self._write(runs=runs)
+
     def standing(self, cases: Cases) -> Standing:
         """Return how cases stand, by what is stored."""
         standing = Standing.of(len(cases))

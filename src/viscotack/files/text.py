@@ -67,7 +67,15 @@ def cell(text: str) -> str:
     "'=1+1"
     """
     text = harmless(text)
-    return f"'{text}" if text.startswith(_FORMULA) else text
+    return f"'{text}" if text.startswith(_FORMULA) and not _is_number(text) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
@@ -83,9 +91,16 @@ def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, 
         If it is not a text file.
     """
     rows = [
-        (line, next(csv.reader([text])))
+        (line, _split(path, line, text))
         for line, text in enumerate(read_text(path).splitlines(), 1)
         if text.strip() and not text.startswith("#")
     ]
     header = [name.strip() for name in rows[0][1]] if rows else []
     return header, rows[1:]
+
+
+def _split(path: str | os.PathLike[str], line: int, text: str) -> list[str]:
+    try:
+        return next(csv.reader([text]))
+    except csv.Error as error:  # a cell of more than 131,072 characters
+        raise InputError(f"{os.fspath(path)}, line {line}: {error}") from None

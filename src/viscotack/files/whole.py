@@ -54,26 +54,8 @@ def write_whole(target: Target, content: Any) -> None:
     BrokenPipeError
         If the reader of a pipe has gone.
     """
-    if not isinstance(target, str | os.PathLike):
-        target.write(content)
-        target.flush()
-        return
-    path = Path(target)
-    try:
-        found = _found(path)
-        if (handle := _own_stream(found)) is not None:
-            (sys.stdout, sys.stderr)[handle - 1].flush()
-            with open(handle, "wb", closefd=False) as file:
-                file.write(content)
-        elif found is None or stat.S_ISREG(found.st_mode):
-            _replace(Path(os.path.realpath(path)), content, found)
-        else:
-            with open(path, "wb") as file:
-                file.write(content)
-    except (NotWritten, BrokenPipeError):
-        raise
-    except OSError as error:
-        raise _not_written(path, error) from None
+    with writing_whole(target) as file:
+        file.write(content)
 
 
 @contextmanager
@@ -223,11 +205,6 @@ def _is_nothing(found: os.stat_result) -> bool:
 def _draft_beside(place: Path) -> Path:
     # without the name of the file, which may be as long as a name can be
     return place.with_name(f".viscotack-{secrets.token_hex(4)}.draft")
-
-
-def _replace(place: Path, content: Any, found: os.stat_result | None) -> None:
-    with _draft(place, found) as file:
-        file.write(content)
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""The commands ``viscotack campaign plan | run | status | verify | export``: many problems."""
+"""The commands ``viscotack campaign plan | run | status | verify | merge | export``."""
 
 import json
 import sys
@@ -136,6 +136,28 @@ def run_command(
             help='A Dask scheduler, "tcp://host:8786": its workers do the cases instead.',
         ),
     ] = None,
+    tls_ca: Annotated[
+        Path | None,
+        Option(
+            "--tls-ca",
+            metavar="FILE",
+            help="For a scheduler at tls://host:8786: the authority that both ends trust, in PEM.",
+        ),
+    ] = None,
+    tls_cert: Annotated[
+        Path | None, Option("--tls-cert", metavar="FILE", help="The certificate of this end.")
+    ] = None,
+    tls_key: Annotated[
+        Path | None, Option("--tls-key", metavar="FILE", help="The key of that certificate.")
+    ] = None,
+    shard: Annotated[
+        str | None,
+        Option(
+            metavar="K/N",
+            help="Only the K-th of N parts of the plan, for the job arrays of a batch system; "
+            "viscotack campaign merge makes one folder of all.",
+        ),
+    ] = None,
     accuracy: Annotated[
         float | None,
         Option(
@@ -183,18 +205,30 @@ def run_command(
         "own": _paths(own),
     }
     with _words_for_what_is_missing():
-        from viscotack.campaign import AllCrashed, NoWorker, read_plan, run
+        from viscotack.campaign import AllCrashed, NoWorker, read_plan, run, shard_of
+        from viscotack.campaign.cluster import security_of
 
         if out is None:
             raise InputError("--out is missing: the folder that keeps the campaign")
         if plan_file is None and any(value is not None for value in changed.values()):
             raise InputError("settings are those of the folder; give the plan to change limits")
+        if plan_file is None and shard is not None:
+            raise InputError("--shard is of a plan: give the plan")
+        security = security_of(tls_ca, tls_cert, tls_key)
         plan = None if plan_file is None else read_plan(plan_file, **changed)
+        if plan is not None and shard is not None:
+            plan = shard_of(plan, shard)
         end, trouble = None, ""
         try:
             with _shown() as report:
                 end = run(
-                    plan, out, workers=workers, scheduler=scheduler, retry=retry, report=report
+                    plan,
+                    out,
+                    workers=workers,
+                    scheduler=scheduler,
+                    security=security,
+                    retry=retry,
+                    report=report,
                 )
         except (KeyboardInterrupt, AllCrashed, NoWorker) as error:
             trouble = str(error) or "ended at once"
@@ -248,6 +282,32 @@ def verify_command(folder: Folder, as_json: AsJson = False) -> None:
         typer.echo(f"{verdict.rows} rows in {verdict.files} files: {end}")
     if verdict.wrong:
         raise typer.Exit(1)
+
+
+@campaign.command("merge")
+def merge_command(
+    folders: Annotated[
+        list[Path], Argument(metavar="DIR...", help="Folders of campaigns.", show_default=False)
+    ],
+    out: Annotated[
+        Path | None, Option("--out", metavar="DIR", help="Folder that is to hold all of them.")
+    ] = None,
+) -> None:
+    """Make one campaign of several, such as the shards of one plan.
+
+    Each is verified before; they must be of one kind, accuracy and version of viscotack.
+
+    Example: viscotack campaign merge shard-1 shard-2 --out study
+    """
+    with _words_for_what_is_missing():
+        from viscotack.campaign import Progress, merge
+
+        if out is None:
+            raise InputError("--out is missing: the folder that is to hold all of them")
+        store = merge(folders, out)
+        standing = store.standing(store.plan().cases)
+    done, failed = int(standing.done.sum()), int(standing.failed.sum())
+    _tell(out, Progress(len(standing.done), done, failed), as_json=False)
 
 
 @campaign.command("export")

@@ -14,6 +14,7 @@ import typer
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.plan import read_words
 from viscotack.errors import InputError
+from viscotack.files.text import cell
 from viscotack.files.whole import Target, is_standard_output, write_whole
 from viscotack.forecast.table import ANSWERS, predict_table
 
@@ -94,14 +95,14 @@ def write_table(table: Mapping[str, Any], path: Target) -> None:
     """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(table)
+    rows.writerow(map(cell, table))
     rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
     write_whole(path, text.getvalue().encode())
 
 
 def _cells(values: Any) -> list[Any]:
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
-        return list(values)
+        return [cell(value) if isinstance(value, str) else value for value in values]
     if values.dtype.kind == "b":
         return ["true" if value else "false" for value in values.tolist()]
     return ["" if value != value else value for value in values.tolist()]
