@@ -332,39 +332,6 @@ def test_ctrl_c_in_a_terminal_ends_a_run_in_order(tmp_path):
     assert Store(tmp_path / "c").provenance["runs"][0]["stopped"] is True
 
 
-@pytest.mark.slow
-def test_a_cluster_gives_the_same_table_also_when_a_worker_is_killed(tmp_path, monkeypatch):
-    pytest.importorskip("distributed", reason="the cluster extra is not installed")
-    monkeypatch.setenv("PYTHONPATH", str(HERE))
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    dask, file = [sys.executable, "-m", "dask"], tmp_path / "scheduler.json"
-    common = ["--scheduler-file", str(file), "--no-dashboard"]
-    began = [subprocess.Popen([*dask, "scheduler", "--port", "0", *common], **quiet)]
-    try:
-        worker = ["worker", *common, "--nthreads", "1", "--no-nanny", "--local-directory"]
-        began += [subprocess.Popen([*dask, *worker, str(tmp_path)], **quiet) for _ in range(2)]
-        while not file.exists():
-            time.sleep(0.1)
-        import json
-
-        address = json.loads(file.read_text())["address"]
-
-        def murder(now):
-            if now.done > 50:
-                began[1].kill()
-
-        plan = plan_of(tmp_path, cases=200)
-        options = {"work": slow, "report": murder, "store_every": 0.2}
-        end = run(plan, tmp_path / "c", scheduler=address, **options)
-        assert began[1].wait(10) and (end.done, end.failed) == (200, 0)
-    finally:
-        for process in began:
-            process.kill()
-            process.wait()
-    run(plan, tmp_path / "d", workers=2, work=stand_in)
-    assert table(tmp_path / "c").equals(table(tmp_path / "d"))
-
-
 def test_a_scheduler_that_is_not_there_is_named(tmp_path, monkeypatch):
     pytest.importorskip("distributed", reason="the cluster extra is not installed")
     monkeypatch.setattr("viscotack.campaign.cluster._CONNECT", 0.2)

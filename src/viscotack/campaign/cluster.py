@@ -26,6 +26,8 @@ _CONNECT, _FIRST, _AGAIN = 8.0, 12.0, 120.0
 _LISTED = 1.0
 # Cases that a thread of a cluster has beside the one it is at, for the way takes a while.
 _AHEAD = 1
+# Seconds in which an answer that is ready comes over the wire.
+_FETCH = 3.0
 _THREAD = threading.local()
 
 
@@ -130,17 +132,32 @@ class DaskCrew:
         machine = self._machines.get(address)
         if machine is not None:
             machine.flying.discard(what)
-        if future.cancelled():
-            self._check_connection()
-            yield what, Lost(f"the cluster gave it up with its worker {address}", blame=False)
-        elif (error := future.exception()) is not None:
+        if future.status == "error":
+            error = future.exception(timeout=_FETCH)
             self._dismiss(address, f"{type(error).__name__}: {error}")
             yield what, Lost(f"its worker {address} cannot do it: {error}", blame=False)
-        elif isinstance(answer := future.result(), str):
+            return
+        answer = self._fetched(future)
+        if answer is None:
+            self._check_connection()
+            future.cancel()
+            yield what, Lost(f"its worker {address} left with its answer", blame=False)
+        elif isinstance(answer, str):
             self._dismiss(address, answer)
             yield what, Lost(f"its worker {address} is of another program: {answer}", blame=False)
         else:
             yield what, answer
+
+    def _fetched(self, future: Any) -> Answer | Lost | str | None:
+        """Return what a future holds; None where that is gone, for it lies where it was made."""
+        from distributed import CancelledError
+
+        if future.status != "finished":
+            return None
+        try:
+            return future.result(timeout=_FETCH)
+        except (CancelledError, TimeoutError, OSError, LookupError):
+            return None
 
     def _dismiss(self, address: str, why: str) -> None:
         """Give a machine nothing any more."""
