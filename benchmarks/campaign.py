@@ -9,22 +9,26 @@ their tables with that of an undisturbed run, wall times aside.
 from __future__ import annotations
 
 import argparse
+import ctypes
 import os
 import random
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
 
-from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, run
+from viscotack import InputError
+from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, run, verify
 
 PLAN = Path(__file__).parent / "plans/thesis_like.toml"
 WORKERS = 2
@@ -39,6 +43,16 @@ def stand_in(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     row: dict[str, Any] = {"status": "detached", "outcome": "detached", "versions": "none"}
     row |= {f"number_{i}": float(i) for i in range(24)}
     return row | {f"trajectory_{name}": curve for name in ("depth", "force", "contact_radius")}
+
+
+def trouble(problem: Any, settings: CaseSettings) -> dict[str, Any]:
+    """Do the same, but for one case in a thousand that waits in C, and another that dies."""
+    number = int(1e6 * problem.rate) % 1000
+    if number == 3:
+        ctypes.PyDLL(None).sleep(1000)  # and lets no other thread do anything
+    if number == 4:
+        os._exit(1)
+    return stand_in(problem, settings)
 
 
 def table(folder: Path) -> Any:
@@ -160,7 +174,9 @@ def part_of_million(folder: Path, part: str, cases: int) -> None:
 def harassed(fast: bool) -> tuple[Plan, dict[str, Any]]:
     """Return what is run under kills: the real thing, or stand-ins that are stored one by one."""
     if fast:
-        return many(4_000), {"work": stand_in, "store_every": 0.0}
+        plan = many(4_000)
+        limits = replace(plan.settings, time_limit=0.3)
+        return replace(plan, settings=limits), {"work": trouble, "store_every": 0.0}
     return read_plan(PLAN), {"store_every": 0.2}
 
 
@@ -174,8 +190,28 @@ def child(folder: Path, fast: bool) -> None:
     run(plan, folder, workers=WORKERS, report=say, **options)
 
 
+SORTS = ("parent", "worker", "group", "sigterm to the group")
+
+
+def strike(started: subprocess.Popen[str], sort: str, chance: random.Random) -> None:
+    """Kill a run, its whole group or one of its workers; or ask all of them to end."""
+    if sort == "worker":
+        task = Path(f"/proc/{started.pid}/task/{started.pid}/children")
+        workers = task.read_text().split() if task.exists() else []
+        if workers:
+            with suppress(ProcessLookupError):
+                os.kill(int(chance.choice(workers)), signal.SIGKILL)
+        sleep(chance.uniform(0.0, 0.5))
+        started.kill()
+    elif sort == "parent":
+        started.kill()
+    else:
+        with suppress(ProcessLookupError):
+            os.killpg(started.pid, signal.SIGKILL if sort == "group" else signal.SIGTERM)
+
+
 def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 2026) -> None:
-    """Kill a run at random instants; then let it finish."""
+    """Kill a run at random instants, in turn as each of the sorts; then let it finish."""
     folder, chance = root / f"killed-{fast}", random.Random(seed)
     command = [sys.executable, __file__, "child", "--folder", str(folder)]
     told = met = 0
@@ -185,6 +221,7 @@ def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 202
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
+            start_new_session=True,
         )
         # one in five in the start, the others in the middle of things
         assert started.stdout is not None
@@ -192,10 +229,11 @@ def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 202
         first = next(lines, "") if number % 5 else ""
         sleep(chance.uniform(0.0, 1.0 if fast else 4.0))
         met += started.poll() is None
-        started.kill()
+        strike(started, SORTS[number % len(SORTS)], chance)
         words = (first + (started.communicate()[0] or "")).split()
         told = max([told, *map(int, words[1::2])])
         if (folder / "provenance.json").exists():
+            assert not verify(Store(folder)).wrong
             done, _ = Store(folder).finished()
             assert len(done) >= told, f"kill {number}: {told} were reported, {len(done)} are stored"
             assert len(done) == Store(folder).results().num_rows, "a case is stored twice"
@@ -204,8 +242,9 @@ def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 202
     before = len(Store(folder).finished()[0])
     plan, options = harassed(fast)
     end = run(plan, folder, workers=WORKERS, **options)
-    runs = Store(folder).provenance["runs"]
-    assert before == end.cases or runs[-1]["to_run"] == end.cases - before
+    ours, theirs = (Store(place).finished()[1] for place in (folder, reference))
+    assert ours == theirs, f"failures differ: {ours}, {theirs}"
+    assert end.failed == len(ours)
     print(
         f"{kills} kills, {met} of them met a run; {before} cases were stored by then, none lost "
         f"that was reported; {same(folder, reference)}"
@@ -221,7 +260,7 @@ def orphans() -> list[int]:
             parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except (OSError, IndexError):
             continue
-        if b"multiprocessing.spawn" in command and parent == 1:
+        if b"viscotack.campaign.worker" in command and parent == 1:
             found.append(int(path.name))
     return found
 
@@ -268,6 +307,34 @@ def cluster(root: Path, reference: Path) -> None:
             )
 
 
+def flips(root: Path, count: int = 2000) -> None:
+    """Turn bits of a small campaign, one at a time: each is seen, or changes nothing."""
+    folder, chance = root / "flips", random.Random(7)
+    run(many(40), folder, workers=WORKERS, work=stand_in, store_every=0.0)
+    whole, seen, same_ = told(folder), 0, 0
+    files = [*folder.glob("*/*.parquet"), folder / "cases.parquet", folder / "provenance.json"]
+    for _ in range(count):
+        path = chance.choice(sorted(files))
+        content = path.read_bytes()
+        turned = bytearray(content)
+        turned[chance.randrange(len(turned))] ^= 1 << chance.randrange(8)
+        path.write_bytes(turned)
+        try:
+            assert told(folder) == whole, f"{path} was read as something else"
+            same_ += 1
+        except InputError:
+            seen += 1
+        path.write_bytes(content)
+    print(f"{count} bits turned: {seen} were seen, {same_} changed nothing, none was other data")
+
+
+def told(folder: Path) -> Any:
+    """Return all that is read of a campaign."""
+    store = Store(folder)
+    tables = [table.to_pylist() for table in (store.results(), store.failures())]
+    return tables, list(store.plan().cases), store.settings
+
+
 def disk(root: Path) -> None:
     """Run into a full disk: a small file system in memory, where the system lets us mount one."""
     place = root / "small-disk"
@@ -292,7 +359,7 @@ def disk(root: Path) -> None:
         subprocess.run(["umount", str(place)], check=True)
 
 
-PARTS = ("speed", "overhead", "million", "kill", "cluster", "disk")
+PARTS = ("speed", "overhead", "million", "kill", "flips", "cluster", "disk")
 
 
 def main() -> None:
@@ -303,7 +370,7 @@ def main() -> None:
     parser.add_argument("--part", help=argparse.SUPPRESS)
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
-    parser.add_argument("--fast", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--fast", action="store_true", help="kill runs of stand-ins only")
     chosen = parser.parse_args()
     if chosen.parts == ["child"] and chosen.part:
         return part_of_million(chosen.folder, chosen.part, chosen.cases)
@@ -313,16 +380,20 @@ def main() -> None:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     with tempfile.TemporaryDirectory() as name:
         root = Path(name)
-        reference = speed(root) if {"speed", "kill", "cluster"} & set(parts) else root
+        solved = {"speed", "kill", "cluster"} & set(parts) and not chosen.fast
+        reference = speed(root) if solved else root
         if "overhead" in parts:
             overhead(root)
         if "million" in parts:
             million(root, chosen.cases)
         if "kill" in parts:
-            kill(root, reference, chosen.kills, fast=False)
+            if not chosen.fast:
+                kill(root, reference, chosen.kills, fast=False)
             plan, options = harassed(True)
             run(plan, root / "stand-ins", workers=WORKERS, **options)
             kill(root, root / "stand-ins", chosen.kills, fast=True)
+        if "flips" in parts:
+            flips(root)
         if "cluster" in parts:
             cluster(root, reference)
         if "disk" in parts:

@@ -28,7 +28,8 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     row = curve(result, pull_off(result))
     start, travel = result.depth[0], row["travel_to_pull_off"]
     assert travel == pytest.approx(start - synthetic.PULL_OFF_DEPTH, rel=1e-4)
-    for name, share in KEY_SHARES.items():
+    assert KEY_SHARES == {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
+    for name, share in (("25", 0.25), ("50", 0.5), ("75", 0.75), ("87_5", 0.875)):
         exact = exact_force(start - share * travel)
         assert row[f"force_at_{name}"] == pytest.approx(exact, rel=1e-4, abs=1e-4)
     depth, force = (np.array(row[f"trajectory_{name}"]) for name in ("depth", "force"))
@@ -83,6 +84,13 @@ def test_the_row_of_a_case_is_what_the_result_says():
     assert "numpy" in row["versions"]
     kinds = {type(v) for v in row.values() if v is not None}
     assert kinds <= {str, float, int, list}
+
+
+def test_a_case_is_pulled_as_far_as_its_settings_say():
+    near = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="pull-off"))
+    far = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="detached"))
+    assert near.get("work_of_separation") is None and far["work_of_separation"] > 0
+    assert near["steps"] < far["steps"]
 
 
 def test_an_answer_has_a_row_or_a_reason():

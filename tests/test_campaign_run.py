@@ -27,6 +27,7 @@ from viscotack.campaign.crew import Gone
 from viscotack.campaign.running import PASSING
 
 HERE = Path(__file__).parent
+PACKAGES = [path for path in [os.environ.get("PYTHONPATH")] if path]
 
 
 @pytest.fixture
@@ -286,7 +287,7 @@ def child(folder):
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env=os.environ | {"PYTHONPATH": str(HERE)},
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(HERE), *PACKAGES])},
     )
 
 

@@ -321,6 +321,8 @@ def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
     assert len(grown.plan().cases) == 5 and grown.finished() == ({"x"}, {})
     with pytest.raises(ValueError, match=r"accuracy = 0.002, the plan asks for 0.001; .*--out"):
         Store.create(tmp_path, plan_of(tmp_path / "p", text="settings.accuracy = 1e-3"))
+    with pytest.raises(ValueError, match=r"until = pull-off, the plan asks for detached; .*--out"):
+        Store.create(tmp_path, plan_of(tmp_path / "p", text='settings.until = "detached"'))
 
 
 def test_failures_never_enter_the_results(tmp_path):

@@ -20,8 +20,9 @@ from .case import Answer, CaseSettings, Work
 from .crew import Gone, Lost, NoWorker
 from .identity import difference, identity
 
-# Seconds to wait for the scheduler; for the first worker; for another one when all have left.
-_CONNECT, _FIRST, _AGAIN = 8.0, 12.0, 120.0
+# Seconds to wait for the scheduler; for the first worker; for one that is there to say what it runs,
+# for which it imports much; for another one when all have left.
+_CONNECT, _FIRST, _ANSWER, _AGAIN = 8.0, 12.0, 60.0, 120.0
 # Seconds for which a list of the workers serves: they come and go.
 _LISTED = 1.0
 # Cases that a thread of a cluster has beside the one it is at, for the way takes a while.
@@ -200,8 +201,15 @@ class DaskCrew:
                 )
         if any(machine.fit for machine in self._machines.values()):
             self._seen = now
-        elif now - self._seen > (_AGAIN if self._ever else _FIRST):
+        elif now - self._seen > self._patience():
             raise NoWorker(self._nobody())
+
+    def _patience(self) -> float:
+        """Return how long to go on without a worker that is fit [s]."""
+        if self._ever:
+            return _AGAIN
+        is_asked = any(not machine.unfit for machine in self._machines.values())
+        return _ANSWER if is_asked else _FIRST
 
     def _nobody(self) -> str:
         """Return words for why there is no worker."""
