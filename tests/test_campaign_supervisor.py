@@ -215,6 +215,7 @@ def running(tmp_path, work, cases=400, text=""):
         stdout=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        env=os.environ | {"CAMPAIGN_TEST_BEGAN": str(tmp_path)},
     )
     try:
         yield process
@@ -260,10 +261,11 @@ def slow_work():
 @pytest.mark.parametrize("work", [waiting, holding])
 def test_no_worker_outlives_its_parent(tmp_path, work):
     with running(tmp_path, work) as process:
-        until(lambda: (tmp_path / "c/provenance.json").exists())
-        until(lambda: len(children(process.pid)) == 2)
+        until(lambda: (tmp_path / "c/provenance.json").exists(), seconds=60.0)
+        until(lambda: len([*tmp_path.glob("[0-9]*")]) == 2, seconds=60.0)
         workers = children(process.pid)
-        time.sleep(2.0)  # at their cases
+        assert {str(worker) for worker in workers} == {p.name for p in tmp_path.glob("[0-9]*")}
+        time.sleep(0.3)
         process.kill()
         process.wait()
         until(lambda: not any(map(lives, workers)), seconds=5.0)

@@ -20,7 +20,7 @@ from .case import Answer, CaseSettings, Work
 from .crew import Gone, Lost, NoWorker
 from .identity import difference, identity
 
-# Seconds to wait for the scheduler; for the first worker; for one that is there to say what it runs,
+# Seconds to wait for the scheduler; for the first worker; for one that is there to say what it is,
 # for which it imports much; for another one when all have left.
 _CONNECT, _FIRST, _ANSWER, _AGAIN = 8.0, 12.0, 60.0, 120.0
 # Seconds for which a list of the workers serves: they come and go.
