@@ -25,6 +25,7 @@ DASK = [sys.executable, "-m", "dask"]
 
 @pytest.fixture(autouse=True)
 def findable(monkeypatch):
+    monkeypatch.setattr(cluster, "_FIRST", 60.0)  # on a machine that is busy with others
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HERE), os.environ["PYTHONPATH"]]))
 
 
@@ -153,7 +154,6 @@ def test_no_worker_no_case(tmp_path, monkeypatch):
             run(plan, tmp_path / "a", scheduler=dask.address, work=stand_in)
         assert time.monotonic() - began < 15
         # one with altered physics, and one that has no such package at all
-        monkeypatch.setattr(cluster, "_FIRST", 12.0)
         dask.hire(1, altered(tmp_path / "altered"))
         with pytest.raises(NoWorker, match=r"of another program: source \S+ and not \S+"):
             run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in)
