@@ -3,9 +3,9 @@
 import csv
 import io
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from .parts import arrow
 
 # What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
 _MOST_MAT = 1e9
+# Rows of a CSV file that are made at once.
+_ROWS = 2000
 
 
 def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
@@ -62,13 +64,18 @@ def _write_csv(rows: Ordered, names: list[str], path: Target) -> None:
         else:
             header.append(cell(name))
     with writing_whole(path) as file:
-        for number, table in enumerate(rows.chunks()):
-            text = io.StringIO()
-            writer = csv.writer(text, lineterminator="\n")
-            if not number:
-                writer.writerow(header)
-            writer.writerows(zip(*_columns(table, names, rows.widths), strict=True))
-            file.write(text.getvalue().encode())
+        _write_rows(file, [header])
+        for table in rows.chunks():
+            # as words and numbers of Python's a row is ten times as large
+            for begin in range(0, table.num_rows, _ROWS):
+                some = table.slice(begin, _ROWS)
+                _write_rows(file, zip(*_columns(some, names, rows.widths), strict=True))
+
+
+def _write_rows(file: IO[bytes], rows: Iterable[Iterable[Any]]) -> None:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    file.write(text.getvalue().encode())
 
 
 def _columns(table: Any, names: list[str], widths: dict[str, int]) -> Iterator[list[Any]]:

@@ -24,6 +24,16 @@ from .identity import difference, identity
 from .memory import resident_memory
 from .worker import Line
 
+# What a worker does first, before it imports anything that takes a while: where the system can kill
+# it when its parent ends, also while it waits in C, it is asked to.
+_MORTAL = """\
+import ctypes, os, signal, sys
+if sys.platform == "linux":
+    PR_SET_PDEATHSIG = 1
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+if os.getppid() != {parent}:
+    os._exit(1)  # it has ended already
+"""
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 # Seconds between two looks at the workers: a limit is kept to about as much.
 _LOOK = 0.05
@@ -248,9 +258,10 @@ def local(work: Work, settings: CaseSettings, workers: int) -> Iterator[LocalCre
 
 def _program(handle: int) -> str:
     """Return what a fresh interpreter does to be a worker; modules are found where we find them."""
-    return (
-        f"import sys; sys.path[:] = {sys.path!r}; "
-        f"from viscotack.campaign.worker import serve; serve({handle}, {os.getpid()})"
+    return _MORTAL.format(parent=os.getpid()) + (
+        f"sys.path[:] = {sys.path!r}\n"
+        f"from viscotack.campaign.worker import serve\n"
+        f"serve({handle})\n"
     )
 
 

@@ -6,7 +6,6 @@ that the process lives. Nothing is raised in the work from outside: a case ends 
 clock of the march, or its process is killed.
 """
 
-import ctypes
 import os
 import pickle
 import runpy
@@ -17,6 +16,7 @@ import struct
 import sys
 import threading
 import types
+from contextlib import suppress
 from time import monotonic
 from typing import Any
 
@@ -25,7 +25,6 @@ BEAT = 1.0
 # Seconds after which a worker that is given nothing ends: on a cluster nobody may come again.
 _IDLE = 600.0
 _LENGTH = struct.Struct("!Q")
-_PR_SET_PDEATHSIG = 1
 
 
 class Line:
@@ -80,21 +79,22 @@ class Line:
         return found
 
 
-def serve(handle: int, parent: int) -> None:
+def serve(handle: int) -> None:
     """Do the cases that come over a socket; return when it is closed.
 
     Parameters
     ----------
     handle : int
         Of the socket, inherited.
-    parent : int
-        Number of the process that supervises this one.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)  # meant for the parent, which lets cases end
     signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
-    _end_with(parent)
-    line = Line(socket.socket(fileno=handle))
+    with suppress(ConnectionError):  # the parent has gone, and needs no answer
+        _serve(Line(socket.socket(fileno=handle)))
+
+
+def _serve(line: Line) -> None:
     threading.Thread(target=_beat, args=(line,), daemon=True).start()
     try:
         from .case import attempt
@@ -136,14 +136,6 @@ def _beat(line: Line) -> None:
             line.send(("alive", monotonic()))
         except OSError:
             os._exit(1)  # the parent has gone
-
-
-def _end_with(parent: int) -> None:
-    """Let the system kill this process when its parent ends, where it can: also while it waits."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    if os.getppid() != parent:  # it ended before
-        os._exit(1)
 
 
 def _become(main: str | None) -> None:
