@@ -19,7 +19,7 @@ from .parts import arrow
 # What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
 _MOST_MAT = 1e9
 # Rows of a CSV file that are made at once.
-_ROWS = 2000
+_ROWS = 1000
 
 
 def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
