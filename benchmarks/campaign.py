@@ -9,22 +9,26 @@ their tables with that of an undisturbed run, wall times aside.
 from __future__ import annotations
 
 import argparse
+import ctypes
 import os
 import random
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
 
 import numpy as np
 
-from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, run
+from viscotack import InputError
+from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, run, verify
 
 PLAN = Path(__file__).parent / "plans/thesis_like.toml"
 WORKERS = 2
@@ -39,6 +43,16 @@ def stand_in(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     row: dict[str, Any] = {"status": "detached", "outcome": "detached", "versions": "none"}
     row |= {f"number_{i}": float(i) for i in range(24)}
     return row | {f"trajectory_{name}": curve for name in ("depth", "force", "contact_radius")}
+
+
+def trouble(problem: Any, settings: CaseSettings) -> dict[str, Any]:
+    """Do the same, but for one case in a hundred that waits in C, and another that dies."""
+    number = int(1e6 * problem.rate) % 100
+    if number == 3:
+        ctypes.PyDLL(None).sleep(1000)  # and lets no other thread do anything
+    if number == 4:
+        os._exit(1)
+    return stand_in(problem, settings)
 
 
 def table(folder: Path) -> Any:
@@ -113,10 +127,56 @@ def overhead(root: Path) -> None:
         )
 
 
+def million(root: Path, cases: int) -> None:
+    """Plan, run, count and export very many stand-ins, each in a process of its own."""
+    folder = root / "million"
+    for part in ("run", "status", "export", "verify"):
+        began = perf_counter()
+        command = [sys.executable, __file__, "child", "--folder", str(folder), "--part", part]
+        done = subprocess.run([*command, "--cases", str(cases)], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        took = perf_counter() - began
+        print(f"{part:8} {cases} cases: {took:.0f} s; {done.stdout.strip()}", flush=True)
+
+
+def part_of_million(folder: Path, part: str, cases: int) -> None:
+    """Do one part, and say how much memory this process had at most."""
+    from viscotack.campaign import export, verify
+
+    if part == "run":
+        began = perf_counter()
+        plan = many(cases)
+        planned = perf_counter() - began
+        end = run(plan, folder, workers=WORKERS, work=stand_in)
+        assert (end.done, end.failed) == (cases, 0)
+        files = sum(1 for _ in folder.rglob("*.parquet"))
+        print(
+            f"plan {planned:.0f} s, {1e3 * end.elapsed_s / cases:.2f} ms a case, {files} files,"
+            f" a worker {end.peak_memory / 1e6:.0f} MB",
+            end=", ",
+        )
+    elif part == "status":
+        store = Store(folder)
+        assert store.standing(store.plan().cases).done.sum() == cases
+        assert not store.reasons()
+    elif part == "verify":
+        assert not verify(Store(folder)).wrong
+    else:
+        with Store(folder).ordered_results() as rows:
+            assert rows.rows == cases
+            for ending in (".csv", ".parquet"):
+                export(rows, folder / f"table{ending}")
+                print(f"{(folder / f'table{ending}').stat().st_size / 1e6:.0f} MB", end=", ")
+                (folder / f"table{ending}").unlink()
+    print(f"this process {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
+
+
 def harassed(fast: bool) -> tuple[Plan, dict[str, Any]]:
     """Return what is run under kills: the real thing, or stand-ins that are stored one by one."""
     if fast:
-        return many(4_000), {"work": stand_in, "store_every": 0.0}
+        plan = many(600)
+        limits = replace(plan.settings, time_limit=0.3)
+        return replace(plan, settings=limits), {"work": trouble, "store_every": 0.02}
     return read_plan(PLAN), {"store_every": 0.2}
 
 
@@ -130,17 +190,38 @@ def child(folder: Path, fast: bool) -> None:
     run(plan, folder, workers=WORKERS, report=say, **options)
 
 
+SORTS = ("parent", "worker", "group", "sigterm to the group")
+
+
+def strike(started: subprocess.Popen[str], sort: str, chance: random.Random) -> None:
+    """Kill a run, its whole group or one of its workers; or ask all of them to end."""
+    if sort == "worker":
+        task = Path(f"/proc/{started.pid}/task/{started.pid}/children")
+        workers = task.read_text().split() if task.exists() else []
+        if workers:
+            with suppress(ProcessLookupError):
+                os.kill(int(chance.choice(workers)), signal.SIGKILL)
+        sleep(chance.uniform(0.0, 0.5))
+        started.kill()
+    elif sort == "parent":
+        started.kill()
+    else:
+        with suppress(ProcessLookupError):
+            os.killpg(started.pid, signal.SIGKILL if sort == "group" else signal.SIGTERM)
+
+
 def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 2026) -> None:
-    """Kill a run at random instants; then let it finish."""
+    """Kill a run at random instants, in turn as each of the sorts; then let it finish."""
     folder, chance = root / f"killed-{fast}", random.Random(seed)
     command = [sys.executable, __file__, "child", "--folder", str(folder)]
-    told = met = 0
+    told, met, known = 0, 0, set(orphans())
     for number in range(kills):
         started = subprocess.Popen(
             [*command, *(["--fast"] if fast else [])],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
+            start_new_session=True,
         )
         # one in five in the start, the others in the middle of things
         assert started.stdout is not None
@@ -148,20 +229,22 @@ def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 202
         first = next(lines, "") if number % 5 else ""
         sleep(chance.uniform(0.0, 1.0 if fast else 4.0))
         met += started.poll() is None
-        started.kill()
+        strike(started, SORTS[number % len(SORTS)], chance)
         words = (first + (started.communicate()[0] or "")).split()
         told = max([told, *map(int, words[1::2])])
         if (folder / "provenance.json").exists():
+            assert not verify(Store(folder)).wrong
             done, _ = Store(folder).finished()
             assert len(done) >= told, f"kill {number}: {told} were reported, {len(done)} are stored"
             assert len(done) == Store(folder).results().num_rows, "a case is stored twice"
     sleep(1.0)
-    assert not orphans(), "a worker has outlived its run"
+    assert not set(orphans()) - known, "a worker has outlived its run"
     before = len(Store(folder).finished()[0])
     plan, options = harassed(fast)
     end = run(plan, folder, workers=WORKERS, **options)
-    runs = Store(folder).provenance["runs"]
-    assert before == end.cases or runs[-1]["to_run"] == end.cases - before
+    ours, theirs = (Store(place).finished()[1] for place in (folder, reference))
+    assert ours == theirs, f"failures differ: {ours}, {theirs}"
+    assert end.failed == len(ours)
     print(
         f"{kills} kills, {met} of them met a run; {before} cases were stored by then, none lost "
         f"that was reported; {same(folder, reference)}"
@@ -177,7 +260,7 @@ def orphans() -> list[int]:
             parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except (OSError, IndexError):
             continue
-        if b"multiprocessing.spawn" in command and parent == 1:
+        if b"viscotack.campaign.worker" in command and parent == 1:
             found.append(int(path.name))
     return found
 
@@ -224,6 +307,34 @@ def cluster(root: Path, reference: Path) -> None:
             )
 
 
+def flips(root: Path, count: int = 2000) -> None:
+    """Turn bits of a small campaign, one at a time: each is seen, or changes nothing."""
+    folder, chance = root / "flips", random.Random(7)
+    run(many(40), folder, workers=WORKERS, work=stand_in, store_every=0.0)
+    whole, seen, same_ = told(folder), 0, 0
+    files = [*folder.glob("*/*.parquet"), folder / "cases.parquet", folder / "provenance.json"]
+    for _ in range(count):
+        path = chance.choice(sorted(files))
+        content = path.read_bytes()
+        turned = bytearray(content)
+        turned[chance.randrange(len(turned))] ^= 1 << chance.randrange(8)
+        path.write_bytes(turned)
+        try:
+            assert told(folder) == whole, f"{path} was read as something else"
+            same_ += 1
+        except InputError:
+            seen += 1
+        path.write_bytes(content)
+    print(f"{count} bits turned: {seen} were seen, {same_} changed nothing, none was other data")
+
+
+def told(folder: Path) -> Any:
+    """Return all that is read of a campaign."""
+    store = Store(folder)
+    tables = [table.to_pylist() for table in (store.results(), store.failures())]
+    return tables, list(store.plan().cases), store.settings
+
+
 def disk(root: Path) -> None:
     """Run into a full disk: a small file system in memory, where the system lets us mount one."""
     place = root / "small-disk"
@@ -248,31 +359,41 @@ def disk(root: Path) -> None:
         subprocess.run(["umount", str(place)], check=True)
 
 
-PARTS = ("speed", "overhead", "kill", "cluster", "disk")
+PARTS = ("speed", "overhead", "million", "kill", "flips", "cluster", "disk")
 
 
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("parts", nargs="*", help=", ".join(PARTS), default=[])
+    parser.add_argument("--cases", type=int, default=1_000_000)
+    parser.add_argument("--part", help=argparse.SUPPRESS)
     parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
-    parser.add_argument("--fast", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("--fast", action="store_true", help="kill runs of stand-ins only")
     chosen = parser.parse_args()
+    if chosen.parts == ["child"] and chosen.part:
+        return part_of_million(chosen.folder, chosen.part, chosen.cases)
     if chosen.parts == ["child"]:
         return child(chosen.folder, chosen.fast)
     parts = chosen.parts or PARTS
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     with tempfile.TemporaryDirectory() as name:
         root = Path(name)
-        reference = speed(root) if {"speed", "kill", "cluster"} & set(parts) else root
+        solved = {"speed", "kill", "cluster"} & set(parts) and not chosen.fast
+        reference = speed(root) if solved else root
         if "overhead" in parts:
             overhead(root)
+        if "million" in parts:
+            million(root, chosen.cases)
         if "kill" in parts:
-            kill(root, reference, chosen.kills, fast=False)
+            if not chosen.fast:
+                kill(root, reference, chosen.kills, fast=False)
             plan, options = harassed(True)
             run(plan, root / "stand-ins", workers=WORKERS, **options)
             kill(root, root / "stand-ins", chosen.kills, fast=True)
+        if "flips" in parts:
+            flips(root)
         if "cluster" in parts:
             cluster(root, reference)
         if "disk" in parts:

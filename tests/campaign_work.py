@@ -1,14 +1,17 @@
 """Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
 
+import ctypes
 import os
 import signal
-from concurrent.futures import Future
-from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from pathlib import Path
 from time import sleep
 
+import numpy as np
+
 from viscotack import InputError
-from viscotack.campaign import read_plan
+from viscotack.campaign import Store, read_plan
+from viscotack.campaign.case import attempt
 from viscotack.campaign.crew import Lost
 
 
@@ -66,6 +69,73 @@ def deadly(problem, settings):
     return stand_in(problem, settings)
 
 
+def tell_that_it_began():
+    """Leave a file by the number of this process, where somebody waits for it."""
+    if folder := os.environ.get("CAMPAIGN_TEST_BEGAN"):
+        Path(folder, str(os.getpid())).touch()
+
+
+def waiting(problem, settings):
+    """Wait in C, where no exception reaches."""
+    tell_that_it_began()
+    ctypes.CDLL(None).sleep(1000)
+
+
+def holding(problem, settings):
+    """Wait in C and let no other thread of the process do anything."""
+    tell_that_it_began()
+    ctypes.PyDLL(None).sleep(1000)
+
+
+class Stubborn:
+    """Waits where exceptions are swallowed."""
+
+    def __del__(self):
+        sleep(1000)
+
+
+def stubborn(problem, settings):
+    """Wait in the end of an object."""
+    Stubborn()
+
+
+def growing(problem, settings):
+    """Take more and more memory."""
+    held = []
+    while True:
+        held.append(np.ones(500_000))
+        sleep(2e-3)
+
+
+BALLAST = []
+
+
+def at_rest(problem, settings):
+    """Take 80 MB and keep them, as a cache does; less than a limit of 100 MB in each case."""
+    BALLAST.append(np.ones(10_000_000))
+    sleep(0.2)
+    return stand_in(problem, settings)
+
+
+def threads(problem, settings):
+    """Return how many threads linear algebra has, and where that was said."""
+    from threadpoolctl import threadpool_info
+
+    row = {name: os.environ.get(name) for name in os.environ if name.endswith("NUM_THREADS")}
+    return row | {"blas": max(pool["num_threads"] for pool in threadpool_info())}
+
+
+def bare(problem, settings):
+    """Be said to come from elsewhere."""
+
+
+def trouble(problem, settings):
+    """Die in one case, and never end in another one."""
+    if problem.rate == 11:
+        holding(problem, settings)
+    return deadly(problem, settings)
+
+
 def interrupting(problem, settings):
     """Press ctrl-C in one case; only for a crew within the process."""
     if problem.rate == 7:
@@ -73,35 +143,55 @@ def interrupting(problem, settings):
     return stand_in(problem, settings)
 
 
+def told(folder):
+    """Return all that a campaign says, but for wall times."""
+    store = Store(folder)
+    tables = [table.to_pylist() for table in (store.results(), store.failures())]
+    for row in (row for table in tables for row in table):
+        row.pop("wall_time_s")
+    return *tables, store.plan().cases, store.settings
+
+
+@contextmanager
+def flipped(folder, chance):
+    """Turn one bit of a file that is read, for the block."""
+    files = [*folder.glob("*/*.parquet"), folder / "cases.parquet", folder / "provenance.json"]
+    path = chance.choice(sorted(files))
+    content = path.read_bytes()
+    turned = bytearray(content)
+    turned[chance.randrange(len(turned))] ^= 1 << chance.randrange(8)
+    path.write_bytes(turned)
+    try:
+        yield path
+    finally:
+        path.write_bytes(content)
+
+
 class InlineCrew:
     """A crew that does each case when it is handed in; `deaths` names the rates that kill it."""
 
-    def __init__(self, workers=2, deaths=(), certain=False):
-        self.count, self.deaths, self.certain = workers, list(deaths), certain
-        self.done, self.renewed = [], 0
+    def __init__(self, workers=2, deaths=(), blame=True):
+        self.count, self.deaths, self.blame = workers, list(deaths), blame
+        self.done, self.alone, self.waiting = [], [], []
 
-    def submit(self, function, work, problem, settings):
-        future = Future()
+    def room(self):
+        return 2 * self.count + 1 - len(self.waiting)
+
+    def hand(self, number, problem):
         rate = float(problem.split('"rate": ')[1].split(",")[0].rstrip("}"))
         if rate in self.deaths:
             self.deaths.remove(rate)
-            future.set_exception(BrokenProcessPool("died"))
-            return future
+            self.alone.append(not self.waiting)
+            self.waiting.append((number, Lost("its worker process died", blame=self.blame)))
+            return
         self.done.append(rate)
-        future.set_result(function(work, problem, settings))
-        return future
+        self.waiting.append((number, attempt(self.work, problem, self.settings)))
 
-    def outcome(self, future):
-        try:
-            return future.result()
-        except BrokenProcessPool:
-            raise Lost("its worker process died", certain=self.certain) from None
+    def collect(self, seconds):
+        return [self.waiting.pop(0)] if self.waiting else []
 
     def workers(self):
         return self.count
-
-    def renew(self):
-        self.renewed += 1
 
 
 def employ(monkeypatch, crew):
@@ -109,7 +199,9 @@ def employ(monkeypatch, crew):
     from importlib import import_module
 
     @contextmanager
-    def local(workers):
+    def local(work, settings, workers):
+        crew.work, crew.settings = work, settings
+        crew.waiting.clear()
         yield crew
 
     # the package has a function of the same name as the module

@@ -1,6 +1,4 @@
 import json
-import threading
-import time
 
 import numpy as np
 import pytest
@@ -14,7 +12,6 @@ from viscotack.campaign.case import (
     attempt,
     curve,
 )
-from viscotack.campaign.limits import LimitExceeded, Watch, peak_memory, resident_memory
 
 PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
@@ -31,7 +28,8 @@ def test_key_points_and_trajectory_lie_on_the_curve():
     row = curve(result, pull_off(result))
     start, travel = result.depth[0], row["travel_to_pull_off"]
     assert travel == pytest.approx(start - synthetic.PULL_OFF_DEPTH, rel=1e-4)
-    for name, share in KEY_SHARES.items():
+    assert KEY_SHARES == {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}
+    for name, share in (("25", 0.25), ("50", 0.5), ("75", 0.75), ("87_5", 0.875)):
         exact = exact_force(start - share * travel)
         assert row[f"force_at_{name}"] == pytest.approx(exact, rel=1e-4, abs=1e-4)
     depth, force = (np.array(row[f"trajectory_{name}"]) for name in ("depth", "force"))
@@ -88,6 +86,13 @@ def test_the_row_of_a_case_is_what_the_result_says():
     assert kinds <= {str, float, int, list}
 
 
+def test_a_case_is_pulled_as_far_as_its_settings_say():
+    near = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="pull-off"))
+    far = measure(synthetic.GROUPS, CaseSettings(accuracy=0.02, until="detached"))
+    assert near.get("work_of_separation") is None and far["work_of_separation"] > 0
+    assert near["steps"] < far["steps"]
+
+
 def test_an_answer_has_a_row_or_a_reason():
     good = attempt(lambda problem, settings: {"id": run_id(problem)}, PROBLEM, QUICK)
     assert good.row == {"id": run_id(synthetic.GROUPS)} and not good.failure
@@ -122,59 +127,11 @@ def test_a_stopped_simulation_is_a_failure_with_its_reason(monkeypatch):
     assert answer.failure == "refused" and "no pull-off" in answer.reason
 
 
-def endless(problem, settings):
-    while True:
-        np.linalg.solve(np.eye(20), np.ones(20))
-
-
-def greedy(problem, settings):
-    held = []
-    while True:
-        held.append(np.ones(1_000_000))
-        time.sleep(1e-3)
-
-
-def test_a_case_that_takes_too_long_is_ended():
-    answer = attempt(endless, PROBLEM, CaseSettings(time_limit=0.2))
+def test_a_case_that_marches_too_long_ends_by_itself():
+    answer = attempt(measure, PROBLEM, CaseSettings(accuracy=2e-4, time_limit=0.2))
     assert (answer.failure, answer.reason) == ("time limit", "took more than 0.2 s")
-    assert 0.2 <= answer.wall_time_s < 2
-
-
-@pytest.mark.skipif(not resident_memory(), reason="only Linux tells the memory of a process")
-def test_a_case_that_takes_too_much_memory_is_ended():
-    before = peak_memory()
-    answer = attempt(greedy, PROBLEM, CaseSettings(memory_limit=100e6, time_limit=20))
-    assert answer.failure == "memory limit" and "more than 100 MB" in answer.reason
-    # it is looked at every 50 ms, in which the case may take some more
-    assert 100e6 < answer.peak_memory == peak_memory() < before + 700e6
-
-
-def test_limits_hold_in_any_thread():
-    answers = []
-
-    def do():
-        answers.append(attempt(endless, PROBLEM, CaseSettings(time_limit=0.1)))
-
-    thread = threading.Thread(target=do)
-    thread.start()
-    thread.join(10)
-    assert answers[0].failure == "time limit"
-
-
-def test_a_limit_that_is_met_in_the_last_moment_does_not_come_late():
-    ended = 0
-    for i in range(60):
-        watch = Watch(seconds=2e-3, memory=1e12)
-        try:
-            with watch:
-                # ends in all moments around that at which the watch looks
-                until = time.perf_counter() + 1.7e-3 + i * 1e-5
-                while time.perf_counter() < until:
-                    pass
-        except LimitExceeded:
-            ended += 1
-        sum(range(1000))
-    assert 0 <= ended <= 60
+    assert 0.2 <= answer.wall_time_s < 1.5
+    assert "viscotack" in answer.versions and "source" in answer.versions
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,10 @@ import pytest
 from viscotack import AtDepth, StandardSolid, read_case
 from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
+from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import fill, grid
-from viscotack.campaign.running import expected_cost
+from viscotack.campaign.running import expected_costs
 from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
 
@@ -238,10 +239,11 @@ def test_a_wrong_plan_is_refused_with_its_place(tmp_path, name, text, words):
 
 
 def test_the_longest_cases_are_known_from_their_inputs():
-    kind = KINDS["sphere"]
-    deep = expected_cost(kind, INPUTS | {"preload": 100.0})
-    assert deep > expected_cost(kind, INPUTS | {"preload": 1.0})
-    assert expected_cost(kind, {"tabor": 1.0, "preload_force": -1.0}) == 1.0
+    stated = (INPUTS | {"preload": 100.0}, INPUTS | {"preload": 1.0})
+    stated += ({"tabor": 1.0, "preload_force": -1.0},)
+    cases = Cases.of(Case(str(i), inputs) for i, inputs in enumerate(stated))
+    deep, shallow, other = expected_costs(KINDS["sphere"], cases)
+    assert deep > shallow and other == 1.0
 
 
 def test_cases_written_as_a_table_are_the_same_plan(tmp_path):
@@ -260,6 +262,7 @@ def test_the_plans_of_the_docs_are_plans(tmp_path):
         r"```(?:toml)?\n((?:tabor|kind|problem).*?)```", page, re.DOTALL
     )
     written(tmp_path, LENS, "lens.toml")
+    written(tmp_path, "# an observable of one's own", "my.py")
     assert len(read_plan(written(tmp_path, table, "cases.csv")).cases) == 2
     plan = read_plan(written(tmp_path, whole.replace("cases = 10000", "cases = 16")))
     assert len(plan.cases) == 3 * 5 * 13 + 2 + 16

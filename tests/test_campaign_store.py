@@ -11,8 +11,27 @@ from scipy.io import loadmat
 
 from campaign_work import plan_of
 from viscotack.campaign import CaseSettings, Store, export
-from viscotack.campaign.parts import Parts, table_of
+from viscotack.campaign.parts import Ledger, Parts, parquet, table_of
 from viscotack.files.lock import FolderInUse, locked
+
+
+class Book:
+    """Keeps a ledger, as the provenance does; `notes` are all that it was told."""
+
+    def __init__(self, ledger=None):
+        self.ledger, self.notes = ledger or Ledger(), []
+
+    def note(self, ledger):
+        self.ledger = ledger
+        self.notes.append(ledger)
+
+
+def table_in(folder, book=None):
+    """Return a growing table with a ledger of its own."""
+    book = book or Book()
+    parts = Parts(folder, lambda: book.ledger, book.note)
+    parts.book = book
+    return parts
 
 
 def names(parts):
@@ -29,7 +48,7 @@ def files(parts):
 
 
 def test_rows_come_back_in_the_order_in_which_they_came(tmp_path):
-    parts = Parts(tmp_path / "results")
+    parts = table_in(tmp_path / "results")
     assert parts.read().num_rows == 0
     parts.append([])
     assert not (tmp_path / "results").exists()
@@ -39,7 +58,7 @@ def test_rows_come_back_in_the_order_in_which_they_came(tmp_path):
 
 
 def test_columns_of_parts_need_not_be_equal(tmp_path):
-    parts = Parts(tmp_path)
+    parts = table_in(tmp_path)
     parts.append([{"name": "a", "x": None, "curve": [1.0, None]}])
     parts.append([{"name": "b", "x": 2.0, "steps": 3, "word": "w"}, {"name": "c", "x": 3}])
     rows = parts.read().to_pylist()
@@ -50,7 +69,7 @@ def test_columns_of_parts_need_not_be_equal(tmp_path):
 
 def test_many_appends_leave_few_files(tmp_path, monkeypatch):
     monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
-    parts = Parts(tmp_path)
+    parts = table_in(tmp_path)
     appended(parts, 4**3 + 4 + 1)
     assert names(parts) == [f"case {i}" for i in range(4**3 + 4 + 1)]
     assert files(parts) == [
@@ -63,55 +82,163 @@ def test_many_appends_leave_few_files(tmp_path, monkeypatch):
 def test_a_large_part_is_not_merged_again(tmp_path, monkeypatch):
     monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
     monkeypatch.setattr("viscotack.campaign.parts._LARGEST", 10.0)
-    parts = Parts(tmp_path)
+    parts = table_in(tmp_path)
     appended(parts, 9)
     assert len(files(parts)) == 9 == len(names(parts))
 
 
-def test_a_merge_that_was_cut_short_changes_nothing(tmp_path):
-    parts = Parts(tmp_path)
-    appended(parts, 31)
-    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
-    appended(parts, 1, begin=31)
-    assert files(parts) == ["000001-000032.parquet"]
-    # killed after the large part was in place and some of the small ones were removed
-    for path, content in sorted(before.items())[:20]:
-        path.write_bytes(content)
-    (tmp_path / "000033-000033.parquet.1234.draft").write_bytes(b"PAR1 half")
-    assert names(parts) == [f"case {i}" for i in range(32)]
-    appended(parts, 1, begin=32)
-    parts.tidy()
-    assert files(parts) == ["000001-000032.parquet", "000033-000033.parquet"]
-    assert names(parts) == [f"case {i}" for i in range(33)]
+class Killed(BaseException):
+    """A run ends here, with all that it had not done."""
+
+
+def stopping_after(count, monkeypatch, parts):
+    """Let the process end at the change number `count`, of those to files and to the ledger."""
+    left = [count]
+
+    def counted(function):
+        def replacement(*arguments, **options):
+            left[0] -= 1
+            if left[0] < 0:
+                raise Killed
+            return function(*arguments, **options)
+
+        return replacement
+
+    for name in ("fsync", "link", "rename", "replace", "unlink"):
+        monkeypatch.setattr(os, name, counted(getattr(os, name)))
+    monkeypatch.setattr(parts.book, "note", counted(parts.book.note))
+    monkeypatch.setattr(parts, "_note", parts.book.note)
+
+
+def test_a_kill_at_any_instant_of_a_merge_changes_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    for instant in range(40):
+        folder = tmp_path / str(instant)
+        parts = table_in(folder)
+        appended(parts, 3)
+        with monkeypatch.context() as patch:
+            stopping_after(instant, patch, parts)
+            try:
+                appended(parts, 1, begin=3)
+                ended = True
+            except Killed:
+                ended = False
+        # the row that was on its way is stored, or is not; all others are there, once
+        found = names(table_in(folder, parts.book))
+        assert found in ([f"case {i}" for i in range(3)], [f"case {i}" for i in range(4)])
+        again = table_in(folder, parts.book)
+        again.settle()
+        appended(again, 5 - len(found), begin=len(found))
+        assert names(again) == [f"case {i}" for i in range(5)]
+        assert files(again) == ["000001-000004.parquet", "000005-000005.parquet"]
+        assert not again.strangers()
+        if ended:
+            break
+    assert ended and instant > 8
+
+
+def test_old_parts_go_only_when_the_merged_one_is_safe(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    parts, done = table_in(tmp_path), []
+    appended(parts, 3)
+
+    def told(name):
+        function = getattr(os, name)
+
+        def replacement(*arguments, **options):
+            done.append((name, parts.book.ledger.kept, {*os.listdir(tmp_path)}))
+            return function(*arguments, **options)
+
+        return replacement
+
+    for name in ("fsync", "link", "unlink"):
+        monkeypatch.setattr(os, name, told(name))
+    appended(parts, 1, begin=3)
+    merged = "000001-000004.parquet"
+    linked = [i for i, (name, _, _) in enumerate(done) if name == "link"][-1]
+    # the draft is on the disk before it has its name, and the name before anything else
+    assert done[linked - 1][0] == "fsync" and done[linked - 1][2] & {merged} == set()
+    removals = [i for i, (name, _, there) in enumerate(done) if name == "unlink" and i > linked]
+    draft, *old = removals
+    assert "fsync" in [name for name, _, _ in done[draft : old[0]]]
+    assert len(old) == 4
+    for i in old:
+        _, kept, there = done[i]
+        assert merged in there and [part.name for part in kept] == [merged]
 
 
 def test_a_reader_follows_a_merge(tmp_path, monkeypatch):
-    parts = Parts(tmp_path)
-    appended(parts, 31)
-    spans, looked = parts._spans(), []
-
-    def late():
-        looked.append(1)
-        if len(looked) == 1:
-            appended(Parts(tmp_path), 1, begin=31)
-            return spans
-        return Parts(tmp_path)._spans()
-
-    monkeypatch.setattr(parts, "_spans", late)
-    assert len(names(parts)) == 32 and len(looked) == 2
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    parts = table_in(tmp_path)
+    appended(parts, 3)
+    tables = parts.tables()
+    first = next(tables).column("name").to_pylist()
+    appended(table_in(tmp_path, parts.book), 1, begin=3)
+    assert len(files(parts)) == 1
+    rest = [name for table in tables for name in table.column("name").to_pylist()]
+    assert first + rest == [f"case {i}" for i in range(4)]
 
 
 def test_a_damaged_part_is_named(tmp_path):
-    parts = Parts(tmp_path)
+    parts = table_in(tmp_path)
     appended(parts, 2)
     path = tmp_path / "000002-000002.parquet"
     path.write_bytes(path.read_bytes()[:-20])
     with pytest.raises(ValueError, match="000002-000002.parquet is damaged.*run the campaign"):
         parts.read()
+    parts.settle()
+    path.unlink()
+    with pytest.raises(ValueError, match="000002-000002.parquet is missing.*run the campaign"):
+        parts.read()
+    assert [part.name for part in parts.forget_missing()] == [path.name]
+    assert names(parts) == ["case 0"]
+
+
+def test_pages_have_checksums_of_their_own(tmp_path):
+    # of a copy in another place nobody has a hash
+    rows = [{"name": f"{i}", "rate": 1000.0 + i} for i in range(50)]
+    content = bytearray(parquet(lambda: iter([table_of(rows)])).to_pybytes())
+    content[len(content) // 3] ^= 4
+    with pytest.raises(ValueError, match="a.parquet is damaged"):
+        table_in(tmp_path)
+        from viscotack.campaign.parts import _parsed
+
+        _parsed(tmp_path / "a.parquet", bytes(content), None)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "000001-000001 (copy).parquet",
+        "000001-999999.parquet",
+        "000003-000003.parquet",
+        "000009-000001.parquet",
+        "notes.txt",
+        "-.parquet",
+    ],
+)
+def test_a_stranger_among_the_parts_is_named_and_left_alone(tmp_path, name):
+    parts = table_in(tmp_path)
+    appended(parts, 2)
+    (tmp_path / name).write_bytes((tmp_path / "000001-000001.parquet").read_bytes())
+    assert [path.name for path in parts.strangers()] == [name]
+    parts.settle()
+    appended(parts, 2, begin=2)
+    assert names(parts) == [f"case {i}" for i in range(4)]
+    assert (tmp_path / name).exists()
+
+
+def test_a_stranger_in_the_way_of_a_merge_is_not_written_over(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
+    parts = table_in(tmp_path)
+    tmp_path.joinpath("000001-000004.parquet").write_text("precious")
+    appended(parts, 5)
+    assert names(parts) == [f"case {i}" for i in range(5)]
+    assert tmp_path.joinpath("000001-000004.parquet").read_text() == "precious"
 
 
 def test_a_full_disk_is_named_and_leaves_the_table_as_it_was(tmp_path, monkeypatch):
-    parts = Parts(tmp_path)
+    parts = table_in(tmp_path)
     appended(parts, 3)
 
     def full(_):
@@ -121,7 +248,7 @@ def test_a_full_disk_is_named_and_leaves_the_table_as_it_was(tmp_path, monkeypat
         patch.setattr(os, "fsync", full)
         with pytest.raises(OSError, match="no space left for .*make room and run again"):
             appended(parts, 1, begin=3)
-    assert len(files(parts)) == 3
+    assert len(files(parts)) == 3 and names(parts) == [f"case {i}" for i in range(3)]
     appended(parts, 1, begin=3)
     assert names(parts) == [f"case {i}" for i in range(4)]
 
@@ -130,16 +257,18 @@ def test_a_file_that_may_not_grow_is_named_too(tmp_path):
     # The bound of the system on a file's size stands for a quota; it holds for a whole process.
     code = (
         "import resource, signal; from pathlib import Path\n"
-        "from viscotack.campaign.parts import Parts\n"
+        "from viscotack.campaign.parts import Ledger, Parts\n"
+        "kept = [Ledger()]\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
-        f"parts = Parts(Path({str(tmp_path)!r})); parts.append([{{'name': 'a'}}])\n"
+        f"parts = Parts(Path({str(tmp_path)!r}), lambda: kept[-1], kept.append)\n"
+        "parts.append([{'name': 'a'}])\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (100, resource.RLIM_INFINITY))\n"
         "try:\n    parts.append([{'name': 'b'}])\n"
         "except OSError as error:\n    print(error)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert "no space left" in done.stdout
-    assert names(Parts(tmp_path)) == ["a"] and len(files(Parts(tmp_path))) == 1
+    assert len(files(table_in(tmp_path))) == 1
 
 
 HOLD = (
@@ -192,6 +321,8 @@ def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
     assert len(grown.plan().cases) == 5 and grown.finished() == ({"x"}, {})
     with pytest.raises(ValueError, match=r"accuracy = 0.002, the plan asks for 0.001; .*--out"):
         Store.create(tmp_path, plan_of(tmp_path / "p", text="settings.accuracy = 1e-3"))
+    with pytest.raises(ValueError, match=r"until = pull-off, the plan asks for detached; .*--out"):
+        Store.create(tmp_path, plan_of(tmp_path / "p", text='settings.until = "detached"'))
 
 
 def test_failures_never_enter_the_results(tmp_path):
@@ -218,7 +349,7 @@ def test_what_is_not_a_campaign_is_refused(tmp_path):
     (tmp_path / "provenance.json").write_text('{"format": "visc')
     with pytest.raises(ValueError, match=r"provenance.json is damaged"):
         Store(tmp_path)
-    newer = {"format": "viscotack campaign", "format_version": 2}
+    newer = {"format": "viscotack campaign", "format_version": 3}
     (tmp_path / "provenance.json").write_text(json.dumps(newer))
     with pytest.raises(ValueError, match="newer version"):
         Store(tmp_path)

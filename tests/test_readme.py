@@ -20,7 +20,7 @@ PAGES = [
 
 
 # A cluster is not at hand everywhere.
-NOT_AT_HAND = ("tcp://",)
+NOT_AT_HAND = ("tcp://", "tls://")
 
 
 def name(page):

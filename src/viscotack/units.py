@@ -15,6 +15,10 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s
 # "J/m2" and "J/m^2" are how people write it; the unit library wants "J/m**2".
 # The unit library passes over other marks, and would read "5 ?m" as metres.
 _UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
+# A power of a number says nothing that a number does not, and 9^9^9^9 is never done. Nor is a unit
+# as long as that.
+_POWER_OF_NUMBER = re.compile(r"[\d¹²³]\s*(\^|\*\*|⁻)|\d\s*[¹²³]")
+_LONGEST = 60
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
 
 
@@ -61,7 +65,7 @@ def parse(value: str | float, unit: str) -> float:
     match = _NUMBER_AND_UNIT.fullmatch(value)
     if match is None or match[2].startswith(","):
         raise InputError(
-            f"{value!r} is not a number and a unit; write it like '5.19 {unit}', "
+            f"{value!r:.80} is not a number and a unit; write it like '5.19 {unit}', "
             "with a decimal point"
         )
     number, words = float(match[1]), match[2]
@@ -76,6 +80,11 @@ def _converted(text: str, number: float, words: str, unit: str) -> float:
     import pint
 
     registry = _registry()
+    if len(words) > _LONGEST or _POWER_OF_NUMBER.search(words):
+        raise InputError(
+            f"{text!r:.80}: a unit is written with numbers as its powers only, such as 'kg m^-1 "
+            f"s^-2', and not with powers of numbers; expected something in {unit}"
+        )
     if _UNIT_MARKS.fullmatch(words) is None:
         raise InputError(f"{text!r}: the unit {words!r} is not known; expected something in {unit}")
     try:

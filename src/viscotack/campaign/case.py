@@ -18,13 +18,15 @@ from scipy.optimize import brentq
 from viscotack.bem import DEFAULT_ACCURACY, Accuracy, solve
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.problem.nouns import known, own_nouns
+from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
 
 from ..result import Outcome, Result
-from .limits import LimitExceeded, Watch, peak_memory
+from .identity import identity, words
+from .memory import peak_memory
+from .own import OwnChanged, nouns_of
 
 Array = npt.NDArray[np.float64]
 
@@ -58,11 +60,14 @@ class CaseSettings:
         How far to pull; to full separation takes about twice the time, and the work of separation
         is known only then.
     time_limit : float
-        Longest time of a case [s]; one that takes longer is a failure.
+        Longest time of a case [s]; one that takes longer is a failure. What does not end by itself
+        is ended with its process some seconds later.
     memory_limit : float
         Most memory of a case [bytes], beside what its worker has at rest; only on Linux.
     own : tuple of str
         Python files with laws, materials, shapes and observables of the user's own.
+    own_sha256 : tuple of str
+        Their hashes when the campaign was planned; () where they were not kept.
     """
 
     accuracy: Accuracy = DEFAULT_ACCURACY
@@ -76,12 +81,18 @@ class CaseSettings:
         Quantity("byte", "M", "most memory of a case beside its worker", above=0, example="400 MB"),
     ] = 400e6
     own: tuple[str, ...] = ()
+    own_sha256: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.until not in ("detached", "pull-off"):
             raise InputError(f"until must be 'detached' or 'pull-off', got {self.until!r}")
         conform(self)
-        object.__setattr__(self, "own", tuple(str(path) for path in self.own))
+        for name in ("own", "own_sha256"):
+            object.__setattr__(self, name, tuple(str(word) for word in getattr(self, name)))
+
+    def nouns(self) -> tuple[Any, ...]:
+        """Return what the user's own files define; OwnChanged where one has been edited since."""
+        return nouns_of(self.own, self.own_sha256)
 
 
 Work = Callable[[Any, CaseSettings], dict[str, Any]]
@@ -101,6 +112,8 @@ class Answer:
         Time of the case in the worker [s].
     peak_memory : float
         Largest resident memory that the worker has had [bytes].
+    versions : str
+        Of what was running, as one word of text; "" where the worker could not say.
     """
 
     row: dict[str, Any] | None
@@ -108,6 +121,7 @@ class Answer:
     reason: str
     wall_time_s: float
     peak_memory: float
+    versions: str = ""
 
 
 class Unsolved(Exception):
@@ -115,7 +129,9 @@ class Unsolved(Exception):
 
 
 def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
-    """Do the work of one case within its limits; an error is an answer too.
+    """Do the work of one case; an error is an answer too.
+
+    Limits are those of the work itself, and of who supervises this process.
 
     Parameters
     ----------
@@ -124,25 +140,26 @@ def attempt(work: Work, problem: str, settings: CaseSettings) -> Answer:
     problem : str
         The record of a problem as JSON.
     settings : CaseSettings
-        Passed on to the work; the limits are kept here.
+        Passed on to the work.
     """
     began = perf_counter()
-    watch = Watch(seconds=settings.time_limit, memory=settings.memory_limit)
     row, failure, reason = None, "", ""
     try:
-        with watch:
-            row = work(from_dict(json.loads(problem), own_nouns(settings.own)), settings)
-    except LimitExceeded:
-        row, failure, reason = None, watch.kind, watch.reason
+        row = work(from_dict(json.loads(problem), settings.nouns()), settings)
     except MemoryError as error:
         failure, reason = "memory limit", f"the machine has no more memory: {error}"
     except Unsolved as error:
         failure, reason = "stopped", str(error)
+    except OwnChanged as error:
+        failure, reason = "crashed", str(error)
     except InputError as error:
         failure, reason = "refused", str(error)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         failure, reason = "crashed", f"{type(error).__name__}: {error}"
-    return Answer(row, failure, reason, perf_counter() - began, peak_memory())
+    took = perf_counter() - began
+    if failure in ("stopped", "refused") and took > settings.time_limit:
+        failure, reason = "time limit", f"took more than {settings.time_limit:g} s"
+    return Answer(row, failure, reason, took, peak_memory(), words(identity()))
 
 
 def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
@@ -157,12 +174,17 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     """
     # a trajectory begins at the start that the row states
     result = solve(
-        problem, accuracy=settings.accuracy, until=settings.until, whole=True, throw=False
+        problem,
+        accuracy=settings.accuracy,
+        until=settings.until,
+        whole=True,
+        throw=False,
+        time_limit=settings.time_limit,
     )
     if result.outcome is Outcome.STOPPED:
         raise Unsolved(result.status)
     found = pull_off(result)
-    answer = summary(result, known(own_nouns(settings.own)).observables)
+    answer = summary(result, known(settings.nouns()).observables)
     errors, cost = answer["error_estimate"] or {}, answer["statistics"]
     row = {name: value for name, value in answer.items() if name not in _LEFT_OUT}
     row |= {"error_estimate": errors.get("force"), "error_estimate_work": errors.get("work")}

@@ -6,6 +6,7 @@ equally spaced quantiles, and any distribution can be stated.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -71,25 +72,32 @@ def fill(
         yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
 
 
+@dataclass
+class Tally:
+    """Counts points that are no contacts, and so are not run."""
+
+    rejected: int = 0
+
+
 def accepted(
-    rows: Iterator[dict[str, float]], accept: Any, wanted: int | None
-) -> tuple[list[dict[str, float]], int]:
-    """Return the rows that are accepted, up to the wanted number, and how many were not."""
-    kept: list[dict[str, float]] = []
-    rejected = 0
+    rows: Iterator[dict[str, float]], accept: Any, wanted: int | None, tally: Tally
+) -> Iterator[dict[str, float]]:
+    """Yield the rows that are accepted, up to the wanted number, and count those that are not."""
+    kept = rejected = 0
     for row in rows:
         if accept(row):
-            kept.append(row)
+            kept += 1
+            yield row
         else:
             rejected += 1
-        if wanted is not None and len(kept) == wanted:
+            tally.rejected += 1
+        if wanted is not None and kept == wanted:
             break
-        if rejected > 2 / _LEAST_ACCEPTED and len(kept) < _LEAST_ACCEPTED * rejected:
+        if rejected > 2 / _LEAST_ACCEPTED and kept < _LEAST_ACCEPTED * rejected:
             raise InputError(
-                f"only {len(kept)} of the first {len(kept) + rejected} points of a fill are "
-                "contacts; change its ranges"
+                f"only {kept} of the first {kept + rejected} points of a fill are contacts; "
+                "change its ranges"
             )
-    return kept, rejected
 
 
 def _points(dimensions: int, cases: int, method: str, seed: int) -> Iterator[list[float]]:

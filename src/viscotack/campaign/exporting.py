@@ -3,16 +3,23 @@
 import csv
 import io
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.files.whole import Target, write_whole
+from viscotack.files.text import cell
+from viscotack.files.whole import Target, write_whole, writing_whole
 
-from .parts import arrow, write_table
+from .ordering import Ordered, measured
+from .parts import arrow
+
+# What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
+_MOST_MAT = 1e9
+# Rows of a CSV file that are made at once.
+_ROWS = 1000
 
 
 def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
@@ -20,8 +27,9 @@ def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
 
     Parameters
     ----------
-    table : pyarrow.Table
-        `Store.results` or `Store.failures`.
+    table : pyarrow.Table or Ordered
+        `Store.results` or `Store.failures`; or what `Store.ordered_results` holds, of which only
+        some rows are in memory at a time.
     path : path or binary file
         Its ending chooses the format: ``.csv``, ``.parquet`` or ``.mat``; an open file gets CSV.
     trajectories : bool
@@ -31,43 +39,77 @@ def export(table: Any, path: Target, *, trajectories: bool = True) -> None:
     Raises
     ------
     ValueError
-        If the ending is another, or the table is empty.
+        If the ending is another, the table is empty, or too large for MATLAB.
     """
     suffix = Path(path).suffix if isinstance(path, str | os.PathLike) else ".csv"
     if suffix not in _WRITERS:
         raise InputError(f"{path}: the ending must be one of {', '.join(_WRITERS)}")
-    if not table.num_rows:
+    rows = table if isinstance(table, Ordered) else _whole(table)
+    if not rows.rows:
         raise InputError(f"there is nothing to write to {path}: the table has no rows")
     types = arrow().types
-    if not trajectories:
-        kept = [f.name for f in table.schema if not types.is_list(f.type)]
-        table = table.select(kept)
-    _WRITERS[suffix](table, path)
+    names = [f.name for f in rows.schema if trajectories or not types.is_list(f.type)]
+    _WRITERS[suffix](rows, names, path)
 
 
-def _write_csv(table: Any, path: Target) -> None:
-    columns: dict[str, list[Any]] = {}
-    for name in table.column_names:
-        values = table.column(name).to_pylist()
-        if arrow().types.is_list(table.schema.field(name).type):
-            longest = max(len(v or ()) for v in values)
-            for i in range(longest):
-                columns[f"{name}_{i + 1:02d}"] = [
-                    v[i] if v and i < len(v) else None for v in values
-                ]
+def _whole(table: Any) -> Ordered:
+    return Ordered(table.schema, table.num_rows, measured(table), lambda: iter([table]))
+
+
+def _write_csv(rows: Ordered, names: list[str], path: Target) -> None:
+    header: list[str] = []
+    for name in names:
+        if name in rows.widths:
+            header += [cell(f"{name}_{i + 1:02d}") for i in range(rows.widths[name])]
         else:
-            columns[name] = values
+            header.append(cell(name))
+    with writing_whole(path) as file:
+        _write_rows(file, [header])
+        for table in rows.chunks():
+            # as words and numbers of Python's a row is ten times as large
+            for begin in range(0, table.num_rows, _ROWS):
+                some = table.slice(begin, _ROWS)
+                _write_rows(file, zip(*_columns(some, names, rows.widths), strict=True))
+
+
+def _write_rows(file: IO[bytes], rows: Iterable[Iterable[Any]]) -> None:
     text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(columns)
-    rows.writerows(zip(*columns.values(), strict=True))
-    write_whole(path, text.getvalue().encode())
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    file.write(text.getvalue().encode())
 
 
-def _write_mat(table: Any, path: Target) -> None:
+def _columns(table: Any, names: list[str], widths: dict[str, int]) -> Iterator[list[Any]]:
+    """Yield the columns of a table in CSV: of a list one for each place."""
+    for name in names:
+        values = table.column(name).to_pylist()
+        if name in widths:
+            for i in range(widths[name]):
+                yield [v[i] if v and i < len(v) else None for v in values]
+        else:
+            yield [cell(v) if isinstance(v, str) else v for v in values]
+
+
+def _write_parquet(rows: Ordered, names: list[str], path: Target) -> None:
+    pa = arrow()
+    schema = pa.schema([rows.schema.field(name) for name in names])
+    with writing_whole(path) as file:
+        options = {"compression": "zstd", "write_page_checksum": True}
+        with pa.parquet.ParquetWriter(file, schema, **options) as writer:
+            for table in rows.chunks():
+                writer.write_table(table.select(names).cast(schema))
+
+
+def _write_mat(rows: Ordered, names: list[str], path: Target) -> None:
     from scipy.io import savemat
 
-    columns = {name.replace(".", "_"): _array(table.column(name)) for name in table.column_names}
+    size = 8 * rows.rows * sum(rows.widths.get(name, 1) for name in names)
+    if size > _MOST_MAT:
+        raise InputError(
+            f"{path}: {rows.rows} rows are {size / 1e6:.0f} MB, more than the "
+            f"{_MOST_MAT / 1e6:.0f} MB that a MATLAB file is made of; write --parquet or --csv"
+        )
+    table = rows.table()
+    columns = {name.replace(".", "_"): _array(table.column(name)) for name in names}
     content = io.BytesIO()
     savemat(content, columns, do_compression=True, oned_as="column")
     write_whole(path, content.getvalue())
@@ -85,8 +127,8 @@ def _array(column: Any) -> Any:
     return np.array([np.nan if v is None else v for v in values], dtype=float)
 
 
-_WRITERS: dict[str, Callable[[Any, Target], None]] = {
+_WRITERS: dict[str, Callable[[Ordered, list[str], Target], None]] = {
     ".csv": _write_csv,
-    ".parquet": write_table,
+    ".parquet": _write_parquet,
     ".mat": _write_mat,
 }

@@ -1,22 +1,39 @@
-"""A growing table as Parquet files that appear whole or not at all.
+"""A growing table as Parquet files that appear whole or not at all, and a ledger of them.
 
 A part holds the rows ``000007-000007.parquet`` of one append. When 32 parts of equal span have come
-together they are merged into one, so that 1e5 appends leave about a hundred files. A part whose
-span lies within that of another was merged already and is ignored: at any instant the directory
-says the same.
+together they are merged into one, so that 1e5 appends leave about a hundred files.
+
+The ledger says which parts there are, with the hash and the number of rows of each: nothing else in
+the directory is ever read or removed. It is kept by somebody else, durably, and is told *before* a
+part appears that it is coming, and before old parts go that the merged one is there. So at any
+instant ledger and files together say the same:
+
+============================  ==========================================================
+ledger                        files
+============================  ==========================================================
+kept A, B                     A, B
+kept A, B; coming C           A, B and perhaps C: C counts if it is there
+kept A, B; coming AB for two  A, B and perhaps AB: it does not count yet
+kept AB; replaced A, B        AB and perhaps A, B: they do not count, and may be removed
+============================  ==========================================================
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+import hashlib
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.files.whole import Target, write_whole
+from viscotack.files.whole import Target, is_draft, write_new, write_whole
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
-_LARGEST = 100e6
+_LARGEST = 30e6
 _TRIES = 5
+_NAME = re.compile(r"(\d{6,18})-(\d{6,18})\.parquet")
 
 
 def arrow() -> Any:
@@ -33,6 +50,60 @@ def arrow() -> Any:
     return pyarrow
 
 
+@dataclass(frozen=True)
+class Part:
+    """A part of the table: name of its file, hash of its bytes, and number of rows."""
+
+    name: str
+    sha256: str
+    rows: int
+
+    @property
+    def span(self) -> tuple[int, int]:
+        """First and last append in it."""
+        found = _NAME.fullmatch(self.name)
+        if found is None or int(found[1]) > int(found[2]):
+            raise InputError(f"{self.name!r} is no name of a part of a table")
+        return int(found[1]), int(found[2])
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """Which parts a table has; see the table at the top of this module.
+
+    Attributes
+    ----------
+    kept : tuple of Part
+        In the order of their rows.
+    coming : Part or None
+        One that is being written.
+    instead_of : int
+        Of how many of the last kept ones; 0 for new rows.
+    replaced : tuple of Part
+        Files that hold nothing that is not kept, and may be removed.
+    """
+
+    kept: tuple[Part, ...] = ()
+    coming: Part | None = None
+    instead_of: int = 0
+    replaced: tuple[Part, ...] = ()
+
+    def record(self) -> dict[str, Any]:
+        """Return the ledger as plain words and numbers."""
+        return asdict(self)
+
+    @classmethod
+    def of(cls, record: Mapping[str, Any]) -> "Ledger":
+        """Return the ledger of a record."""
+        coming = record["coming"]
+        return cls(
+            kept=tuple(Part(**part) for part in record["kept"]),
+            coming=None if coming is None else Part(**coming),
+            instead_of=record["instead_of"],
+            replaced=tuple(Part(**part) for part in record["replaced"]),
+        )
+
+
 class Parts:
     """A table in a directory, to which rows are only added.
 
@@ -40,10 +111,16 @@ class Parts:
     ----------
     folder : Path
         The directory; made by the first append.
+    ledger : callable
+        Returns the ledger as it is now.
+    note : callable
+        Keeps another one durably; the caller of what writes holds a lock.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(
+        self, folder: Path, ledger: Callable[[], Ledger], note: Callable[[Ledger], None]
+    ) -> None:
+        self.folder, self._ledger, self._note = folder, ledger, note
 
     def append(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Add rows; when this returns they survive a crash of the program and of the machine.
@@ -55,92 +132,239 @@ class Parts:
         """
         if not rows:
             return
-        spans = self._spans()
-        number = max((last for _, last in spans), default=0) + 1
-        self._write(table_of(rows), number, number)
-        self._merge([*spans, (number, number)])
+        kept = self.kept()
+        number = kept[-1].span[1] + 1 if kept else 1
+        while (self.folder / _name((number, number))).exists():  # a stranger has the name
+            number += 1
+        table = table_of(rows)
+        content = parquet(lambda: iter([table]))
+        span = (number, number)
+        self._write(content, len(rows), span, lambda part: Ledger(kept, coming=part))
+        self._merge()
 
-    def read(self, columns: Sequence[str] | None = None) -> Any:
-        """Return the rows in the order in which they came, as a pyarrow.Table.
+    def tables(self, columns: Sequence[str] | None = None) -> Iterator[Any]:
+        """Yield the rows in the order in which they came, as tables; also while another one writes.
 
         Raises
         ------
         ValueError
-            If a file is damaged; with its name.
+            If a file is damaged, not what was written, or missing; with its name.
         """
-        pa = arrow()
-        for attempt in range(_TRIES):
+        done = tries = 0
+        while True:
+            begin = 0
             try:
-                tables = [self._read(span, columns) for span in self._spans()]
-                break
-            except FileNotFoundError:
-                # merged into a larger part since the directory was read
-                if attempt == _TRIES - 1:
-                    raise
+                for part in self.kept():
+                    if begin + part.rows > done:
+                        table = self._read(part, columns)
+                        skipped, done = max(0, done - begin), begin + part.rows
+                        yield table.slice(skipped)
+                    begin += part.rows
+                return
+            except FileNotFoundError as error:
+                # merged into a larger part since the ledger was read
+                tries += 1
+                if tries == _TRIES:
+                    raise InputError(
+                        f"{error.filename} is missing: it was stored, and has been removed since; "
+                        "put it back, or run the campaign again for its cases"
+                    ) from None
+
+    def read(self, columns: Sequence[str] | None = None) -> Any:
+        """Return all rows as a pyarrow.Table; errors as of `tables`."""
+        pa = arrow()
+        tables = list(self.tables(columns))
         return pa.concat_tables(tables, promote_options="permissive") if tables else pa.table({})
 
-    def tidy(self) -> None:
-        """Remove what a killed run left: drafts, and parts that were merged."""
-        if not self.folder.is_dir():
-            return
-        kept = {_name(span) for span in self._spans()}
-        for path in self.folder.iterdir():
-            if path.suffix == ".draft" or (path.suffix == ".parquet" and path.name not in kept):
+    def kept(self) -> tuple[Part, ...]:
+        """Return the parts that count now."""
+        ledger = self._ledger()
+        if ledger.coming is None or ledger.instead_of:
+            return ledger.kept
+        is_there = (self.folder / ledger.coming.name).exists()
+        return (*ledger.kept, ledger.coming) if is_there else ledger.kept
+
+    def settle(self) -> None:
+        """Finish what a killed run left: a part half come, parts half gone, drafts."""
+        ledger = self._ledger()
+        kept, coming = self.kept(), ledger.coming
+        gone = list(ledger.replaced)
+        if coming is not None and ledger.instead_of:
+            gone.append(coming)
+        for part in gone:
+            self._remove(part)
+        for path in self.folder.iterdir() if self.folder.is_dir() else ():
+            if is_draft(path):
                 path.unlink(missing_ok=True)
+        if Ledger(kept) != ledger:
+            self._note(Ledger(kept))
+        self._merge()
 
-    def _spans(self) -> list[tuple[int, int]]:
-        """Return first and last append of each part that counts, in order."""
-        found = sorted(
-            (int(first), int(last))
-            for path in (self.folder.glob("*-*.parquet") if self.folder.is_dir() else ())
-            for first, _, last in [path.stem.partition("-")]
-        )
-        kept: list[tuple[int, int]] = []
-        # of two parts with one beginning the longer, which is sorted behind, holds the other
-        for first, last in found:
-            if kept and kept[-1][0] == first:
-                kept[-1] = (first, last)
-            elif not kept or first > kept[-1][1]:
-                kept.append((first, last))
-        return kept
+    def forget_missing(self) -> list[Part]:
+        """Strike parts that are not there any more, so that their cases are run again; which."""
+        kept = self.kept()
+        missing = [part for part in kept if not (self.folder / part.name).exists()]
+        if missing:
+            self._note(Ledger(tuple(part for part in kept if part not in missing)))
+        return missing
 
-    def _merge(self, spans: list[tuple[int, int]]) -> None:
-        last = spans[-_MERGED:]
-        lengths = {b - a for a, b in last}
-        size = sum((self.folder / _name(span)).stat().st_size for span in last)
-        if len(last) < _MERGED or len(lengths) > 1 or size > _LARGEST:
-            return
-        whole = (last[0][0], last[-1][1])
-        pa = arrow()
-        tables = [self._read(span, None) for span in last]
-        self._write(pa.concat_tables(tables, promote_options="permissive"), *whole)
-        for span in last:
-            (self.folder / _name(span)).unlink()
-        self._merge([*spans[:-_MERGED], whole])
+    def strangers(self) -> list[Path]:
+        """Return what is in the directory and in no ledger; it is not read, nor ever removed."""
+        ledger = self._ledger()
+        known = {part.name for part in (*ledger.kept, *ledger.replaced)}
+        known |= {ledger.coming.name} if ledger.coming else set()
+        found = self.folder.iterdir() if self.folder.is_dir() else ()
+        return sorted(path for path in found if path.name not in known and not is_draft(path))
 
-    def _read(self, span: tuple[int, int], columns: Sequence[str] | None) -> Any:
-        pa, path = arrow(), self.folder / _name(span)
-        try:
-            return pa.parquet.read_table(path, columns=columns, partitioning=None)
-        except FileNotFoundError:
-            raise
-        except (OSError, pa.ArrowException) as error:
+    def checked(self, part: Part) -> Any:
+        """Return all of a part; ValueError if it is not what was written."""
+        table = self._read(part, None)
+        if table.num_rows != part.rows:
             raise InputError(
-                f"{path} is damaged: {error}; move it away, and run the campaign again for its "
-                "cases"
-            ) from None
+                f"{self.folder / part.name} has {table.num_rows} rows, {part.rows} were written"
+            )
+        return table
 
-    def _write(self, table: Any, first: int, last: int) -> None:
+    def _merge(self) -> None:
+        kept = self.kept()
+        last = kept[-_MERGED:]
+        lengths = {part.span[1] - part.span[0] for part in last}
+        if len(last) < _MERGED or len(lengths) > 1:
+            return
+        whole = (last[0].span[0], last[-1].span[1])
+        paths = [self.folder / part.name for part in last]
+        size = sum(path.stat().st_size if path.exists() else _LARGEST for path in paths)
+        if size > _LARGEST or (self.folder / _name(whole)).exists():
+            return
+        merged = self._write(
+            parquet(lambda: (self._read(part, None) for part in last)),
+            sum(part.rows for part in last),
+            whole,
+            lambda part: Ledger(kept, coming=part, instead_of=_MERGED),
+        )
+        self._note(Ledger((*kept[:-_MERGED], merged), replaced=last))
+        for part in last:
+            (self.folder / part.name).unlink()
+        self._merge()
+
+    def _write(
+        self,
+        content: Any,
+        rows: int,
+        span: tuple[int, int],
+        announced: Callable[[Part], Ledger],
+    ) -> Part:
+        part = Part(_name(span), hashlib.sha256(content).hexdigest(), rows)
         self.folder.mkdir(parents=True, exist_ok=True)
-        write_table(table, self.folder / _name((first, last)))
+        ledger = announced(part)
+        self._note(ledger)
+        try:
+            write_new(self.folder / part.name, content)
+        except OSError:
+            with suppress(OSError):  # where nothing can be written it is not there either
+                self._note(Ledger(ledger.kept))
+            raise
+        return part
+
+    def _read(self, part: Part, columns: Sequence[str] | None) -> Any:
+        return read_proven(self.folder / part.name, part.sha256, columns)
+
+    def _remove(self, part: Part) -> None:
+        """Remove a file if it is the one that was written."""
+        path = self.folder / part.name
+        if path.is_file() and hashlib.sha256(path.read_bytes()).hexdigest() == part.sha256:
+            path.unlink()
+
+
+def adopted(folder: Path) -> Ledger:
+    """Return the ledger of a directory of version 0.1, which kept none: by the names of its files.
+
+    Raises
+    ------
+    ValueError
+        If two parts overlap and none holds the other: not what that version wrote.
+    """
+    found = []
+    for path in folder.glob("*.parquet") if folder.is_dir() else ():
+        named = _NAME.fullmatch(path.name)
+        if named is not None and int(named[1]) <= int(named[2]):
+            found.append((int(named[1]), -int(named[2]), path))
+    kept: list[tuple[int, int, Path]] = []
+    # of two with one beginning the longer comes first; what lies within one was merged into it
+    for first, last, path in sorted(found):
+        if not kept or first > kept[-1][1]:
+            kept.append((first, -last, path))
+        elif -last > kept[-1][1]:
+            raise InputError(
+                f"{path} and {kept[-1][2].name} overlap, which no run of viscotack leaves; move "
+                "away the one that is not of this campaign"
+            )
+    return Ledger(tuple(_described(path) for _, _, path in kept))
+
+
+def _described(path: Path) -> Part:
+    content = path.read_bytes()
+    rows = _parsed(path, content, ["name"]).num_rows
+    return Part(path.name, hashlib.sha256(content).hexdigest(), rows)
+
+
+def read_proven(path: Path, sha256: str, columns: Sequence[str] | None = None) -> Any:
+    """Return the table of a Parquet file whose bytes have a hash.
+
+    Raises
+    ------
+    FileNotFoundError
+        If it is not there.
+    ValueError
+        If it is another one, or damaged; with its name.
+    """
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        raise
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from None
+    if hashlib.sha256(content).hexdigest() != sha256:
+        raise InputError(
+            f"{path} is damaged: it is not what was written, its hash is another; move it away, "
+            "and run the campaign again for its cases"
+        )
+    return _parsed(path, content, columns)
+
+
+def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
+    pa = arrow()
+    try:
+        file = pa.parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
+        known = file.schema_arrow.names
+        wanted = None if columns is None else [name for name in columns if name in known]
+        return file.read(columns=wanted)
+    except (OSError, pa.ArrowException) as error:
+        raise InputError(
+            f"{path} is damaged: {error}; move it away, and run the campaign again for its cases"
+        ) from None
+
+
+def parquet(tables: Callable[[], Iterator[Any]]) -> Any:
+    """Return tables as the bytes of one Parquet file, with a checksum of every page.
+
+    They are asked for twice, and only one of them is held at a time: columns may differ.
+    """
+    pa = arrow()
+    schema = pa.unify_schemas([table.schema for table in tables()], promote_options="permissive")
+    sink = pa.BufferOutputStream()
+    options = {"compression": "zstd", "write_page_checksum": True}
+    with pa.parquet.ParquetWriter(sink, schema, **options) as writer:
+        for table in tables():
+            both = [schema.empty_table(), table]
+            writer.write_table(pa.concat_tables(both, promote_options="permissive"))
+    pa.default_memory_pool().release_unused()
+    return sink.getvalue()
 
 
 def write_table(table: Any, path: Target) -> None:
     """Write a table to a Parquet file, whole or not at all, and durably."""
-    pa = arrow()
-    sink = pa.BufferOutputStream()
-    pa.parquet.write_table(table, sink, compression="zstd")
-    write_whole(path, sink.getvalue())
+    write_whole(path, parquet(lambda: iter([table])))
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:

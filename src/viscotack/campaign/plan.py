@@ -6,6 +6,7 @@ import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -20,26 +21,12 @@ from viscotack.problem.record import from_dict, run_id, to_dict
 
 from ..units import parse
 from .case import CaseSettings
+from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
-from .design import accepted, fill, grid
+from .design import Tally, accepted, fill, grid
+from .own import digests
 
 _KEYS = ("kind", "problem", "with", "settings", "grid", "fill", "list")
-
-
-@dataclass(frozen=True)
-class Case:
-    """One case of a plan.
-
-    Attributes
-    ----------
-    name : str
-        By the content of its problem: equal problems have equal names.
-    inputs : dict
-        The numbers that state it, by column.
-    """
-
-    name: str
-    inputs: dict[str, float]
 
 
 @dataclass(frozen=True)
@@ -50,8 +37,8 @@ class Plan:
     ----------
     kind : Kind
         What the inputs mean.
-    cases : tuple of Case
-        Without repetitions.
+    cases : Cases
+        Without repetitions; any iterable of cases is taken.
     settings : CaseSettings
         How they are solved.
     base : dict or None
@@ -62,16 +49,23 @@ class Plan:
         Text of the file; "" for a plan made otherwise.
     suffix : str
         Its ending, ".toml" or ".csv".
+    shard : str or None
+        Which part of the whole plan this is, "3/20".
     """
 
     kind: Kind
-    cases: tuple[Case, ...]
+    cases: Cases
     settings: CaseSettings
     base: dict[str, Any] | None = None
     rejected: int = 0
     repeated: int = 0
     source: str = ""
     suffix: str = ".toml"
+    shard: str | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.cases, Cases):
+            object.__setattr__(self, "cases", Cases.of(self.cases))
 
     def problem(self, case: Case) -> str:
         """Return the problem of a case as JSON, as it is sent to a worker."""
@@ -99,10 +93,9 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     changed = {name: value for name, value in changed.items() if value is not None}
     source = read_text(path)
     if path.suffix == ".csv":
-        rows = _numbers(path, source)
-        names = set(rows[0][1])
+        rows = _Listed(path, source)
         try:
-            kind = KINDS[kind_of_columns(names)]
+            kind = KINDS[kind_of_columns(set(rows.names))]
         except ValueError as error:
             raise InputError(f"{path}: {error}") from None
         tables: dict[str, Any] = {}
@@ -116,25 +109,18 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
                 f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
             )
         blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
-        blocks = [
-            (
-                key,
-                [(line, _named(row)) for line, row in read_rows(path.parent / _file(path, block))]
-                if key == "list"
-                else block,
-            )
-            for key, block in blocks
-        ]
+        blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
         if not blocks:
             raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
         own = (*_own(path, tables), *changed.get("own", ()))
         changed |= {"own": own} if own else {}
         kind, base = _kind(path, tables, blocks, own)
+    settings = _settings(path, tables.get("settings", {}), changed)
     cases, rejected, repeated = _cases(path, kind, blocks)
     return Plan(
         kind=kind,
         cases=cases,
-        settings=_settings(path, tables.get("settings", {}), changed),
+        settings=settings,
         base=base,
         rejected=rejected,
         repeated=repeated,
@@ -155,39 +141,64 @@ def restored_kind(
     return KINDS[name]
 
 
-def read_words(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Return the names in the first row of a CSV file, and the other rows with their lines."""
+def read_words(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
+    """Return the names in the first row of a CSV file, and the other rows with their lines.
+
+    Rows are read as they are asked for; one that is wrong is refused then.
+    """
     return _words(path, read_text(path))
 
 
-def _words(path: Path, text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    reader = csv.reader(io.StringIO(text, newline=""))
-    names = [name.strip() for name in next(reader, [])]
-    rows = [(reader.line_num, row) for row in reader if any(x.strip() for x in row)]
-    if not rows or len(set(names)) != len(names):
+def _words(path: Path, text: str) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
+    rows = _filled(path, text)
+    names = [name.strip() for name in next(rows, (0, []))[1]]
+    first = next(rows, None)
+    if first is None or len(set(names)) != len(names):
         raise InputError(
             f"{path}: needs a first row of different column names and a case a row below it"
         )
-    for line, row in rows:
-        if len(row) != len(names):
-            raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
-    return names, rows
+
+    def checked() -> Iterator[tuple[int, list[str]]]:
+        for line, row in chain([first], rows):
+            if len(row) != len(names):
+                raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
+            yield line, row
+
+    return names, checked()
 
 
-def read_rows(path: Path) -> list[tuple[int, dict[str, float]]]:
-    """Return the rows of a CSV file of numbers, each with its line; a first row names columns."""
-    return _numbers(path, read_text(path))
+def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows of a text in CSV that are not empty, with their lines; the first as it is."""
+    reader = csv.reader(io.StringIO(text, newline=""))
+    try:
+        yield 1, next(reader, [])
+        for row in reader:
+            if any(x.strip() for x in row):
+                yield reader.line_num, row
+    except csv.Error as error:
+        raise InputError(f"{path}, line {reader.line_num}: {error}") from None
 
 
-def _numbers(path: Path, text: str) -> list[tuple[int, dict[str, float]]]:
-    names, rows = _words(path, text)
-    found = []
-    for line, row in rows:
-        try:
-            found.append((line, {n: float(v) for n, v in zip(names, row, strict=True)}))
-        except ValueError as error:
-            raise InputError(f"{path}, line {line}: {error}; inputs are numbers") from None
-    return found
+class _Listed:
+    """The rows of a CSV file of numbers, each with its line; read anew each time."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path, self._text = path, text
+        self.names = list(_named(dict.fromkeys(_words(path, text)[0])))
+
+    def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
+        for line, row in _words(self.path, self._text)[1]:
+            try:
+                yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
+            except ValueError as error:
+                raise InputError(f"{self.path}, line {line}: {error}; inputs are numbers") from None
+
+
+def _listed(path: Path, block: Mapping[str, Any]) -> _Listed:
+    if block.keys() != {"file"}:
+        raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
+    file = path.parent / str(block["file"])
+    return _Listed(file, read_text(file))
 
 
 def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
@@ -195,12 +206,6 @@ def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, A
     if not isinstance(blocks, list) or not all(isinstance(b, dict) for b in blocks):
         raise InputError(f"{path}: write [[{key}]] with two brackets; there may be several")
     return blocks
-
-
-def _file(path: Path, block: Mapping[str, Any]) -> str:
-    if block.keys() != {"file"}:
-        raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
-    return str(block["file"])
 
 
 def _kind(
@@ -236,7 +241,7 @@ def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:
 def _inputs(key: str, block: Any) -> set[str]:
     """Return the names of the inputs of a block; a dotted path may be written as tables."""
     if key == "list":
-        return set(_named(block[0][1]))
+        return set(block.names)
     return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
 
 
@@ -263,60 +268,61 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return found if prefix else _named(found)
 
 
-def _cases(
-    path: Path, kind: Kind, blocks: list[tuple[str, Any]]
-) -> tuple[tuple[Case, ...], int, int]:
-    found: dict[str, Case] = {}
-    rejected = stated = 0
-    for number, (key, block) in enumerate(blocks, 1):
-        where = f"{path}, block {number} ([[{key}]])"
-        try:
-            kind.check(_inputs(key, block))
-            rows, away = _rows(path, kind, key, block)
-            rejected += away
-            for row in rows:
-                stated += 1
-                case = Case(run_id(kind.problem(row)), row)
-                found.setdefault(case.name, case)
-        except (ValueError, TypeError) as error:
-            text = str(error)
-            raise InputError(text if text.startswith(str(path)) else f"{where}: {text}") from None
-    return tuple(found.values()), rejected, stated - len(found)
+def _cases(path: Path, kind: Kind, blocks: list[tuple[str, Any]]) -> tuple[Cases, int, int]:
+    """Return the cases of all blocks, each once, how many were rejected and how many repeated."""
+    tally = Tally()
+
+    def stated() -> Iterator[Case]:
+        for number, (key, block) in enumerate(blocks, 1):
+            try:
+                kind.check(_inputs(key, block))
+                for row in _rows(path, kind, key, block, tally):
+                    yield Case(run_id(kind.problem(row)), row)
+            except (ValueError, TypeError) as error:
+                text, where = str(error), f"{path}, block {number} ([[{key}]])"
+                is_placed = text.startswith((str(path), str(getattr(block, "path", path))))
+                raise InputError(text if is_placed else f"{where}: {text}") from None
+
+    found = Cases.of(stated())
+    cases = found.first_of_each()
+    return cases, tally.rejected, len(found) - len(cases)
 
 
-def _rows(path: Path, kind: Kind, key: str, block: Any) -> tuple[list[dict[str, float]], int]:
+def _rows(path: Path, kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
     if key == "list":
-        return list(_checked(path, kind, block)), 0
+        return _checked(block, kind)
 
     def accept(row: dict[str, float]) -> bool:
         return has_relaxed_contact(kind.problem(row))
 
     values = _flat(block)
     if key == "grid":
-        return accepted(grid(values), accept, None)
+        return accepted(grid(values), accept, None, tally)
     cases, method = values.pop("cases", None), values.pop("method", "sobol")
     seed = values.pop("seed", 0)
     if not isinstance(cases, int) or cases < 1 or not isinstance(seed, int):
         raise InputError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
     ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
-    return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases)
+    return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases, tally)
 
 
-def _checked(path: Path, kind: Kind, rows: Any) -> Iterator[dict[str, float]]:
+def _checked(rows: _Listed, kind: Kind) -> Iterator[dict[str, float]]:
     for line, row in rows:
         try:
             kind.problem(row)
         except ValueError as error:
-            raise InputError(f"{path}, line {line}: {error}") from None
+            raise InputError(f"{rows.path}, line {line}: {error}") from None
         yield row
 
 
 def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSettings:
-    names = [field.name for field in fields(CaseSettings) if field.name != "own"]
+    names = [field.name for field in fields(CaseSettings) if not field.name.startswith("own")]
     if not isinstance(given, dict) or given.keys() - set(names):
         raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
     values = dict(given) | dict(changed)
+    if "own" in values:
+        values["own_sha256"] = digests(values["own"])
     for name, field in cards(CaseSettings).items():
         if name in values:
             try:

@@ -3,35 +3,39 @@
 import signal
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Future
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from math import prod
 from pathlib import Path
-from queue import Empty, SimpleQueue
 from time import perf_counter
 from typing import Any
+
+import numpy as np
+import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.lock import locked
 
-from .case import Answer, Work, attempt, measure
+from .case import Answer, Work, measure
+from .cases import Cases
+from .cluster import Security, check_installed, cluster
 from .columns import Kind
-from .crew import Crew, Gone, Lost, cluster, local
-from .plan import Case, Plan
+from .crew import Crew, Gone, Lost, NoWorker
+from .identity import identity, words
+from .parts import arrow
+from .plan import Plan
+from .standing import PASSING
 from .store import Store
+from .supervisor import local
 
 # So many cases are stored at once, however short the time since the last ones were.
 _PART = 1000
-# Failures that another run may not meet: it tries their cases again.
-PASSING = ("crashed", "worker died")
 # When so many cases have ended so, and none was solved, something is wrong with the program.
 _CRASHES = 20
 # Longest wait for a case to come back before the clock is looked at [s].
 _LOOK = 0.25
-# A case that was under way at so many deaths of workers is done alone, to know whether it kills.
-_SUSPECT = 2
+# With so many of its own processes a case may die, the last time alone; with so many machines.
+_LIVES, _DEPARTURES = 3, 20
 
 
 class AllCrashed(RuntimeError):
@@ -79,6 +83,7 @@ def run(
     *,
     workers: int = 1,
     scheduler: str | None = None,
+    security: Security | None = None,
     retry: bool = False,
     store_every: float = 2.0,
     work: Work = measure,
@@ -96,6 +101,8 @@ def run(
         Processes on this machine.
     scheduler : str, optional
         Address of a Dask scheduler, ``"tcp://host:8786"``, whose workers do the cases instead.
+    security : Security, optional
+        Certificates for a scheduler at ``"tls://host:8786"``.
     retry : bool
         Also run the cases that have failed. Those that crashed or whose worker died are always run.
     store_every : float
@@ -126,22 +133,32 @@ def run(
         raise InputError(f"workers must be at least 1, got {workers}")
     if plan is None:
         Store(folder)  # refuses a folder without a campaign before a lock is left in it
+    arrow()  # what is not installed is said before a folder is made
+    if scheduler is not None:
+        check_installed()
     folder.mkdir(parents=True, exist_ok=True)
-    with locked(folder):
-        store = Store(folder) if plan is None else Store.create(folder, plan)
+    with locked(folder) as hold:
+        store = Store(folder, hold) if plan is None else Store.create(folder, plan, hold)
         store.tidy()
         this = _Run(
             store,
             store.plan() if plan is None else plan,
-            work=work,
             report=report,
             retry=retry,
             store_every=store_every,
         )
-        if not this.todo:
+        if not this.left():
             return this.progress()
-        number = store.note_run(scheduler=scheduler, workers=workers, to_run=len(this.todo))
-        with local(workers) if scheduler is None else cluster(scheduler) as crew:
+        store.settings.nouns()  # refuses files of the user's own that have been edited
+        number = store.note_run(scheduler=scheduler, workers=workers, to_run=this.left())
+        count = min(workers, this.left())
+        settings = store.settings
+        hired = (
+            local(work, settings, count)
+            if scheduler is None
+            else cluster(work, settings, scheduler, security)
+        )
+        with hired as crew:
             end = this.go(crew)
         store.note_run(
             number,
@@ -156,35 +173,35 @@ def run(
 
 
 class _Run:
-    """One run: what is to do, what is under way, and what waits to be stored."""
+    """One run: what is to do, what is under way, and what waits to be stored.
+
+    Cases are numbers here, their places in the plan.
+    """
 
     def __init__(
         self,
         store: Store,
         plan: Plan,
         *,
-        work: Work,
         report: Callable[[Progress], None] | None,
         retry: bool,
         store_every: float,
     ) -> None:
-        self.store, self.plan, self.work, self.report = store, plan, work, report
+        self.store, self.plan, self.report = store, plan, report
         self.store_every = store_every
-        planned = {case.name for case in plan.cases}
-        done, failed = store.finished()
-        self.done, self.failed = done & planned, failed.keys() & planned
-        lasting = {name for name, failure in failed.items() if failure not in PASSING}
-        kept = self.done if retry else self.done | lasting
-        left = [case for case in plan.cases if case.name not in kept]
-        self.cost = {case.name: expected_cost(plan.kind, case.inputs) for case in left}
+        self.standing = store.standing(plan.cases)
+        kept = self.standing.done if retry else self.standing.done | self.standing.lasting
+        left = np.flatnonzero(~kept)
+        self.cost = expected_costs(plan.kind, plan.cases)
         # The longest first, so that no worker is left alone with a long one at the end.
-        self.todo = deque(sorted(left, key=lambda case: -self.cost[case.name]))
-        self.cost_left, self.cost_done = sum(self.cost.values()), 0.0
-        self.suspects: deque[Case] = deque()
-        self.deaths: Counter[str] = Counter()
-        self.alone = self.broken = False
-        self.flying: dict[Future[Answer], Case] = {}
-        self.landed: SimpleQueue[Future[Answer]] = SimpleQueue()
+        self.todo = left[np.argsort(-self.cost[left], kind="stable")]
+        self.next = 0
+        self.cost_left, self.cost_done = float(self.cost[left].sum()), 0.0
+        # What was lost is done again: first among the others, then after them and alone.
+        self.again: deque[int] = deque()
+        self.suspects: deque[int] = deque()
+        self.losses: Counter[tuple[int, bool]] = Counter()
+        self.flying: set[int] = set()
         self.crashed = 0
         self.rows: list[dict[str, Any]] = []
         self.reasons: list[dict[str, Any]] = []
@@ -192,19 +209,21 @@ class _Run:
         self.stored, self.busy, self.peak = 0, 0.0, 0.0
         self.workers, self.asked = 1, threading.Event()
 
+    def left(self) -> int:
+        """Return how many cases nobody has been given yet."""
+        return len(self.todo) - self.next + len(self.again) + len(self.suspects)
+
     def go(self, crew: Crew) -> Progress:
         """Do the cases; return when all are stored, or those in flight after a ctrl-C."""
-        self.crew = crew
         with _asked_to_stop(self.asked):
             try:
-                self._hand_out()
-                while self.flying:
-                    self._collect()
+                while self._hand_out(crew) or self.flying:
+                    for number, answer in crew.collect(_LOOK):
+                        self._collect(number, answer)
                     due = perf_counter() - self.stored_at > self.store_every
                     if due or self._waiting() >= _PART:
                         self._store()
-                    self._hand_out()
-            except (KeyboardInterrupt, Gone):
+            except (KeyboardInterrupt, Gone, NoWorker):
                 self._store()
                 raise
             self._store()
@@ -216,8 +235,8 @@ class _Run:
         known = self.stored and self.cost_done
         return Progress(
             cases=len(self.plan.cases),
-            done=len(self.done),
-            failed=len(self.failed),
+            done=int(self.standing.done.sum()),
+            failed=int(self.standing.failed.sum()),
             rate=self.stored / elapsed,
             remaining_s=self.cost_left * elapsed / self.cost_done if known else None,
             elapsed_s=elapsed,
@@ -226,61 +245,59 @@ class _Run:
             stopped=self.asked.is_set(),
         )
 
-    def _hand_out(self) -> None:
-        """Give the crew enough that no worker waits, and little that a death would cost."""
-        if self.asked.is_set() or (self.broken and self.flying):
-            return
-        if self.broken:
-            self.crew.renew()
-            self.broken = False
-        self.workers = self.crew.workers()
-        while len(self.flying) < 2 * self.workers + 1 and not (self.alone and self.flying):
-            self.alone = bool(self.suspects)
-            if self.alone and self.flying:
-                return
-            if not self.suspects and not self.todo:
-                return
-            case = (self.suspects or self.todo).popleft()
-            problem = self.plan.problem(case)
-            future = self.crew.submit(attempt, self.work, problem, self.store.settings)
-            self.flying[future] = case
-            future.add_done_callback(self.landed.put)
+    def _hand_out(self, crew: Crew) -> bool:
+        """Give the crew what it has room for; return whether there is more to give."""
+        if self.asked.is_set() or not self.left():
+            return False
+        room = crew.room()
+        self.workers = crew.workers()
+        while room > 0 and (number := self._next()) is not None:
+            room -= 1
+            self.flying.add(number)
+            crew.hand(number, self.plan.problem(self.plan.cases[number]))
+        return True
 
-    def _collect(self) -> None:
-        """Take what has come back; wait a little if nothing has."""
-        try:
-            future = self.landed.get(timeout=_LOOK)
-        except Empty:
+    def _next(self) -> int | None:
+        """Return the next case; None while one that may kill its worker is, or is to be, alone."""
+        if self.again:
+            return self.again.popleft()
+        if self.next < len(self.todo):
+            self.next += 1
+            return int(self.todo[self.next - 1])
+        if self.suspects and not self.flying:
+            return self.suspects.popleft()
+        return None
+
+    def _collect(self, number: int, answer: Answer | Lost) -> None:
+        self.flying.remove(number)
+        if isinstance(answer, Answer):
+            self._take(number, answer)
             return
-        case = self.flying.pop(future)
-        try:
-            answer = self.crew.outcome(future)
-        except Lost as death:
-            self.broken = True
-            self.deaths[case.name] += 1
-            if self.alone or death.certain:
-                self._take(case, Answer(None, "worker died", str(death), 0.0, 0.0))
-            elif self.deaths[case.name] < _SUSPECT:
-                self.todo.appendleft(case)
-            else:
-                self.suspects.append(case)
+        self.losses[number, answer.blame] += 1
+        lost, most = self.losses[number, answer.blame], _LIVES if answer.blame else _DEPARTURES
+        if lost >= most:
+            self._take(number, Answer(None, "worker died", answer.reason, 0.0, 0.0))
+        elif answer.blame and lost == most - 1:
+            self.suspects.append(number)
         else:
-            self._take(case, answer)
+            self.again.append(number)
 
-    def _take(self, case: Case, answer: Answer) -> None:
-        self.cost_left -= self.cost[case.name]
-        self.cost_done += self.cost[case.name]
+    def _take(self, number: int, answer: Answer) -> None:
+        self.cost_left -= self.cost[number]
+        self.cost_done += self.cost[number]
         self.busy += answer.wall_time_s
         self.peak = max(self.peak, answer.peak_memory)
+        case = self.plan.cases[number]
         facts: dict[str, Any] = {"name": case.name, **case.inputs}
         if answer.row is not None:
             # A row repeats inputs that went through the problem, which may cost their last digit.
             self.rows.append(facts | answer.row | facts | {"wall_time_s": answer.wall_time_s})
         else:
             why = {"failure": answer.failure, "reason": answer.reason}
+            why |= {"versions": answer.versions or words(identity())}
             self.reasons.append(facts | why | {"wall_time_s": answer.wall_time_s})
             self.crashed += answer.failure in PASSING
-        if self.crashed >= _CRASHES and not (self.done or self.rows):
+        if self.crashed >= _CRASHES and not (self.rows or self.standing.done.any()):
             raise AllCrashed(
                 f"the first {self.crashed} cases have all crashed, the last with {answer.reason}; "
                 "the run was ended, for the fault is not in the cases"
@@ -294,18 +311,23 @@ class _Run:
         if self._waiting():
             rows, reasons, self.rows, self.reasons = self.rows, self.reasons, [], []
             self.store.add(rows, reasons)
-            self.done |= {row["name"] for row in rows}
-            self.failed = (self.failed | {row["name"] for row in reasons}) - self.done
+            self.standing.note(self.plan.cases, rows, reasons)
             self.stored += len(rows) + len(reasons)
+        else:
+            self.store.confirm()
         self.stored_at = perf_counter()
         if self.report is not None:
             self.report(self.progress())
 
 
-def expected_cost(kind: Kind, inputs: Mapping[str, float]) -> float:
-    """Return the expected time of a case beside that of others of its kind; no unit."""
-    powers = ((inputs.get(name, 1.0), power) for name, power in kind.cost.items())
-    return float(prod(max(abs(value), 1e-3) ** power for value, power in powers))
+def expected_costs(kind: Kind, cases: Cases) -> npt.NDArray[np.float64]:
+    """Return the expected times of cases beside one another; no unit."""
+    found = np.ones(len(cases))
+    for name, power in kind.cost.items():
+        if name in cases.columns:
+            values = np.maximum(np.abs(cases.columns[name]), 1e-3) ** power
+            found *= np.where(np.isnan(values), 1.0, values)
+    return found
 
 
 @contextmanager

@@ -4,32 +4,47 @@
 
     plan.toml or plan.csv     the plan as it was given
     cases.parquet             what it stands for: name and inputs of every case
-    provenance.json           kind, settings, and who ran it when with which versions
+    provenance.json           kind, settings, and who ran it when with which versions; the hashes
+                              of all files, under a seal of its own
     results/*.parquet         a row per solved case
     failures/*.parquet        a row per case without a result, with the reason
     lock                      held while a run writes
 """
 
-import json
+import hashlib
 import os
 import platform
 import socket
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
 from dataclasses import asdict
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from viscotack import __version__
 from viscotack.errors import InputError
-from viscotack.files.whole import write_whole
+from viscotack.files.lock import Hold
+from viscotack.files.whole import is_draft, write_whole
 from viscotack.problem.older import upgraded, upgraded_path
 
 from .case import CaseSettings
-from .parts import Parts, arrow, write_table
-from .plan import Case, Plan, restored_kind
+from .cases import Cases, packed
+from .identity import identity
+from .ordering import Ordered, in_order
+from .parts import Ledger, Parts, adopted, arrow, parquet, read_proven
+from .plan import Plan, restored_kind
+from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
+from .standing import Standing
 
-_FORMAT, _FORMAT_VERSION = "viscotack campaign", 1
+_TABLES = ("results", "failures")
+# Names that are words of Python at a time.
+_SLICE = 20_000
 # Settings that change the numbers of a result, and so must be the same for all of a folder.
 _PHYSICAL = ("accuracy", "until")
 
@@ -41,6 +56,8 @@ class Store:
     ----------
     folder : path
         As ``viscotack campaign run --out`` made it. Reading needs no lock, also while a run writes.
+    hold : Hold, optional
+        The lock of who writes, who confirms it before every change.
 
     Raises
     ------
@@ -50,49 +67,66 @@ class Store:
         If it holds no campaign, a damaged one, or one of a newer version.
     """
 
-    def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
-        self._provenance = _read_provenance(self.folder)
+    def __init__(self, folder: str | os.PathLike[str], hold: Hold | None = None) -> None:
+        self.folder, self._hold = Path(folder), hold
+        self._provenance = read_provenance(self.folder)
         self._results, self._failures = (
-            Parts(self.folder / name) for name in ("results", "failures")
+            Parts(self.folder / name, partial(self._ledger, name), partial(self._note, name))
+            for name in _TABLES
         )
 
     @classmethod
-    def create(cls, folder: str | os.PathLike[str], plan: Plan) -> "Store":
+    def create(
+        cls, folder: str | os.PathLike[str], plan: Plan, hold: Hold | None = None, **facts: Any
+    ) -> "Store":
         """Return the store for a plan, new or with what was stored under an earlier plan.
 
-        The caller holds the lock of the folder.
+        The caller holds the lock of the folder; further facts are kept in the provenance.
 
         Raises
         ------
         ValueError
-            If the folder holds cases of another kind or accuracy.
+            If the folder holds cases of another kind, accuracy or shard, or of files of the user's
+            own that have been edited since.
         """
         folder = Path(folder)
         header: dict[str, Any] = {
-            "format": _FORMAT,
-            "format_version": _FORMAT_VERSION,
+            "format": FORMAT,
+            "format_version": FORMAT_VERSION,
             "kind": plan.kind.name,
             "problem": plan.base,
             "settings": asdict(plan.settings),
             "rejected": plan.rejected,
             "repeated": plan.repeated,
+            "shard": plan.shard,
             "runs": [],
-        }
+            "parts": {name: Ledger().record() for name in _TABLES},
+            "lost": [],
+        } | facts
         if (folder / "provenance.json").exists():
-            old = _read_provenance(folder)
+            old = read_provenance(folder)
             _check_same(folder, old, header)
-            header["runs"] = old["runs"]
-        pa = arrow()
-        names = dict.fromkeys(name for case in plan.cases for name in case.inputs)
-        table: dict[str, Any] = {"name": pa.array([c.name for c in plan.cases], pa.string())}
-        for name in names:
-            table[name] = pa.array([c.inputs.get(name) for c in plan.cases], pa.float64())
-        write_table(pa.table(table), folder / "cases.parquet")
+            old = _of_today(folder, old)
+            header |= {name: old[name] for name in ("runs", "parts", "lost")}
+        cases = table_of_cases(plan.cases)
+        files = {"cases.parquet": parquet(lambda: iter([cases]))}
         if plan.source:
-            write_whole(folder / f"plan{plan.suffix}", plan.source.encode())
-        _write_provenance(folder, header)
-        return cls(folder)
+            files[f"plan{plan.suffix}"] = plan.source.encode()
+        hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
+        if hold is not None:
+            hold.confirm()
+        # Until both are written either counts: at any instant the folder is in order.
+        known = {name: _hash_of(folder / name) for name in files}
+        header["files"] = {
+            name: list(dict.fromkeys([new, *filter(None, [known[name]])]))
+            for name, new in hashes.items()
+        }
+        write_provenance(folder, header)
+        for name in (name for name in files if known[name] != hashes[name]):
+            write_whole(folder / name, files[name])
+        header["files"] = {name: [new] for name, new in hashes.items()}
+        write_provenance(folder, header)
+        return cls(folder, hold)
 
     @property
     def settings(self) -> CaseSettings:
@@ -106,33 +140,36 @@ class Store:
 
     def plan(self) -> Plan:
         """Return the stored plan, so that a run can go on without the file it came from."""
-        try:
-            table = arrow().parquet.read_table(self.folder / "cases.parquet", partitioning=None)
-        except FileNotFoundError:
-            raise InputError(
-                f"{self.folder} has lost its cases.parquet; run again with the plan"
-            ) from None
-        inputs = [name for name in table.column_names if name != "name"]
-        cases = tuple(
-            Case(row.pop("name"), {upgraded_path(k): v for k, v in row.items() if v is not None})
-            for row in table.to_pylist()
-        )
         given = self._provenance
+        cases = self._cases()
         return Plan(
-            kind=restored_kind(given["kind"], given["problem"], inputs, self.settings.own),
+            kind=restored_kind(given["kind"], given["problem"], cases.columns, self.settings.own),
             cases=cases,
             settings=self.settings,
             base=given["problem"],
             rejected=given["rejected"],
             repeated=given["repeated"],
+            shard=given.get("shard"),
         )
 
     def tidy(self) -> None:
-        """Remove what a killed run left behind; the caller holds the lock."""
-        for parts in (self._results, self._failures):
-            parts.tidy()
-        for path in self.folder.glob("*.draft"):
-            path.unlink(missing_ok=True)
+        """Finish what a killed run left, and strike what has been removed; the caller holds a lock.
+
+        Nothing is removed that a run of this campaign has not written.
+        """
+        for parts, name in ((self._results, "results"), (self._failures, "failures")):
+            parts.settle()
+            if missing := parts.forget_missing():
+                lost = [f"{name}/{part.name} with {part.rows} rows" for part in missing]
+                self._write(lost=[*self._provenance["lost"], *lost])
+        for path in self.folder.iterdir():
+            if is_draft(path):
+                path.unlink(missing_ok=True)
+
+    def confirm(self) -> None:
+        """Say that the run that writes lives; FolderInUse if its lock has been taken away."""
+        if self._hold is not None:
+            self._hold.confirm()
 
     def add(
         self, results: Sequence[Mapping[str, Any]], failures: Sequence[Mapping[str, Any]]
@@ -156,44 +193,185 @@ class Store:
                     "platform": platform.platform(),
                     "python": platform.python_version(),
                     "viscotack": __version__,
+                    "identity": identity(),
                 }
             )
             number = len(runs) - 1
         runs[number] |= facts
-        self._provenance = {**self._provenance, "runs": runs}
-        _write_provenance(self.folder, self._provenance)
+        # what was written last is there: no part is only coming any more
+        for parts in (self._results, self._failures):
+            parts.settle()
+        self._write(runs=runs)
         return number
+
+    def note_merged(self, runs: list[dict[str, Any]]) -> None:
+        """Keep the runs of the campaigns that this one was made of; the caller holds the lock."""
+        for parts in (self._results, self._failures):
+            parts.settle()
+        self._write(runs=runs)
+
+    def standing(self, cases: Cases) -> Standing:
+        """Return how cases stand, by what is stored."""
+        standing = Standing.of(len(cases))
+        for table in self._results.tables(["name"]):
+            standing.note_results(cases.places(table.column("name").to_pylist()))
+        for table in self._failures.tables(["name", "failure"]):
+            names, failures = (table.column(n).to_pylist() for n in ("name", "failure"))
+            standing.note_failures(cases.places(names), failures)
+        return standing
+
+    def reasons(self) -> Counter[tuple[str, str]]:
+        """Return how often each failure was met, with its reason, by cases that have no result."""
+        found: Counter[tuple[str, str]] = Counter()
+        with self.ordered_failures() as failures:
+            for table in failures.chunks():
+                kinds, whys = (table.column(name).to_pylist() for name in ("failure", "reason"))
+                found.update(zip(kinds, whys, strict=True))
+        return found
 
     def finished(self) -> tuple[set[str], dict[str, str]]:
         """Return the names of the cases with a result, and the failures by name of the others."""
-        done, table = _names(self._results), self._failures.read(["name", "failure"])
-        failed = {row["name"]: row["failure"] for row in table.to_pylist()}
+        done = {name for table in self._results.tables(["name"]) for name in _column(table, "name")}
+        failed: dict[str, str] = {}
+        for table in self._failures.tables(["name", "failure"]):
+            failed |= zip(_column(table, "name"), _column(table, "failure"), strict=True)
         return done, {name: failure for name, failure in failed.items() if name not in done}
 
     def results(self) -> Any:
         """Return the results as a pyarrow.Table, a row per case, in the order of the plan."""
-        return self._ordered(_renamed(self._results.read()))
+        with self.ordered_results() as ordered:
+            return ordered.table()
 
     def failures(self) -> Any:
         """Return the failures as a pyarrow.Table, without cases that were solved later."""
-        table = self._failures.read()
-        if not table.num_rows:
-            return table
-        done = _names(self._results)
-        last = {name: i for i, name in enumerate(table.column("name").to_pylist())}
-        kept = [i for name, i in last.items() if name not in done]
-        return self._ordered(table.take(kept)) if kept else table.slice(0, 0)
+        with self.ordered_failures() as ordered:
+            return ordered.table()
 
-    def _ordered(self, table: Any) -> Any:
-        if not table.num_rows:
-            return table
+    def ordered_results(self) -> AbstractContextManager[Ordered]:
+        """Hold the results in the order of the plan, however many; see `ordering.in_order`."""
+        return in_order(self._renamed(self._results), self._cases())
+
+    def ordered_failures(self) -> AbstractContextManager[Ordered]:
+        """Hold the last failure of every case without a result, in the order of the plan."""
+        found = [packed(_column(t, "name")) for t in self._failures.tables(["name"])]
+        names = np.concatenate(found) if found else packed(())
+        solved = Cases(np.unique(names), {})
+        away = np.zeros(len(solved), bool)
+        for table in self._results.tables(["name"]):
+            places = solved.places(_column(table, "name"))
+            away[places[places >= 0]] = True
+        # np.unique looks from the front: the last of each is the first from behind
+        _, first = np.unique(names[::-1], return_index=True)
+        left_out = np.ones(len(names), bool)
+        left_out[len(names) - 1 - first] = False
+        left_out |= away[solved.places(names)] if len(names) else False
+        return in_order(self._renamed(self._failures), self._cases(), left_out)
+
+    def parts(self) -> dict[str, Parts]:
+        """Return the tables by the names of their directories."""
+        return {"results": self._results, "failures": self._failures}
+
+    def files(self) -> dict[str, list[str]]:
+        """Return the other files, with the hashes that each may have."""
+        return self._provenance.get("files", {})
+
+    def hash_of(self, name: str) -> str | None:
+        """Return the hash of a file as it is now; None if it is not there."""
+        return _hash_of(self.folder / name)
+
+    def lost(self) -> list[str]:
+        """Return sentences for parts that were removed, whose cases are run again."""
+        return [f"{self.folder}/{words} was removed by somebody" for words in self._lost()]
+
+    def _lost(self) -> list[str]:
+        return self._provenance.get("lost", [])
+
+    def _cases(self) -> Cases:
         path = self.folder / "cases.parquet"
-        planned = arrow().parquet.read_table(path, columns=["name"], partitioning=None)
-        place = {name: i for i, name in enumerate(planned.column("name").to_pylist())}
-        names = table.column("name").to_pylist()
-        # What an earlier plan had and this one has not comes last, by name.
-        order = sorted(range(len(names)), key=lambda i: (place.get(names[i], len(place)), names[i]))
-        return table.take(order)
+        try:
+            hashes = self.files().get(path.name) or [str(_hash_of(path))]
+            present = _hash_of(path)
+            table = read_proven(path, present if present in hashes else hashes[0])
+        except FileNotFoundError:
+            raise InputError(
+                f"{self.folder} has lost its cases.parquet; run again with the plan"
+            ) from None
+        names = _packed_column(table, "name")
+        inputs = {
+            upgraded_path(name): table.column(name).to_numpy(zero_copy_only=False)
+            for name in table.column_names
+            if name != "name"
+        }
+        return Cases(names, inputs)
+
+    def _ledger(self, name: str) -> Ledger:
+        """Return the ledger of a table: of who writes the one it has, else that on the disk."""
+        if self._hold is None:
+            self._provenance = read_provenance(self.folder)
+        if "parts" not in self._provenance:
+            return adopted(self.folder / name)
+        try:
+            return Ledger.of(self._provenance["parts"][name])
+        except (KeyError, TypeError) as error:
+            raise InputError(f"{self.folder}/provenance.json is damaged: {error}") from None
+
+    def _note(self, name: str, ledger: Ledger) -> None:
+        self._write(parts={**self._provenance["parts"], name: ledger.record()})
+
+    def _write(self, **changed: Any) -> None:
+        self.confirm()
+        self._provenance = {**_of_today(self.folder, self._provenance), **changed}
+        write_provenance(self.folder, self._provenance)
+
+    def _renamed(self, parts: Parts) -> Any:
+        """Return the tables of parts, in which older names of inputs are those of today."""
+
+        def tables(columns: Sequence[str] | None) -> Iterator[Any]:
+            return (_renamed(table) for table in parts.tables(columns))
+
+        return tables
+
+
+def table_of_cases(cases: Cases) -> Any:
+    """Return cases as a table: name and inputs, with nothing where a case has no such input."""
+    pa = arrow()
+    columns: dict[str, Any] = {"name": pa.array(cases.names).cast(pa.string())}
+    for name, values in cases.columns.items():
+        columns[name] = pa.array(values, pa.float64(), from_pandas=True)  # no number is no entry
+    return pa.table(columns)
+
+
+def _column(table: Any, name: str) -> list[Any]:
+    return table.column(name).to_pylist() if table.num_rows else []
+
+
+def _packed_column(table: Any, name: str) -> npt.NDArray[np.bytes_]:
+    """Return a column of names as an array; a million words of Python's would be 150 MB."""
+    column = table.column(name)
+    places = range(0, max(1, len(column)), _SLICE)
+    return np.concatenate([packed(column.slice(i, _SLICE).to_pylist()) for i in places])
+
+
+def _hash_of(path: Path) -> str | None:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except FileNotFoundError:
+        return None
+
+
+def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a provenance with the ledgers that version 0.1 did not keep."""
+    if provenance["format_version"] == FORMAT_VERSION:
+        return dict(provenance)
+    names = ("cases.parquet", "plan.toml", "plan.csv")
+    hashes = {name: _hash_of(folder / name) for name in names}
+    return {
+        **provenance,
+        "format_version": FORMAT_VERSION,
+        "parts": {name: adopted(folder / name).record() for name in _TABLES},
+        "lost": [],
+        "files": {name: [found] for name, found in hashes.items() if found},
+    }
 
 
 def _renamed(table: Any) -> Any:
@@ -210,42 +388,25 @@ def _renamed(table: Any) -> Any:
     return table
 
 
-def _names(parts: Parts) -> set[str]:
-    table = parts.read(["name"])
-    return set(table.column("name").to_pylist()) if table.num_rows else set()
-
-
 def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) -> None:
     for what in ("kind", "problem"):
         if upgraded(old[what]) != new[what]:
             raise InputError(
                 f"{folder} holds cases of another {what} ({old['kind']}); give another --out"
             )
+    if old.get("shard") != new["shard"]:
+        was, now = (f"shard {s}" if s else "a whole plan" for s in (old.get("shard"), new["shard"]))
+        raise InputError(f"{folder} holds {was}, and this is {now}; give another --out")
     differ: Iterable[str] = (n for n in _PHYSICAL if old["settings"][n] != new["settings"][n])
     for name in differ:
         raise InputError(
             f"{folder} holds cases with {name} = {old['settings'][name]}, the plan asks for "
             f"{new['settings'][name]}; give another --out, or the same {name}"
         )
-
-
-def _read_provenance(folder: Path) -> dict[str, Any]:
-    path = folder / "provenance.json"
-    if not folder.is_dir():
-        raise FileNotFoundError(2, "No such folder", str(folder))
-    if not path.exists():
-        raise InputError(f"{folder} holds no campaign: it has no provenance.json")
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        if found["format"] != _FORMAT:
-            raise InputError("it is of another kind")
-        version = found["format_version"]
-    except (ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{path} is damaged: {error}") from None
-    if version > _FORMAT_VERSION:
-        raise InputError(f"{folder} was written by a newer version of viscotack; update viscotack")
-    return found
-
-
-def _write_provenance(folder: Path, content: Mapping[str, Any]) -> None:
-    write_whole(folder / "provenance.json", (json.dumps(content, indent=2) + "\n").encode())
+    before, now = (list(given["settings"].get("own_sha256", ())) for given in (old, new))
+    if before and before != now:
+        files = ", ".join(new["settings"]["own"]) or "none"
+        raise InputError(
+            f"{folder} holds cases with files of your own that have been edited since, or are "
+            f"others (now {files}); put them back as they were, or give another --out"
+        )

@@ -3,10 +3,14 @@
 import codecs
 import csv
 import os
+import re
 from pathlib import Path
 
 from viscotack.errors import InputError
 
+# Marks of control but for the ends of lines and tabs, and those that turn the direction of writing.
+_UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
 # What a file may begin with -> how it is then read.
 _MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
@@ -43,6 +47,37 @@ def read_text(path: str | os.PathLike[str]) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
+def harmless(text: str) -> str:
+    r"""Return a text without what moves a cursor, colours or hides: such marks in their numbers.
+
+    Examples
+    --------
+    >>> print(harmless("no contact\x1b[2J"))
+    no contact\x1b[2J
+    """
+    return _UNSEEN.sub(lambda found: found[0].encode("unicode_escape").decode(), text)
+
+
+def cell(text: str) -> str:
+    """Return a text for a table, in which no program that opens it finds a formula.
+
+    Examples
+    --------
+    >>> cell("=1+1")
+    "'=1+1"
+    """
+    text = harmless(text)
+    return f"'{text}" if text.startswith(_FORMULA) and not _is_number(text) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Return the names in the first row of a CSV file, and the rows below with their lines.
 
@@ -56,9 +91,16 @@ def read_rows(path: str | os.PathLike[str]) -> tuple[list[str], list[tuple[int, 
         If it is not a text file.
     """
     rows = [
-        (line, next(csv.reader([text])))
+        (line, _split(path, line, text))
         for line, text in enumerate(read_text(path).splitlines(), 1)
         if text.strip() and not text.startswith("#")
     ]
     header = [name.strip() for name in rows[0][1]] if rows else []
     return header, rows[1:]
+
+
+def _split(path: str | os.PathLike[str], line: int, text: str) -> list[str]:
+    try:
+        return next(csv.reader([text]))
+    except csv.Error as error:  # a cell of more than 131,072 characters
+        raise InputError(f"{os.fspath(path)}, line {line}: {error}") from None

@@ -13,6 +13,12 @@ from .text import read_text
 
 # Of a line that is shown.
 _SHOWN = 60
+# Longest file, and most parts of a dotted name, for which time and memory grow with their square.
+_MOST_TEXT, _MOST_PARTS = 10_000_000, 50
+_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_LONG_NAME = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{_MOST_PARTS},}}")
+# Lines of a file that are looked through for what stands twice.
+_LOOKED_THROUGH = 2000
 _TWICE = ("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")
 
 
@@ -36,11 +42,29 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
     """Return the tables of a text that was read from a file; errors as of `read_toml`."""
+    if len(text) > _MOST_TEXT:
+        raise InputError(
+            f"{os.fspath(path)} has {len(text):,} characters, more than the {_MOST_TEXT:,} that a "
+            "TOML file may have here; long tables go into CSV files"
+        )
+    if found := _LONG_NAME.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        raise InputError(
+            f"{os.fspath(path)}, line {line}: a name of more than {_MOST_PARTS} parts, "
+            f"`{found[0][:_SHOWN]} ...`; write what it leads to as tables"
+        )
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         words, number = _place(str(error), text)
-    if words.startswith(_TWICE) and (twice := _twice(text, number)):
+    except RecursionError:
+        raise InputError(
+            f"{os.fspath(path)} has brackets in brackets, more than can be read; nothing here "
+            "needs more than a few"
+        ) from None
+    except ValueError as error:  # a whole number of thousands of digits
+        raise InputError(f"{os.fspath(path)} has a number that cannot be read: {error}") from None
+    if number <= _LOOKED_THROUGH and words.startswith(_TWICE) and (twice := _twice(text, number)):
         raise InputError(f"{os.fspath(path)}: {twice}; leave out one of them")
     shown = text.split("\n")[number - 1].strip()
     shown = f"{shown[:_SHOWN]} ..." if len(shown) > _SHOWN else shown

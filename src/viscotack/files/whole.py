@@ -7,9 +7,12 @@ written to and stays what it is; so is a file that standard output or standard e
 
 import errno
 import os
+import re
 import secrets
 import stat
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 
@@ -51,8 +54,18 @@ def write_whole(target: Target, content: Any) -> None:
     BrokenPipeError
         If the reader of a pipe has gone.
     """
+    with writing_whole(target) as file:
+        file.write(content)
+
+
+@contextmanager
+def writing_whole(target: Target) -> Iterator[IO[bytes]]:
+    """Hold an open file for what is too long to have at once; errors as of `write_whole`.
+
+    A regular file, or none, is replaced by the finished draft when the block ends well.
+    """
     if not isinstance(target, str | os.PathLike):
-        target.write(content)
+        yield target
         target.flush()
         return
     path = Path(target)
@@ -61,16 +74,42 @@ def write_whole(target: Target, content: Any) -> None:
         if (handle := _own_stream(found)) is not None:
             (sys.stdout, sys.stderr)[handle - 1].flush()
             with open(handle, "wb", closefd=False) as file:
-                file.write(content)
+                yield file
         elif found is None or stat.S_ISREG(found.st_mode):
-            _replace(Path(os.path.realpath(path)), content, found)
+            with _draft(Path(os.path.realpath(path)), found) as file:
+                yield file
         else:
             with open(path, "wb") as file:
-                file.write(content)
+                yield file
     except (NotWritten, BrokenPipeError):
         raise
     except OSError as error:
         raise _not_written(path, error) from None
+
+
+def write_new(path: Path, content: Any) -> None:
+    """Write bytes to a file that is not there yet, whole or not at all; never over another one.
+
+    Raises
+    ------
+    NotWritten
+        If that could not be done; with what was there as it was.
+    """
+    try:
+        draft = _draft_beside(path)
+        try:
+            _fill(draft, content)
+            _name(draft, path)
+        finally:
+            draft.unlink(missing_ok=True)
+        _sync(path.parent)
+    except OSError as error:
+        raise _not_written(path, error) from None
+
+
+def is_draft(path: Path) -> bool:
+    """Return whether a file has a name that only drafts of this module have."""
+    return re.fullmatch(r"\.viscotack-[0-9a-f]{8}\.draft", path.name) is not None
 
 
 def check_target(target: str | os.PathLike[str]) -> None:
@@ -168,19 +207,40 @@ def _draft_beside(place: Path) -> Path:
     return place.with_name(f".viscotack-{secrets.token_hex(4)}.draft")
 
 
-def _replace(place: Path, content: Any, found: os.stat_result | None) -> None:
+@contextmanager
+def _draft(place: Path, found: os.stat_result | None) -> Iterator[IO[bytes]]:
+    """Hold a draft that takes the place of a file when it is finished and on the disk."""
     draft = _draft_beside(place)
     try:
         with open(draft, "xb") as file:
             if found is not None:
                 os.chmod(draft, stat.S_IMODE(found.st_mode))
-            file.write(content)
+            yield file
             file.flush()
             os.fsync(file.fileno())
         os.replace(draft, place)
     finally:
         draft.unlink(missing_ok=True)
     _sync(place.parent)
+
+
+def _fill(draft: Path, content: Any) -> None:
+    with open(draft, "xb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _name(draft: Path, path: Path) -> None:
+    """Give a draft its name, unless another file has it."""
+    try:
+        os.link(draft, path, follow_symlinks=False)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system on which a file has one name only
+        if os.path.lexists(path):
+            raise FileExistsError(errno.EEXIST, os.strerror(errno.EEXIST)) from None
+        os.rename(draft, path)
 
 
 def _not_written(path: Path, error: OSError) -> NotWritten:

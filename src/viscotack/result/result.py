@@ -28,6 +28,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.files.archive import read_arrays
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
 from viscotack.problem.record import UnknownNoun, from_dict, to_dict
@@ -372,11 +373,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     """
     try:
         with open(path, "rb") as file:
-            if not zipfile.is_zipfile(file):
-                raise InputError("it is not an archive")
-            file.seek(0)
-            with np.load(file, allow_pickle=False) as parts:
-                arrays = {name: parts[name] for name in parts.files}
+            arrays = read_arrays(file, _is_expected)
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:
             raise InputError("its header is not one of viscotack")
@@ -395,6 +392,12 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     raise InputError(
         f"{os.fspath(path)} was written by viscotack {writer} in a newer format; update viscotack"
     )
+
+
+def _is_expected(name: str) -> bool:
+    """Return whether a saved result may have an array of this name."""
+    group, _, rest = name.partition("/")
+    return name in ("header", "move", *_SERIES) or (group in ("energy", "fields") and bool(rest))
 
 
 def _from_parts(

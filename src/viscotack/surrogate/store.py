@@ -13,15 +13,20 @@ from zipfile import BadZipFile
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.files.archive import read_arrays
 from viscotack.files.whole import write_whole
 
 from .model import Scaled, Surrogate
 from .network import from_arrays
-from .trust import Trust
+from .trust import CONFIDENCES, REGIONS, Trust
 
 SHIPPED = Path(__file__).with_name("shipped.npz")
 _FORM = "viscotack surrogate 1"
 _WORDS = "words.json"
+# Largest file that is taken [bytes unpacked]: the one that is shipped has half a megabyte.
+_MOST = 50e6
+# How many inputs each of the networks has.
+_INPUTS = {"start": 2, "fast": 3, "force": 5, "work": 9, "give": 10, "line": 10}
 
 
 def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, Any]) -> None:
@@ -84,8 +89,8 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     try:
         # opened here, for NumPy leaves a damaged file open
-        with open(path, "rb") as stream, np.load(stream, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
+        with open(path, "rb") as stream:
+            arrays = read_arrays(stream, lambda _: True, _MOST)
         words = json.loads(arrays.pop(_WORDS).tobytes())
         form, digest = words["form"], words["sha256"]
     except FileNotFoundError:
@@ -96,6 +101,10 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
         raise InputError(f"{path} has the form {form!r}, this version reads {_FORM!r}")
     if digest != _digest(arrays):
         raise InputError(f"{path} is damaged: its arrays do not have the checksum beside them")
+    try:
+        _check(arrays)
+    except (KeyError, ValueError) as error:
+        raise InputError(f"{path} is not the file of a surrogate: {error}") from None
     scaled = {
         name: Scaled(
             from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]
@@ -105,6 +114,36 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     trust = Trust(arrays["trust.force"], arrays["trust.work"], arrays["trust.floors"])
     fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
     return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
+
+
+def _check(arrays: dict[str, np.ndarray]) -> None:
+    """Refuse arrays that do not fit to one another, or are not finite numbers."""
+    for name, array in arrays.items():
+        if array.dtype.kind != "f" or not np.all(np.isfinite(array)):
+            raise InputError(f"{name} must be finite numbers")
+    for name, inputs in _INPUTS.items():
+        networks = from_arrays(arrays, f"{name}.")
+        if not networks.weights:
+            raise InputError(f"it has no layers of {name}")
+        width, count = inputs, len(networks.weights[0])
+        for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
+            shape = (count, width, weight.shape[-1])
+            if weight.shape != shape or bias.shape != (count, 1, shape[-1]):
+                raise InputError(
+                    f"layer {i} of {name} must have the shape {shape}, got {weight.shape} with "
+                    f"biases {bias.shape}"
+                )
+            width = shape[-1]
+        for part in ("centre", "spread"):
+            scale = arrays.get(f"{name}.{part}")
+            if scale is not None and np.broadcast_shapes(scale.shape, (width,)) != (width,):
+                raise InputError(f"{name}.{part} must have {width} numbers, got {scale.shape}")
+    wanted = {"force": (REGIONS, len(CONFIDENCES)), "work": (REGIONS, len(CONFIDENCES))}
+    for name, shape in (wanted | {"floors": (2,)}).items():
+        if arrays[f"trust.{name}"].shape != shape:
+            raise InputError(
+                f"trust.{name} must have the shape {shape}, got {arrays[f'trust.{name}'].shape}"
+            )
 
 
 def _digest(arrays: dict[str, np.ndarray]) -> str:

@@ -1,18 +1,21 @@
-"""The commands ``viscotack campaign plan | run | status | export``: many problems at once."""
+"""The commands ``viscotack campaign plan | run | status | verify | merge | export``."""
 
 import json
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
 from time import perf_counter
 from typing import Annotated, Any
 
+import numpy as np
 import typer
 from typer import Argument, Option
 
 from viscotack.errors import InputError
+from viscotack.files.text import harmless
 from viscotack.files.whole import is_standard_output
 
 from .commands import AsJson, With, application, wrong_input
@@ -37,6 +40,8 @@ PlanFile = Annotated[
 Folder = Annotated[
     Path, Argument(metavar="DIR", help="The folder of a campaign.", show_default=False)
 ]
+# Exit status of a run that has nothing left to do, and cases without a result.
+_SOME_FAILED = 4
 # Seconds between two lines of progress where nobody watches a bar.
 _LINES = 10.0
 
@@ -62,18 +67,17 @@ def plan_command(
     """
     with _words_for_what_is_missing():
         from viscotack.campaign import export, read_plan
-        from viscotack.campaign.parts import table_of
+        from viscotack.campaign.store import table_of_cases
 
         check_files({"--csv": csv_file}, as_json=as_json, reads=(plan_file,))
         plan = read_plan(plan_file, own=_paths(own))
         write = Writing()
         if csv_file is not None:
-            table = table_of([case.inputs for case in plan.cases])
+            table = table_of_cases(plan.cases).drop_columns("name")
             write("wrote", csv_file, lambda file: export(table, file))
     ranges = {
-        name: [min(values), max(values)]
-        for name in plan.cases[0].inputs
-        if (values := [case.inputs[name] for case in plan.cases if name in case.inputs])
+        name: [float(np.nanmin(values)), float(np.nanmax(values))]
+        for name, values in plan.cases.columns.items()
     }
     answer: dict[str, Any] = {
         "kind": plan.kind.name,
@@ -132,6 +136,28 @@ def run_command(
             help='A Dask scheduler, "tcp://host:8786": its workers do the cases instead.',
         ),
     ] = None,
+    tls_ca: Annotated[
+        Path | None,
+        Option(
+            "--tls-ca",
+            metavar="FILE",
+            help="For a scheduler at tls://host:8786: the authority that both ends trust, in PEM.",
+        ),
+    ] = None,
+    tls_cert: Annotated[
+        Path | None, Option("--tls-cert", metavar="FILE", help="The certificate of this end.")
+    ] = None,
+    tls_key: Annotated[
+        Path | None, Option("--tls-key", metavar="FILE", help="The key of that certificate.")
+    ] = None,
+    shard: Annotated[
+        str | None,
+        Option(
+            metavar="K/N",
+            help="Only the K-th of N parts of the plan, for the job arrays of a batch system; "
+            "viscotack campaign merge makes one folder of all.",
+        ),
+    ] = None,
     accuracy: Annotated[
         float | None,
         Option(
@@ -166,8 +192,8 @@ def run_command(
     """Run the cases of a plan that are not in the folder yet.
 
     It may be stopped at any time and goes on when called again; ctrl-C finishes the cases in
-    flight, a second one does not. Exit status 0: nothing is left; 1: stopped before; failures are
-    listed by viscotack campaign status.
+    flight, a second one does not. Exit status 0: all cases have a result; 1: stopped before; 4:
+    nothing is left to be done, and some cases failed, for which viscotack campaign status says why.
 
     Example: viscotack campaign run cases.csv --out study --workers 2
     """
@@ -179,27 +205,42 @@ def run_command(
         "own": _paths(own),
     }
     with _words_for_what_is_missing():
-        from viscotack.campaign import AllCrashed, read_plan, run
+        from viscotack.campaign import AllCrashed, NoWorker, read_plan, run, shard_of
+        from viscotack.campaign.cluster import security_of
 
         if out is None:
             raise InputError("--out is missing: the folder that keeps the campaign")
         if plan_file is None and any(value is not None for value in changed.values()):
             raise InputError("settings are those of the folder; give the plan to change limits")
+        if plan_file is None and shard is not None:
+            raise InputError("--shard is of a plan: give the plan")
+        security = security_of(tls_ca, tls_cert, tls_key)
         plan = None if plan_file is None else read_plan(plan_file, **changed)
+        if plan is not None and shard is not None:
+            plan = shard_of(plan, shard)
         end, trouble = None, ""
         try:
             with _shown() as report:
                 end = run(
-                    plan, out, workers=workers, scheduler=scheduler, retry=retry, report=report
+                    plan,
+                    out,
+                    workers=workers,
+                    scheduler=scheduler,
+                    security=security,
+                    retry=retry,
+                    report=report,
                 )
-        except (KeyboardInterrupt, AllCrashed) as error:
+        except (KeyboardInterrupt, AllCrashed, NoWorker) as error:
             trouble = str(error) or "ended at once"
     if end is None:
-        typer.echo(f"viscotack: {trouble}; what is stored in {out} is safe", err=True)
+        words = harmless(f"viscotack: {trouble}; what is stored in {out} is safe")
+        typer.echo(words, err=True)
         raise typer.Exit(1)
     _tell(out, end, as_json)
     if end.stopped:
         raise typer.Exit(1)
+    if end.failed:
+        raise typer.Exit(_SOME_FAILED)
 
 
 @campaign.command("status")
@@ -212,11 +253,61 @@ def status_command(folder: Folder, as_json: AsJson = False) -> None:
         from viscotack.campaign import Progress, Store
 
         store = Store(folder)
-        planned = {case.name for case in store.plan().cases}
-        done, failed = (planned.intersection(names) for names in store.finished())
-        failures = store.failures()
-    reasons = failures.select(["failure", "reason"]).to_pylist() if failures.num_rows else []
-    _tell(folder, Progress(len(planned), len(done), len(failed)), as_json, reasons)
+        standing = store.standing(store.plan().cases)
+        reasons = store.reasons()
+    done, failed = int(standing.done.sum()), int(standing.failed.sum())
+    _tell(folder, Progress(len(standing.done), done, failed), as_json, reasons)
+
+
+@campaign.command("verify")
+def verify_command(folder: Folder, as_json: AsJson = False) -> None:
+    """Say whether what is stored is what was written: every file, every row, each once.
+
+    Exit status 0: it is; 1: it is not, and what is wrong is named. Nothing is changed.
+
+    Example: viscotack campaign verify study
+    """
+    with _words_for_what_is_missing():
+        from viscotack.campaign import Store, verify
+
+        verdict = verify(Store(folder))
+    if as_json:
+        typer.echo(json.dumps(asdict(verdict), indent=2))
+    else:
+        for words in verdict.wrong:
+            typer.echo(harmless(f"wrong: {words}"))
+        for words in verdict.strange:
+            typer.echo(harmless(f"not of this campaign, and not read: {words}"))
+        end = "something is wrong" if verdict.wrong else "all as it was written"
+        typer.echo(f"{verdict.rows} rows in {verdict.files} files: {end}")
+    if verdict.wrong:
+        raise typer.Exit(1)
+
+
+@campaign.command("merge")
+def merge_command(
+    folders: Annotated[
+        list[Path], Argument(metavar="DIR...", help="Folders of campaigns.", show_default=False)
+    ],
+    out: Annotated[
+        Path | None, Option("--out", metavar="DIR", help="Folder that is to hold all of them.")
+    ] = None,
+) -> None:
+    """Make one campaign of several, such as the shards of one plan.
+
+    Each is verified before; they must be of one kind, accuracy and version of viscotack.
+
+    Example: viscotack campaign merge shard-1 shard-2 --out study
+    """
+    with _words_for_what_is_missing():
+        from viscotack.campaign import Progress, merge
+
+        if out is None:
+            raise InputError("--out is missing: the folder that is to hold all of them")
+        store = merge(folders, out)
+        standing = store.standing(store.plan().cases)
+    done, failed = int(standing.done.sum()), int(standing.failed.sum())
+    _tell(out, Progress(len(standing.done), done, failed), as_json=False)
 
 
 @campaign.command("export")
@@ -266,20 +357,20 @@ def export_command(
             file = wanted[flag]
             if file is not None and file.suffix != ending and not is_standard_output(file):
                 raise InputError(f"{file}: the ending must be {ending}")
-        store = Store(folder)
-        table, write = store.results(), Writing()
-        done = f"wrote {table.num_rows} cases to"
-        write(done, csv_file, lambda file: export(table, file, trajectories=trajectories))
-        for file in (parquet_file, mat_file):
-            write(done, file, lambda file: export(table, file))
+        store, write = Store(folder), Writing()
+        with store.ordered_results() as table:
+            done = f"wrote {table.rows} cases to"
+            write(done, csv_file, lambda file: export(table, file, trajectories=trajectories))
+            for file in (parquet_file, mat_file):
+                write(done, file, lambda file: export(table, file))
         if failures_file is not None:
-            failures = store.failures()
-            write("wrote", failures_file, lambda file: export(failures, file))
+            with store.ordered_failures() as failures:
+                write("wrote", failures_file, lambda file: export(failures, file))
     write.end()
 
 
 def _tell(
-    folder: Path, end: Any, as_json: bool, reasons: list[dict[str, str]] | None = None
+    folder: Path, end: Any, as_json: bool, reasons: Counter[tuple[str, str]] | None = None
 ) -> None:
     """Print how far a campaign is, as one object or as words."""
     left = end.cases - end.done - end.failed
@@ -300,9 +391,7 @@ def _tell(
     if reasons is not None:
         answer["failures"] = [
             {"failure": kind, "reason": reason, "cases": count}
-            for (kind, reason), count in Counter(
-                (r["failure"], r["reason"]) for r in reasons
-            ).most_common()
+            for (kind, reason), count in reasons.most_common()
         ]
     if as_json:
         typer.echo(json.dumps(answer, indent=2))
@@ -314,7 +403,7 @@ def _tell(
             f"{100 * end.worker_use:.0f} % of the time, {end.peak_memory / 1e6:.0f} MB at most each"
         )
     for why in answer.get("failures", []):
-        typer.echo(f"  {why['cases']:6d} {why['failure']}: {why['reason']}")
+        typer.echo(harmless(f"  {why['cases']:6d} {why['failure']}: {why['reason']}"))
     if left:
         typer.echo(f"  go on with: viscotack campaign run --out {folder}")
 

@@ -23,6 +23,7 @@ from viscotack.app.cli.asking import answers, asking
 from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, question_of, stated
 from viscotack.cards import card_of
 from viscotack.errors import InputError
+from viscotack.files.text import harmless
 from viscotack.geometry import Cone
 from viscotack.pictures import plot
 from viscotack.problem import Case, Problem
@@ -444,5 +445,5 @@ def wrong_input() -> Iterator[None]:
 
 
 def _stop(message: str, status: int = 2) -> NoReturn:
-    typer.echo(f"viscotack: {message}", err=True)
+    typer.echo(harmless(f"viscotack: {message}"), err=True)
     raise typer.Exit(status)

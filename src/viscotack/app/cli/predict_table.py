@@ -2,7 +2,10 @@
 
 import csv
 import io
+from collections import Counter
 from collections.abc import Callable, Mapping
+from functools import partial
+from itertools import islice
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -14,11 +17,14 @@ import typer
 from viscotack.campaign.columns import KINDS
 from viscotack.campaign.plan import read_words
 from viscotack.errors import InputError
-from viscotack.files.whole import Target, is_standard_output, write_whole
+from viscotack.files.text import cell
+from viscotack.files.whole import Target, is_standard_output, write_whole, writing_whole
 from viscotack.forecast.table import ANSWERS, predict_table
 
 from .writing import Writing
 
+# Rows that are held at once.
+_BLOCK = 50_000
 # Seconds between two lines of progress, while theories answer.
 _LINES = 10.0
 
@@ -36,71 +42,101 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
     """
     if out is None:
         raise InputError(f"say where the answers to {path} are to go: --csv answers.csv")
-    given = read_table(path)
+    header, rows = read_words(path)
     if not is_standard_output(out) and out.exists() and out.samefile(path):
         raise InputError(f"--csv {out} is the table of cases itself; give it another name")
-    if there := [name for name in ANSWERS if name in given]:
+    if there := [name for name in ANSWERS if name in header]:
         raise InputError(
             f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
             "rename or leave them out"
         )
     kind = KINDS["sphere"]
-    names = [name for name in given if name in {*kind.columns, *kind.choices}]
+    names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
         kind.check(set(names))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    counts: Counter[str] = Counter()
+
+    def answered(file: Target) -> None:
+        tell = _teller()
+        with writing_whole(file) as stream:
+            while block := list(islice(rows, _BLOCK)):
+                begin = counts["rows"]
+                given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
+                found = _answers(path, given, names, confidence, partial(tell, begin))
+                stream.write(_text({**given, **found}, header=not begin))
+                counts.update(
+                    {
+                        "rows": len(block),
+                        "inside": int(found["inside"].sum()),
+                        "unanswered": int(np.sum(found["method"] == "")),
+                    }
+                )
+                methods.update(found["method"][found["method"] != ""].astype(str).tolist())
+
+    methods: Counter[str] = Counter()
+    write("wrote", out, answered)
+    return {
+        "rows": counts["rows"],
+        "inside": counts["inside"],
+        "methods": dict(sorted(methods.items())),
+        "unanswered": counts["unanswered"],
+        "confidence": confidence,
+        "file": str(out),
+    }
+
+
+def _answers(
+    path: Path,
+    given: Mapping[str, list[str]],
+    names: list[str],
+    confidence: float,
+    report: Callable[[int, int], None],
+) -> dict[str, npt.NDArray[Any]]:
+    """Return the answers to some rows; of a word that is no number, a reason."""
+    try:
         numbers = {name: _numbers(given[name]) for name in names}
-        found = predict_table(numbers, confidence=confidence, report=_teller())
+        found = predict_table(numbers, confidence=confidence, report=report)
     except ValueError as error:
         raise InputError(f"{path}: {error}") from None
     for i in np.flatnonzero(found["method"] == "").tolist():
         wrong = [n for n in names if not _is_number(given[n][i])]
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
-    write("wrote", out, lambda file: write_table({**given, **found}, file))
-    methods, counts = np.unique(
-        found["method"][found["method"] != ""].astype(str), return_counts=True
-    )
-    return {
-        "rows": len(found["method"]),
-        "inside": int(found["inside"].sum()),
-        "methods": dict(zip(methods.tolist(), counts.tolist(), strict=True)),
-        "unanswered": int(np.sum(found["method"] == "")),
-        "confidence": confidence,
-        "file": str(out),
-    }
+    return found
 
 
-def _teller() -> Callable[[int, int], None]:
+def _teller() -> Callable[[int, int, int], None]:
     """Return what says on standard error, now and then, how many rows have an answer."""
     last = perf_counter()
 
-    def tell(done: int, count: int) -> None:
+    def tell(before: int, done: int, count: int) -> None:
         nonlocal last
         if perf_counter() - last > _LINES:
             last = perf_counter()
-            typer.echo(f"{done} of {count} rows answered", err=True)
+            typer.echo(f"{before + done} of {before + count} rows answered", err=True)
 
     return tell
 
 
-def read_table(path: Path) -> dict[str, list[str]]:
-    """Return the columns of a CSV file as words; the first row names them."""
-    names, rows = read_words(path)
-    return {name: [row[i].strip() for _, row in rows] for i, name in enumerate(names)}
-
-
 def write_table(table: Mapping[str, Any], path: Target) -> None:
     """Write columns as CSV, whole or not at all; an unknown number is an empty cell."""
+    write_whole(path, _text(table, header=True))
+
+
+def _text(table: Mapping[str, Any], *, header: bool) -> bytes:
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(table)
+    if header:
+        rows.writerow(map(cell, table))
     rows.writerows(zip(*(_cells(values) for values in table.values()), strict=True))
-    write_whole(path, text.getvalue().encode())
+    return text.getvalue().encode()
 
 
 def _cells(values: Any) -> list[Any]:
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "fb":
-        return list(values)
+        return [cell(value) if isinstance(value, str) else value for value in values]
     if values.dtype.kind == "b":
         return ["true" if value else "false" for value in values.tolist()]
     return ["" if value != value else value for value in values.tolist()]

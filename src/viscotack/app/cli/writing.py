@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from viscotack.errors import InputError
+from viscotack.files.text import harmless
 from viscotack.files.whole import (
     NotWritten,
     Target,
@@ -109,7 +110,7 @@ class Writing:
 
     def answer(self, text: str) -> None:
         """Print the answer of the command; on standard error where a table has the other one."""
-        typer.echo(text, err=self._taken)
+        typer.echo(harmless(text), err=self._taken)
 
     def end(self) -> None:
         """End the command with exit status 2 if a file could not be written."""

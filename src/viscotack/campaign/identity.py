@@ -1,0 +1,61 @@
+"""Which program a process runs: its versions, and a hash of its source.
+
+Rows of two programs must not lie in one table unseen: every worker says what it is before it is
+given a case.
+"""
+
+import hashlib
+import platform
+from functools import cache
+from pathlib import Path
+
+import numpy
+import scipy
+
+import viscotack
+
+# What numbers depend on, beside the source: a change of its last part does not change them.
+_PYTHON = ".".join(platform.python_version_tuple()[:2])
+
+
+@cache
+def identity() -> dict[str, str]:
+    """Return the versions of what computes, and a hash of the source of this package."""
+    return {
+        "viscotack": viscotack.__version__,
+        "source": source_hash(Path(viscotack.__file__).parent),
+        "python": _PYTHON,
+        "numpy": numpy.__version__,
+        "scipy": scipy.__version__,
+    }
+
+
+def source_hash(folder: Path) -> str:
+    """Return a short hash of all Python files below a folder, with their names."""
+    found = hashlib.sha256()
+    for path in sorted(folder.rglob("*.py")):
+        content = path.read_bytes()
+        found.update(f"{path.relative_to(folder).as_posix()} {len(content)}\n".encode())
+        found.update(content)
+    return found.hexdigest()[:16]
+
+
+def difference(theirs: dict[str, str], ours: dict[str, str]) -> str:
+    """Return words for what differs between two identities; none if nothing does.
+
+    Examples
+    --------
+    >>> difference({"viscotack": "0.2", "numpy": "2"}, {"viscotack": "0.1", "numpy": "2"})
+    'viscotack 0.2 and not 0.1'
+    """
+    names = dict.fromkeys([*ours, *theirs])
+    return ", ".join(
+        f"{name} {theirs.get(name, 'unknown')} and not {ours.get(name, 'unknown')}"
+        for name in names
+        if theirs.get(name) != ours.get(name)
+    )
+
+
+def words(who: dict[str, str]) -> str:
+    """Return an identity as one word of text, for a column of a table."""
+    return ", ".join(f"{name} {version}" for name, version in who.items())

@@ -1,0 +1,89 @@
+"""Whether a campaign's folder is what was written: every file, every row, once and as planned."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from viscotack.errors import InputError
+
+from .cases import Cases, packed
+from .parts import Part, Parts, arrow
+from .store import Store
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was looked at, and what is wrong.
+
+    Attributes
+    ----------
+    files, rows : int
+        How many were read.
+    wrong : tuple of str
+        A sentence for each thing that is not as it was written; () if all is.
+    strange : tuple of str
+        Files that are none of the campaign's: they are never read, and nothing removes them.
+    """
+
+    files: int
+    rows: int
+    wrong: tuple[str, ...]
+    strange: tuple[str, ...]
+
+
+def verify(store: Store) -> Verdict:
+    """Return whether a campaign's folder is what was written.
+
+    All files are read and compared with the hashes in the provenance, whose own seal was checked
+    when the store was opened; of each row the name and the inputs with those of the plan.
+    """
+    wrong = list(store.lost())
+    files = rows = 0
+    for name, hashes in store.files().items():
+        files += 1
+        found = store.hash_of(name)
+        if found is None:
+            wrong.append(f"{store.folder / name} is missing")
+        elif found not in hashes:
+            wrong.append(f"{store.folder / name} is not what was written: its hash is another")
+    cases = None if wrong else store.plan().cases
+    strange: list[str] = []
+    for name, parts in store.parts().items():
+        seen: list[Any] = []
+        for part in parts.kept():
+            files, rows = files + 1, rows + part.rows
+            wrong += _wrong_part(parts, part, cases, seen)
+        if name == "results" and seen:
+            names = np.concatenate(seen)
+            if again := len(names) - len(np.unique(names)):
+                wrong.append(f"{parts.folder}: {again} cases are stored more than once; one counts")
+        strange += map(str, parts.strangers())
+    return Verdict(files, rows, tuple(wrong), tuple(strange))
+
+
+def _wrong_part(parts: Parts, part: Part, cases: Cases | None, seen: list[Any]) -> Iterator[str]:
+    try:
+        table = parts.checked(part)
+    except FileNotFoundError:
+        yield f"{parts.folder / part.name} is missing: {part.rows} rows"
+        return
+    except InputError as error:
+        yield str(error)
+        return
+    names = packed(table.column("name").to_pylist())
+    seen.append(names)
+    if cases is None:
+        return
+    places = cases.places(names)
+    known = places >= 0
+    for name, values in cases.columns.items():
+        if name not in table.column_names or not known.any():
+            continue
+        column = table.column(name)
+        if column.null_count == len(column):
+            column = arrow().nulls(len(column), arrow().float64())
+        stored = np.asarray(column.to_numpy(zero_copy_only=False), dtype=float)
+        if not np.array_equal(stored[known], values[places[known]], equal_nan=True):
+            yield f"{parts.folder / part.name}: {name} of a row is not that of its case in the plan"
