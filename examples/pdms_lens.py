@@ -2,11 +2,13 @@
 
 Sphere of radius 5.19 mm on PDMS 10:1, relaxed under 1.5 mN, then retracted at 1 to 1000 um/s.
 Material (Eq. 4.27), work of adhesion and geometry: Maghami, PhD thesis (2025), section 4.6. The
-range of attraction is known in two ways that do not agree: h0 = 1.55 um by its quasi-static test
-(Tabor number 2.05), h0 = 30.8 nm by its rate series (Tabor number 103). Both are drawn.
+thesis has two ranges of attraction: h0 = 1.55 um by its quasi-static test (Tabor number 2.05), and
+h0 = 30.8 nm by its rate series (Tabor number 103), where the speed of the crack came from a fit,
+Eq. 4.24. Simulated, 30.8 nm does not give the measured forces: that fit has the crack 2 to 7 times
+too slow there. 200 nm (Tabor number 15.9) gives the linear curve of the thesis within 2 %. All
+three are drawn, with the fit to the measured forces, which leaves linear theory above 100 um/s.
 
-Prints tables while it runs and draws ``out/pdms_lens.png``. Time: about 40 s on two cores, all but
-a few of them for the short range, whose crack has a process zone of 20 nm.
+Prints tables while it runs and draws ``out/pdms_lens.png``. Time: about 20 s on two cores.
 """
 
 from collections.abc import Iterable, Iterator
@@ -22,10 +24,16 @@ import viscotack as vt
 RADIUS = 5.19e-3  # m
 WORK_OF_ADHESION = 0.1523  # J/m^2
 EQUILIBRIUM_GAP = 1.55e-6  # m
-SHORT_GAP = 30.8e-9  # m
+MIDDLE_GAP, SHORT_GAP = 200e-9, 30.8e-9  # m
 PRELOAD = 1.5e-3  # N
 SPEEDS = np.geomspace(1e-6, 1e-3, 9)  # m/s
-SHORT_SPEEDS = (1e-5, 1e-4, 1e-3)  # m/s, the dearest first
+SHORT_SPEEDS = (1e-6, 1e-5, 1e-4, 1e-3)  # m/s
+# The thesis, rebuilt from its printed fits (Fig. 4.10), at those speeds [N]: its linear theory with
+# 30.8 nm, and what was measured.
+PUBLISHED = {
+    "linear theory of the thesis": (4.26e-3, 5.24e-3, 7.56e-3, 10.9e-3),
+    "measured (fit of the thesis)": (4.33e-3, 5.57e-3, 9.39e-3, 21.1e-3),
+}
 RUBBER = {"rubbery_modulus": 1.458e6, "poisson_ratio": 0.5}
 PDMS = vt.RetardationPowerLaw(**RUBBER, glassy_modulus=3089e6, exponent=0.2207, tau0=0.01876)
 RELAXED = vt.Elastic(**RUBBER)  # the same rubber given all the time it wants
@@ -76,26 +84,25 @@ def run(speeds: Iterable[float], accuracy: float) -> tuple[vt.Result, list[vt.Re
     return elastic, results
 
 
-def short_range_force(speed: float) -> float:
-    """Return the pull-off force [N] for the short range of attraction at a speed [m/s].
-
-    The loosest accuracy there is: at this Tabor number the steps follow the crack, and the force is
-    within 0.2 % of that at a ten times better one.
-    """
-    problem = lens(PDMS, speed, SHORT_GAP)
-    result = vt.solve(problem, accuracy=0.02, until="pull-off", estimate_error=False)
+def force_at(case: tuple[float, float]) -> float:
+    """Return the pull-off force [N] for a speed [m/s] and a range of attraction [m]."""
+    problem = lens(PDMS, *case)
+    result = vt.solve(problem, until="pull-off", estimate_error=False)
     return vt.pull_off_force(result) * problem.scales().force
 
 
 @contextmanager
-def short_range_forces(speeds: tuple[float, ...]) -> Iterator[Iterator[float]]:
-    """Give the forces for the short range, worked out by other processes meanwhile."""
+def forces_of_ranges(speeds: tuple[float, ...]) -> Iterator[Iterator[float]]:
+    """Give the forces for the shorter ranges, worked out by other processes meanwhile."""
     with ProcessPoolExecutor(2) as pool:
-        yield pool.map(short_range_force, speeds)
+        yield pool.map(force_at, [(v, gap) for gap in (SHORT_GAP, MIDDLE_GAP) for v in speeds])
 
 
 def draw(
-    elastic: vt.Result, results: list[vt.Result], short: dict[float, float], path: Path
+    elastic: vt.Result,
+    results: list[vt.Result],
+    others: dict[float, dict[float, float]],
+    path: Path,
 ) -> None:
     """Draw pull-off force by speed, and the unloading curves behind it."""
     import matplotlib as mpl
@@ -117,24 +124,18 @@ def draw(
         left.scatter(speeds * 1e6, forces * 1e3, s=80, fc="white", ec=colors, lw=2.4, zorder=3)
         left.xaxis.set_major_formatter("{x:g}")
         left.text(0.03, 0.05, REMARK, transform=left.transAxes, size=13)
-        name = "simulation, range h$_0$ = 1.55 µm (quasi-static test)"
+        for (gap, found), style in zip(others.items(), ("C3s-", "C2D-"), strict=False):
+            x, y = np.array(sorted(found.items())).T
+            name = f"simulated, range h$_0$ = {gap * 1e9:g} nm"
+            left.plot(x * 1e6, y * 1e3, style, mfc="white", ms=8, label=name)
+        name = "simulated, range h$_0$ = 1.55 µm"
         left.plot([], [], "o", mfc="white", color=colors[len(colors) // 2], label=name)
-        if short:
-            x, y = np.array(sorted(short.items())).T
-            name = "simulation, h$_0$ = 30.8 nm (rate series)"
-            left.plot(x * 1e6, y * 1e3, "s-", mfc="white", color="C3", ms=9, label=name)
-            left.set_ylim(0, 1.25 * y.max() * 1e3)
-        left.legend(loc="upper left")
-        left.annotate(
-            f"{forces[-1] / slow:.2f} times\nthe elastic value",
-            (speeds[-1] * 1e6, forces[-1] * 1e3),
-            xytext=(12, 14),
-            textcoords="offset points",
-            ha="right",
-            va="bottom",
-            size=13,
-            color="0.25",
-        )
+        if others:
+            x = np.array(SHORT_SPEEDS) * 1e6
+            for (name, y), style in zip(PUBLISHED.items(), ("k:", "kx--"), strict=True):
+                left.plot(x, np.array(y) * 1e3, style, lw=1.5, label=name)
+            left.set_ylim(0, 27)
+        left.legend(loc="upper left", fontsize=11)
 
         right = figure.add_subplot(grid[1])
         right.axhline(0, color="0.6", lw=1, zorder=0)
@@ -173,15 +174,21 @@ def main(
     picture: Path = PICTURE,
     short_speeds: tuple[float, ...] = SHORT_SPEEDS,
 ) -> tuple[vt.Result, list[vt.Result]]:
-    with short_range_forces(short_speeds) as forces:
+    with forces_of_ranges(short_speeds) as forces:
         elastic, results = run(speeds, accuracy)
-        short = {}
-        if short_speeds:
-            print(f"\nThe same with a range of attraction of {SHORT_GAP * 1e9:g} nm:", flush=True)
-        for speed, force in zip(short_speeds, forces, strict=True):
-            print(f"{speed * 1e6:8.1f}{force * 1e3:9.2f}", flush=True)
-            short[speed] = force
-    draw(elastic, results, short, picture)
+        others: dict[float, dict[float, float]] = {}
+        for gap in (SHORT_GAP, MIDDLE_GAP) if short_speeds else ():
+            print(f"\nThe same with a range of attraction of {gap * 1e9:g} nm:", flush=True)
+            others[gap] = {}
+            for speed in short_speeds:
+                others[gap][speed] = force = next(forces)
+                print(f"{speed * 1e6:8.1f}{force * 1e3:9.2f}", flush=True)
+    if short_speeds:
+        print("\nMeasured (fit of the thesis), and its linear theory:")
+        columns = zip(SHORT_SPEEDS, *reversed(PUBLISHED.values()), strict=True)
+        for speed, measured, linear in columns:
+            print(f"{speed * 1e6:8.1f}{measured * 1e3:9.2f}{linear * 1e3:9.2f}")
+    draw(elastic, results, others, picture)
     print(f"Picture: {picture}")
     return elastic, results
 

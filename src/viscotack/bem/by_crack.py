@@ -314,11 +314,16 @@ _LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.2, 0.012
 
 
 def _zones(groups: Groups, crack: SteadyCrack, series: dict[str, Any], at: dict[str, Any]) -> float:
-    """Return the way of the edge to the pull-off in lengths of the zone there."""
+    """Return the way of the edge to the pull-off in lengths of the zone there, at least."""
     radius, energy = series["contact_radius"], at["amplification_at_pull_off"]
     if energy is None:
         return 0.0
     way = float(np.max(radius)) - at["contact_radius_at_pull_off"]
+    if not groups.moves and energy > _SLOW:
+        # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with the
+        # square of the way of the drive: it is above the half for a quarter of the time.
+        loading = 0.25 * at["pull_off_time"] / groups.material.time_unit
+        way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / _ROOT)
     zone = crack.zone_length * energy / groups.tabor**2 / _ROOT
     return max(way, 0.0) / zone
 
@@ -353,7 +358,8 @@ def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
         return None
     place = np.zeros(1)
     weights = np.array([1.0])
-    if first < low < last and series["contact_radius"][low + 1] > 0:
+    # the first step is one of an edge at rest: no parabola goes through it
+    if first + 1 < low < last and series["contact_radius"][low + 1] > 0:
         x, y = series["time"][low - 1 : low + 2], force[low - 1 : low + 2]
         u = (x - x[1]) / (x[2] - x[0])
         slope = np.linalg.solve(np.vander(u, increasing=True), y)

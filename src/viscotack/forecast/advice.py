@@ -1,12 +1,13 @@
 """Which answer may be trusted: the regime of a problem, and what each tier says about it.
 
-Nothing here simulates, but :func:`threshold_contact_radius`. From an effective Tabor number of 5
-on the contact whose edge is a steady crack is asked first (docs/steady_crack.md). The limits of
-the other tiers and their errors were measured against :func:`viscotack.solve`: power laws and
-standard solids, modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates
-0.1 to 1e8. A law other than Lennard-Jones is taken for the one of the same work and strength, at its effective Tabor number;
-what that costs was measured with exponential laws of decay 0.25 to 3, Dugdale's with falls of 0.3
-to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective Tabor numbers 0.1 to 10.
+Nothing here simulates, but :func:`threshold_contact_radius`. From an effective Tabor number of 5 on
+the contact whose edge is a steady crack is asked first (docs/steady_crack.md). The limits of the
+other tiers and their errors were measured against :func:`viscotack.solve`: power laws and standard
+solids, modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates 0.1 to 1e8.
+A law other than Lennard-Jones is taken for the one of the same work and strength, at its effective
+Tabor number; what that costs was measured with exponential laws of decay 0.25 to 3, Dugdale's with
+falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective Tabor numbers 0.1 to
+10.
 """
 
 from __future__ import annotations
