@@ -22,9 +22,10 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
+from viscotack.materials.checks import rests
 from viscotack.materials.constants import ContactModulus, ModulusRatio
 from viscotack.materials.passport_file import read_passport
-from viscotack.materials.words import MODELS
+from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
@@ -70,6 +71,7 @@ _MATERIALS = {
     "sls": "standard linear solid, tau0 is its retardation time",
 }
 _OTHER_MATERIALS = (
+    "fractional-zener:ORDER: standard solid with a springpot of this order, 0.02 to 0.95. "
     "elastic: no memory; --rate is only needed in SI, in h0/s. prony:FILE: CSV file with the "
     "header 'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
     "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) is then "
@@ -284,12 +286,14 @@ def _kind_of_material(name: str, nouns: Nouns) -> Any:
         return None
     word, _, rest = name.partition(":")
     kind = nouns.materials.get(word)
+    rests(FITS_ONLY.get(word))
     spelled = kind in (RetardationPowerLaw, Elastic, StandardSolid, Prony)
     if kind is None or kind is RelaxationPowerLaw or spelled and (kind is Prony) != bool(rest):
         own = [w for w in nouns.materials if w not in MODELS]
         raise InputError(
             "--material must be a passport FILE.toml, "
-            f"{', '.join(['power-law', 'elastic', 'sls', *own])} or prony:FILE, got {name!r}"
+            f"{', '.join(['power-law', 'elastic', 'sls', 'fractional-zener:ORDER', *own])} "
+            f"or prony:FILE, got {name!r}"
             f"{OWN}"
         )
     return kind

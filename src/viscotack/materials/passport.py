@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.materials.checks import rests
 from viscotack.materials.conversion import slowed
 from viscotack.materials.shift import Shift
 
@@ -117,6 +118,7 @@ class Passport:
     evidence: Evidence | None = None
 
     def __post_init__(self):
+        rests(self.material)
         if not hasattr(self.material, "retardation_modes"):
             raise InputError(
                 f"material must be one of viscotack.materials, got {type(self.material).__name__}"

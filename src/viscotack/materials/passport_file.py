@@ -16,12 +16,13 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.files.whole import Target, write_whole
+from viscotack.materials.checks import rests
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.passport_tables import LAWS, VERSION, passport_text
 from viscotack.materials.shift import Shift, TabulatedShift
-from viscotack.materials.words import MODELS, units_of
+from viscotack.materials.words import FITS_ONLY, MODELS, units_of
 from viscotack.units import parse
 
 _TABLES = (
@@ -99,6 +100,7 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
 def material_in(table: Mapping[str, Any]) -> Material:
     """Return the material of a table [material] that states a model."""
     model = table["model"]
+    rests(FITS_ONLY.get(model))
     if model not in MODELS:
         raise InputError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
     units = units_of(MODELS[model])

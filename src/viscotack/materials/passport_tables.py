@@ -23,6 +23,7 @@ _TIMES = {
     "prony": "branches have relaxation times",
     "power-law": "tau0 is the characteristic retardation time",
     "relaxation-power-law": "tau0 is the characteristic relaxation time",
+    "fractional-zener": "tau0 is the retardation time",
 }
 
 

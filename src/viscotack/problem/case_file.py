@@ -13,7 +13,9 @@ from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
 from viscotack.materials import Material, Prony
+from viscotack.materials.checks import rests
 from viscotack.materials.passport_file import read_passport
+from viscotack.materials.words import FITS_ONLY
 from viscotack.problem import plane, revolution
 from viscotack.problem.law_table import law_from_table
 from viscotack.problem.nouns import Nouns, known
@@ -122,6 +124,7 @@ def _layer(table: Table, material: Material) -> Layer:
 def _material(table: Table, nouns: Nouns) -> Material:
     if "passport" in table.values:
         return _from_passport(table)
+    rests(FITS_ONLY.get(str(table.values.get("model"))))
     kind = nouns.materials[table.word("model", nouns.materials, OWN)]
     if kind is Prony and "file" in table.values:
         return _prony(table)
