@@ -64,7 +64,7 @@ def issued(
             constants=report.constants,
             scatter=report.scatter.deviation,
             level=report.level,
-            intervals=tuple((i.name, i.low, i.high) for i in report.intervals),
+            intervals=tuple((i.name, i.low, i.high) for i in report.intervals if i.told),
             undetermined=report.undetermined,
             cautions=report.cautions,
         ),

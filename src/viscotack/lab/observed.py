@@ -52,6 +52,10 @@ class Observed:
         Lowest and highest temperature at which they were measured [K].
     source : Source
         Where they come from.
+    sweep : ndarray of int, shape (N,), or None
+        Number of the sweep that each point was measured in, where that is known.
+    points : int
+        How many points were measured, where `at` are means of them; else 0.
     """
 
     quantity: str
@@ -63,6 +67,8 @@ class Observed:
     temperature: float | None
     temperatures: tuple[float, float] | None
     source: Source
+    sweep: npt.NDArray[np.int64] | None = None
+    points: int = 0
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -157,6 +163,7 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
     else:
         quantity, at, values = "creep", tension.time, tension.compliance[None, :]
     order = np.argsort(at, kind="stable")
+    sweep = getattr(tension, "sweep", None)
     return Observed(
         quantity=quantity,
         at=at[order],
@@ -167,6 +174,7 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         temperature=temperature,
         temperatures=temperatures,
         source=data.source,
+        sweep=None if sweep is None else np.asarray(sweep)[order],
     )
 
 

@@ -49,6 +49,9 @@ class Model(StrEnum):
     POWER_LAW = "power-law"
     RELAXATION_POWER_LAW = "relaxation-power-law"
     SLS = "sls"
+    FRACTIONAL_ZENER = "fractional-zener"
+    FRACTIONAL_MAXWELL = "fractional-maxwell"
+    FRACTIONAL_KELVIN_VOIGT = "fractional-kelvin-voigt"
     PRONY = "prony"
 
 
@@ -239,22 +242,26 @@ def fit_command(
             loss=loss,
             level=level,
         )
-        passport = issued(
-            report,
-            name=name or files[0].stem,
-            shift=shift,
-            reference=reference_words,
-            made_by=f"viscotack {__version__}",
-        )
-        passport = _by_file_name(passport, files)
+        passport = None
+        if output is not None or not hasattr(report.material, "no_contact"):
+            passport = issued(
+                report,
+                name=name or files[0].stem,
+                shift=shift,
+                reference=reference_words,
+                made_by=f"viscotack {__version__}",
+            )
+            passport = _by_file_name(passport, files)
     write = Writing()
-    write("wrote", output, lambda target: write_passport(passport, target))
+    if passport is not None:
+        write("wrote", output, lambda target: write_passport(passport, target))
     write.picture(plot_file, lambda: draw_fit(report))
     if as_json:
         more = {"criterion": dict(report.compared), "median_error": report.median_error}
-        write.answer(_json(passport, **more))
+        write.answer(_law_json(report, **more) if passport is None else _json(passport, **more))
     else:
-        typer.echo("\n".join(f"  Read: {note}" for note in passport.origin.notes), err=True)
+        notes = report.observed.source.notes
+        typer.echo("\n".join(f"  Read: {note}" for note in notes), err=True)
         write.answer(report.words())
     write.end()
 
@@ -545,6 +552,21 @@ def _json(passport: Passport, **more: Any) -> str:
     solid = passport.material
     answer = asdict(passport) | {"material": {"model": word_of(solid)} | asdict(solid)}
     answer["modulus_ratio"] = solid.modulus_ratio
+    return json.dumps(_finite(answer | more), indent=2, allow_nan=False)
+
+
+def _law_json(report: Any, **more: Any) -> str:
+    """Return a fitted law that has no passport."""
+    solid = report.material
+    answer = {
+        "material": {"model": solid.word} | asdict(solid),
+        "evidence": {
+            "level": report.level,
+            "intervals": [(each.name, each.low, each.high) for each in report.intervals],
+            "undetermined": report.undetermined,
+            "cautions": report.cautions,
+        },
+    }
     return json.dumps(_finite(answer | more), indent=2, allow_nan=False)
 
 
