@@ -109,5 +109,8 @@ def _draws(
     # a constant without bound would be drawn from everywhere: it stays within its interval
     low = np.maximum(search.low, np.where(np.isfinite(ends[:, 0]), -np.inf, x - 1.0)) + 1e-9
     high = np.minimum(search.high, np.where(np.isfinite(ends[:, 1]), np.inf, x + 1.0)) - 1e-9
-    drawn = np.random.default_rng(seed).multivariate_normal(x, covariance, count, method="eigh")
+    # by its own axes: a constant that nothing tells makes the matrix indefinite by round-off
+    value, axes = np.linalg.eigh((covariance + covariance.T) / 2)
+    along = np.random.default_rng(seed).normal(size=(count, x.size))
+    drawn = x + along * np.sqrt(np.maximum(value, 0.0)) @ axes.T
     return tuple(search.solid(np.clip(each, low, high)) for each in drawn)

@@ -63,6 +63,9 @@ class Code(StrEnum):
     COMSOL = "comsol"
     RADIOSS = "radioss"
     TAMAAS = "tamaas"
+    RHEOJAX = "rheojax"
+    PYVISCO = "pyvisco"
+    REPTATE = "reptate"
 
 
 _HELP_PASSPORT = (
@@ -372,13 +375,21 @@ def export_command(
     ] = 3e-4,
     pressure_unit: Pressure = None,
     time_unit: Time = None,
+    bulk_modulus: Annotated[
+        str | None,
+        Option(
+            "--bulk-modulus",
+            metavar="PRESSURE",
+            help='Of an incompressible solid, for a program that forbids that, "2 GPa".',
+        ),
+    ] = None,
 ) -> None:
     """Write a material as input of another program, in its convention and in stated units.
 
     Without units: Pa and s. Without -o it goes to standard output.
 
     Example: viscotack material export pdms-10-1 --to abaqus --pressure-unit MPa
-    --frequencies "1 mHz,1 GHz" -o pdms.inp
+    --frequencies "1 mHz,1 GHz" --bulk-modulus "2 GPa" -o pdms.inp
     """
     with wrong_input():
         check_files({"--output": output}, reads=(Path(passport_file),))
@@ -391,6 +402,8 @@ def export_command(
             str(code),
             units=Units(pressure_unit or "Pa", time_unit or "s"),
             notes=_notes(passport, form),
+            bulk_modulus=None if bulk_modulus is None else parse(bulk_modulus, "Pa"),
+            shift=_seen_from(passport),
         )
     write = Writing()
     write("wrote", output or Path("-"), lambda target: write_whole(target, text.encode()))
@@ -471,7 +484,7 @@ def _imported(
         constants["rubbery_modulus"] = parse(also["rubbery-modulus"], "Pa")
     if also["poisson-ratio"] is not None:
         constants["poisson_ratio"] = also["poisson-ratio"]
-    if constants and code not in (Code.COMSOL, Code.RADIOSS):
+    if constants and code in (Code.ABAQUS, Code.ANSYS, Code.TAMAAS):
         raise InputError(f"input of {code} holds modulus and Poisson ratio; leave them out")
     units = Units(pressure, time) if pressure and time else None
     try:
@@ -518,6 +531,13 @@ def _two(text: str, flag: str) -> list[str]:
     if len(words) != 2:
         raise InputError(f"{flag} needs two values with a comma between them, got {text!r}")
     return words
+
+
+def _seen_from(passport: Passport) -> Any:
+    """Return the shift of a passport, zero at the temperature of its material."""
+    if passport.shift is None or passport.temperature is None:
+        return None
+    return passport.shift.at_reference(passport.temperature)
 
 
 def _notes(passport: Passport, form: PronyForm) -> tuple[str, ...]:
