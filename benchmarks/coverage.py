@@ -5,7 +5,7 @@
 In each situation a known solid is measured again and again, each time with fresh errors, and
 fitted; counted is how often the 90 % interval of each quantity holds the true value. A bound ("at
 least") holds where the truth is not beyond it. 200 draws tell a coverage of 90 % to +-2 %.
-Takes 8 minutes on two cores.
+Takes a quarter of an hour on two cores.
 """
 
 import argparse
