@@ -3,10 +3,11 @@
 from .fit_passport import issued
 from .fit_report import FitReport
 from .fitting import fit
+from .judging import Superposition, contradiction, superposition
 from .kramers_kronig import Consistency, consistency, loss_from_storage
 from .master_curves import master_curve
 from .reading import FORMATS, read, read_creep, read_dma, read_relaxation, read_shifts
-from .shift_laws import ShiftFit, fit_arrhenius, fit_wlf
+from .shift_laws import ShiftFit, fit_arrhenius, fit_wlf, nearest_law
 from .shifting import shift_factors
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source
 
@@ -21,17 +22,21 @@ __all__ = [
     "ShiftFit",
     "ShiftTable",
     "Source",
+    "Superposition",
     "consistency",
+    "contradiction",
     "fit",
     "fit_arrhenius",
     "fit_wlf",
     "issued",
     "loss_from_storage",
     "master_curve",
+    "nearest_law",
     "read",
     "read_creep",
     "read_dma",
     "read_relaxation",
     "read_shifts",
     "shift_factors",
+    "superposition",
 ]
