@@ -162,7 +162,7 @@ def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
         (FIT + "-o /nowhere/x.toml", "there is no folder /nowhere"),
         (FIT + "--plot fit.docx", "its ending must be one of"),
         (FIT + "--model sls --arms 3", "arms go with the model prony"),
-        (FIT + "--test creep", "cannot be used for --test creep"),
+        (FIT + "--test creep --frequency-unit Hz", "cannot be used for --test creep"),
         ("material show nothing", "neither a passport"),
         ("material show dma.csv", "is not a TOML file"),
         ('material convert pdms-10-1 --temperature "60 degC"', "superposition is not extrapolated"),

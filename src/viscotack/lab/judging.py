@@ -14,6 +14,7 @@ from numpy.polynomial import Chebyshev
 from viscotack.errors import InputError
 
 from .kramers_kronig import causal_misfit
+from .master_curves import shifted_by
 from .overlap import Curve
 from .shifting import BEST, FEWEST, curve, steps_between, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
@@ -124,34 +125,32 @@ def superposition(
     sweeps : FrequencySweeps
         As measured, at two or more temperatures.
     shifts : ShiftTable
-        The shifts that were used, one for each temperature, in whatever way they were found.
+        The shifts that were used, in whatever way they were found; between its rows they are
+        interpolated.
     tolerance : float
         Relative deviation from one curve beyond which they do not superpose, in (0, 1).
 
     Raises
     ------
     ValueError
-        If the table has not one row for each temperature of the sweeps.
+        If the table does not reach all temperatures of the sweeps.
     """
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance must lie between 0 and 1, got {tolerance!r}")
     levels = temperature_levels(sweeps)
-    if len(levels) != len(shifts):
-        raise InputError(
-            f"the shifts are of {len(shifts)} temperatures, the sweeps of {len(levels)}"
-        )
+    temperature = np.array([float(np.mean(level.temperature)) for level in levels])
+    along, up, _ = shifted_by(shifts, temperature, temperature, float(shifts.temperature[0]))
     shapely = [i for i, level in enumerate(levels) if len(level) >= FEWEST]
     curves = [curve(levels[i]) for i in shapely]
-    asked = _asked(shifts.temperature[shapely], curves)
-    up = np.zeros(len(shifts)) if shifts.log10_vertical is None else shifts.log10_vertical
+    asked = _asked(temperature[shapely], curves)
     found = []
     for (a, b), (i, j), (other, doubt) in zip(
         pairwise(curves), pairwise(shapely), asked, strict=True
     ):
-        step = float(shifts.log10_shift[j] - shifts.log10_shift[i])
+        step = float(along[j] - along[i])
         moved = Curve(b.x + step, tuple(y + up[j] - up[i] for y in b.y))
         deviation, own = _deviations(a, moved)
-        between = float(shifts.temperature[i]), float(shifts.temperature[j])
+        between = float(temperature[i]), float(temperature[j])
         found.append(Neighbours(between, deviation, own, step, other, doubt))
     return Superposition(tuple(found), tolerance)
 
@@ -177,7 +176,7 @@ def _asked(temperature: Array, curves: list[Curve]) -> list[tuple[float, float]]
         steps = steps_between(temperature, curves, *BEST)
     except ValueError:
         return [(np.nan, np.nan)] * (len(curves) - 1)
-    return [(step.shift, float(np.sqrt(step.variance))) for step in steps]
+    return [(step.shift, float(np.hypot(np.sqrt(step.variance), step.common))) for step in steps]
 
 
 def _deviations(a: Curve, b: Curve) -> tuple[tuple[float, ...], tuple[float, ...]]:

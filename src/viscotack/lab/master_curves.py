@@ -103,17 +103,11 @@ def master_curve(
         shift = shift_factors(
             sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
         )
-        how = f"shifts from the overlap of {_PARTS[by]}, {_moved(vertical)}"
+        how = f"shifts from the overlap of {_PARTS[by]}, {moved_words(vertical)}"
     else:
-        how = _words(shift)
-    if isinstance(shift, ShiftTable):
-        horizontal, up = _by_table(sweeps.temperature, shift, reference_temperature)
-        table = shift
-    else:
-        law = shift.at_reference(reference_temperature)
-        horizontal, up = np.asarray(law.log10_shift(sweeps.temperature)), 0.0
-        levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
-        table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+        how = shift_words(shift)
+    levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
+    horizontal, up, table = shifted_by(shift, sweeps.temperature, levels, reference_temperature)
     return MasterCurve(
         reference_temperature=reference_temperature,
         angular_frequency=sweeps.angular_frequency * 10**horizontal,
@@ -162,7 +156,8 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
     return replace(best, source=best.source.noted(note))
 
 
-def _moved(vertical: str | float) -> str:
+def moved_words(vertical: str | float) -> str:
+    """Return in a few words how far moduli may move."""
     words = {
         "auto": "moduli moved as far as the data fix it",
         "none": "moduli not moved",
@@ -187,6 +182,18 @@ def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> Mas
         temperature=sweeps.temperature,
         sweep=sweeps.sweep,
     )
+
+
+def shifted_by(
+    shift: Shift | ShiftTable, temperature: Array, levels: Array, reference: float
+) -> tuple[Array, Array, ShiftTable]:
+    """Return the horizontal and the vertical shift of each point, and the table of the levels."""
+    if isinstance(shift, ShiftTable):
+        return *_by_table(temperature, shift, reference), shift
+    law = shift.at_reference(reference)
+    horizontal = np.asarray(law.log10_shift(temperature))
+    table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+    return horizontal, np.zeros_like(horizontal), table
 
 
 def _by_table(temperature: Array, table: ShiftTable, reference: float) -> tuple[Array, Array]:
@@ -233,7 +240,8 @@ def _near(temperature: Array, reference: float) -> bool:
     return bool(np.all(np.abs(temperature - reference) <= GAP))
 
 
-def _words(shift: Shift | ShiftTable) -> str:
+def shift_words(shift: Shift | ShiftTable) -> str:
+    """Return in a few words how points are shifted."""
     match shift:
         case WLF(reference_temperature=reference, c1=c1, c2=c2):
             return f"shifted by WLF with c1 = {c1:g}, c2 = {c2:g} K at {reference:g} K"

@@ -62,7 +62,8 @@ class Step:
 
     shift: float
     vertical: float
-    variance: float  # of the shift
+    variance: float  # of the shift, apart from what is common
+    common: float  # part of its standard deviation that every step may have with the same sign
     deviation: tuple[float, ...]  # of each modulus from the common curve, root mean square
 
 
@@ -83,7 +84,9 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
 
     The variance is the larger one of the scatter's (Fisher) and of a jackknife that leaves out
     stretches of the overlap, which sees neighbouring points that err alike; to it comes how far
-    the next richer polynomial moves the shift.
+    the next richer polynomial moves the shift. What a vertical shift within its spread could do
+    is told apart, as far as the data do not fix it: such shifts have causes that run on with
+    temperature, so that they add up from step to step.
 
     Raises
     ------
@@ -94,7 +97,9 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     free = hold.moves and hold.spread > 0
     found, degree = _found(colder, hotter, hold)
     pair = _pair(colder, hotter, np.array([found]), hold, hold.spread > 0, degree)
-    variance = _variances(pair)[0]
+    variance, of_vertical, both = _variances(pair)
+    # a vertical shift that the data leave open may run the same way in all steps
+    leaning = (both / hold.spread) ** 2 if hold.spread > 0 else 0.0
     richer = _refined(colder, hotter, found, hold, degree + 1)
     others = _without_blocks(colder, hotter, found, hold, degree)
     jackknife = (_BLOCKS - 1) / _BLOCKS * float(np.sum((others - np.mean(others)) ** 2))
@@ -103,7 +108,8 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     return Step(
         found,
         hold.expected + (float(unknowns[0, -1, 0]) if free else 0.0),
-        max(variance, jackknife) + (richer - found) ** 2,
+        max(variance - leaning, jackknife) + (richer - found) ** 2,
+        float(np.sqrt(leaning)),
         tuple(float(value) for value in np.sqrt(np.mean(each**2, axis=1))),
     )
 
@@ -266,8 +272,8 @@ def _costs(pair: _Pair, rounds: int) -> Array:
     return np.sum(cost, axis=1) + held + pair.design.shape[2] * np.log(pair.y.size)
 
 
-def _variances(pair: _Pair) -> tuple[float, float]:
-    """Return the variances of the shift and of the unknown before it, the vertical shift if free.
+def _variances(pair: _Pair) -> tuple[float, float, float]:
+    """Return the variances of shift and vertical shift, the last unknown, and their covariance.
 
     One shift is tried. The inverse of Fisher's information on all unknowns and the shift. A
     vertical shift that is held still, and need not be so, is an unknown as well: what it could
@@ -282,4 +288,4 @@ def _variances(pair: _Pair) -> tuple[float, float]:
     information[-2, -2] += pair.precision
     information += 1e-12 * np.trace(information) * np.eye(unknowns)
     covariance = np.linalg.inv(information)
-    return float(covariance[-1, -1]), float(covariance[-2, -2])
+    return float(covariance[-1, -1]), float(covariance[-2, -2]), float(covariance[-1, -2])

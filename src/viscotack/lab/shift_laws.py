@@ -39,23 +39,6 @@ class ShiftFit:
     misfit: float
     worst: tuple[float, float]
 
-    def words(self) -> str:
-        """Return the law with its errors as a line a person reads."""
-        at = f"at {self.law.reference_temperature - 273.15:.4g} C"
-        errors = self.standard_error
-        if isinstance(self.law, WLF):
-            constants = (
-                f"WLF with c1 = {self.law.c1:.4g} +- {errors[0]:.2g}, "
-                f"c2 = {self.law.c2:.4g} +- {errors[1]:.2g} K {at}"
-            )
-        else:
-            energy = self.law.activation_energy / 1e3
-            constants = f"Arrhenius with {energy:.4g} +- {errors[0] / 1e3:.2g} kJ/mol"
-        return (
-            f"{constants}; {self.misfit:.2g} decades off in the mean, {abs(self.worst[1]):.2g} at "
-            f"most ({self.worst[0] - 273.15:.4g} C)"
-        )
-
 
 def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
     """Return the WLF law nearest to a table of shifts, by weighted least squares.

@@ -176,16 +176,20 @@ def _summed(
     steps: Sequence[Step], temperature: Array, reference: float
 ) -> tuple[Array, Array, Array]:
     """Return shifts, vertical shifts and standard deviations relative to the reference."""
-    columns = np.array([[s.shift, s.vertical, s.variance] for s in steps])
-    sums = np.vstack((np.zeros(3), np.cumsum(columns, axis=0)))
+    columns = np.array([[s.shift, s.vertical, s.variance, s.common] for s in steps])
+    sums = np.vstack((np.zeros(4), np.cumsum(columns, axis=0)))
     inside = float(np.clip(reference, temperature[0], temperature[-1]))
-    at = [
-        np.interp(inside, temperature, sums[:, 2])
-        if i == 2
-        else TabulatedShift(inside, tuple(temperature), tuple(sums[:, i])).log10_shift(temperature)
-        for i in range(3)
-    ]
-    return np.asarray(at[0]), np.asarray(at[1]), np.sqrt(np.abs(sums[:, 2] - at[2]))
+    shift, up = (
+        np.asarray(
+            TabulatedShift(inside, tuple(temperature), tuple(column)).log10_shift(temperature)
+        )
+        for column in sums[:, :2].T
+    )
+    variance, common = (
+        np.abs(column - np.interp(inside, temperature, column)) for column in sums[:, 2:].T
+    )
+    deviation = np.sqrt(variance + common**2)
+    return shift, up, np.where(deviation < 1e-6, 0.0, deviation)  # the reference, and round-off
 
 
 def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:

@@ -166,6 +166,11 @@ class TabulatedShift:
         Temperatures of the table [K], ascending, two or more.
     values : tuple of float
         log10 a_T at these temperatures, relative to any one temperature.
+    uncertainty : tuple of float
+        Standard deviation of each value; empty where nobody says.
+    vertical : tuple of float
+        log10 of the factor that takes a modulus at these temperatures to the one at which the
+        values are zero; empty for 1.
 
     Notes
     -----
@@ -184,6 +189,8 @@ class TabulatedShift:
     reference_temperature: float
     temperature: tuple[float, ...]
     values: tuple[float, ...]
+    uncertainty: tuple[float, ...] = ()
+    vertical: tuple[float, ...] = ()
 
     def __post_init__(self):
         temperature = _temperatures(self.temperature)
@@ -197,6 +204,17 @@ class TabulatedShift:
             raise InputError("the temperatures of a table of shifts must ascend, each once")
         if not np.all(np.isfinite(values)):
             raise InputError("the values of a table of shifts must be finite")
+        more = {}
+        for name in ("uncertainty", "vertical"):
+            column = np.asarray(getattr(self, name), dtype=float)
+            if column.size and column.shape != values.shape:
+                raise InputError(
+                    f"{name} of a table of shifts needs one number for each temperature or none, "
+                    f"got {column.size} for {values.size}"
+                )
+            if not np.all(np.isfinite(column)) or name == "uncertainty" and np.any(column < 0):
+                raise InputError(f"{name} of a table of shifts must be finite and not negative")
+            more[name] = tuple(column.tolist())
         store(
             self,
             reference_temperature=positive(
@@ -204,6 +222,7 @@ class TabulatedShift:
             ),
             temperature=tuple(temperature.tolist()),
             values=tuple(values.tolist()),
+            **more,
         )
         self._refuse_outside(np.asarray(self.reference_temperature))
 
@@ -213,6 +232,17 @@ class TabulatedShift:
         self._refuse_outside(asked)
         curve = PchipInterpolator(self.temperature, self.values)
         return like_input(curve(asked) - curve(self.reference_temperature))
+
+    def deviation(self, temperature: float, other: float) -> float:
+        """Return the standard deviation of log10 a_T between two temperatures [K] of the table.
+
+        Both rows count as if they erred apart, which is no less than what they do. Zero where
+        nobody says.
+        """
+        if temperature == other or not self.uncertainty:
+            return 0.0
+        there, here = np.interp([temperature, other], self.temperature, self.uncertainty)
+        return math.hypot(there, here)
 
     def at_reference(self, temperature: float) -> "TabulatedShift":
         """Return the same table seen from another reference temperature [K] inside it."""
@@ -230,6 +260,25 @@ class TabulatedShift:
 
 
 Shift = WLF | Arrhenius | TabulatedShift
+
+
+@dataclass(frozen=True)
+class FittedShift:
+    """A law nearest to a measured table, kept beside it: for other programs, and to compare.
+
+    Parameters
+    ----------
+    law : WLF or Arrhenius
+        At its reference temperature.
+    standard_error : tuple of float
+        Of c1 [-] and c2 [K], or of the activation energy [J/mol].
+    misfit : float
+        Root mean square of log10 a_T of the table less that of the law [decades].
+    """
+
+    law: WLF | Arrhenius
+    standard_error: tuple[float, ...]
+    misfit: float
 
 
 def _temperatures(values: npt.ArrayLike) -> Array:
