@@ -6,6 +6,7 @@ import shlex
 import numpy as np
 import pytest
 
+from melts import CHAMBER, LAW, melt, relaxations
 from viscotack.app.cli import main
 from viscotack.materials import Prony
 from viscotack.materials.exchange import CODES, COMPRESSIBLE
@@ -148,6 +149,69 @@ def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
     assert np.max(np.abs(back.complex_modulus(omega) / exact - 1)) < 3.1e-4
 
 
+def melt_file(folder):
+    """Write the sweeps of a melt from -40 to 0 C as a laboratory would."""
+    sweeps = melt(2, temperatures=CHAMBER[:5])
+    rows = zip(
+        sweeps.angular_frequency / 2 / np.pi, sweeps.storage, sweeps.loss,
+        sweeps.temperature - 273.15, strict=True,
+    )  # fmt: skip
+    lines = [",".join(f"{x:.8g}" for x in row) for row in rows]
+    (folder / "melt.csv").write_text("\n".join(["f,G',G'',T", "Hz,Pa,Pa,C", *lines, ""]))
+
+
+def test_shifts_are_printed_drawn_and_kept(lab, capsys):
+    melt_file(lab)
+    line = 'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
+    out, _ = printed(line + "--model prony --arms 12 -o melt.toml --plot melt.png", capsys)
+    assert "log10 a_T" in out and "nearest law: WLF" in out
+    passport = read_passport("melt.toml")
+    assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[:5]), atol=0.1)
+    assert max(passport.shift.uncertainty) < 0.06
+    assert (lab / "melt.png").stat().st_size > 10_000
+    shown, _ = printed("material show melt.toml", capsys)
+    assert "nearest law: WLF" in shown
+
+
+def test_flags_say_how_sweeps_are_shifted(lab, capsys):
+    melt_file(lab)
+    line = (
+        'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
+        "--model sls --json "
+    )
+    out, _ = printed(
+        line + '--shift-by storage --vertical "6.5e-4 1/K" --leave-out "-40 degC" '
+        '--leave-out "0 degC"',
+        capsys,
+    )
+    answer = json.loads(out)
+    assert len(answer["shift"]["values"]) == 3
+    assert "storage alone" in answer["origin"]["notes"][-1]
+    assert "0.00065 1/K" in answer["origin"]["notes"][-1]
+    for flags, words in (
+        ('--leave-out "7 degC"', "has no test within 1 K of it; it has some at -40 C, -30 C"),
+        ("--vertical most", "must be auto, none, free or the coefficient"),
+        ('--wlf "10,90 K" --vertical none', "for shifts found from overlap"),
+    ):
+        assert words in " ".join(refused(line + flags, capsys).split())
+
+
+def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
+    rows = [
+        f"{t:.6g},{E:.6g},{test.temperature - 273.15:.6g}"
+        for test in relaxations(0)
+        for t, E in zip(test.time, test.modulus, strict=True)
+    ]
+    (lab / "steps.csv").write_text("\n".join(["t,G_relax,T", "s,Pa,C", *rows, ""]))
+    line = "material fit steps.csv --test relaxation --poisson-ratio 0.5 --model prony --arms 8 "
+    assert "say at which temperature" in refused(line, capsys)
+    out, _ = printed(line + '--reference-temperature "-30 degC" --vertical "6.5e-4 1/K" --json',
+                     capsys)  # fmt: skip
+    answer = json.loads(out)
+    assert np.allclose(answer["shift"]["values"], LAW.log10_shift(CHAMBER[:5]), atol=0.1)
+    assert "5 tests" in answer["origin"]["notes"][-1]
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [
@@ -177,6 +241,10 @@ def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
         ),
         ('material export pdms-10-1 --to abaqus --frequencies "1 Hz"', "needs two values"),
         ("material export pdms-10-1 --to abaqus --pressure-unit m", "does not measure"),
+        (
+            'simulate sphere --tabor 2 --preload 3 --rate 1 --temperature "0 degC"',
+            "changes nothing without dimensions",
+        ),
         ("simulate sphere --material dma.toml --tabor 2 --preload 3 --rate 1", "there is no file"),
     ],
 )
