@@ -1,7 +1,7 @@
 """Shift factors beside those that others published, from folders of their files.
 
     python benchmarks/shifts.py --reptate FOLDER [--mastercurves FOLDER] [--pyvisco FOLDER]
-        [--package-says FILE]
+        [--package-says FILE] [--full]
 
 RepTate (GPL-3, github.com/jorge-ramirez-upm/RepTate): `data/PI_LINEAR`, sweeps of ten melts of
 polyisoprene with different lengths of chain, and the WLF law of all of them in the headings of its

@@ -95,7 +95,6 @@ def test_a_loss_that_contradicts_storage_is_found_out_and_the_shifts_are_called_
     assert "do not superpose in loss" in superposition(sweeps, curve.shifts).words()[0]
     assert "Kramers-Kronig" in contradiction(curve)
     assert curve.shifts.uncertainty[0] > 0.5
-    assert nearest_law(curve.shifts, reference_temperature=298.15) is None
 
 
 def test_a_law_for_the_table_is_found_or_none_is():
