@@ -13,7 +13,6 @@ REFERENCE = 243.15
 LAW = WLF(REFERENCE, 10.0, 90.0)
 EXPANSION = 6.5e-4  # 1/K
 CHAMBER = np.array([233.15, 243.15, 253.15, 263.15, 273.15, 293.15, 313.15])
-HERTZ = np.geomspace(0.01, 30, 20)
 _TERMINAL = 500.0  # s
 
 
@@ -31,15 +30,15 @@ def vertical(temperature):
     return temperature * np.exp(-EXPANSION * above) / REFERENCE
 
 
-def melt(seed=0, *, noise=0.01, thermometer=0.2, temperatures=CHAMBER):
+def melt(seed=0, *, noise=0.01, thermometer=0.2, temperatures=CHAMBER, points=20):
     """Return sweeps as a rheometer would, in shear."""
     rng = np.random.default_rng(seed)
-    temperatures = np.asarray(temperatures)
+    temperatures, hertz = np.asarray(temperatures), np.geomspace(0.01, 30, points)
     true = np.repeat(
-        temperatures + thermometer * rng.standard_normal(temperatures.size), HERTZ.size
+        temperatures + thermometer * rng.standard_normal(temperatures.size), hertz.size
     )
     stated, omega = (
-        grid.ravel() for grid in np.meshgrid(temperatures, 2 * np.pi * HERTZ, indexing="ij")
+        grid.ravel() for grid in np.meshgrid(temperatures, 2 * np.pi * hertz, indexing="ij")
     )
     moduli, times = modes()
     phase = 1j * (omega * 10 ** LAW.log10_shift(true))[:, None] * times
@@ -51,7 +50,7 @@ def melt(seed=0, *, noise=0.01, thermometer=0.2, temperatures=CHAMBER):
         G.real * scatter[0],
         G.imag * scatter[1],
         "G",
-        np.repeat(np.arange(temperatures.size), HERTZ.size),
+        np.repeat(np.arange(temperatures.size), hertz.size),
     )
 
 

@@ -19,7 +19,7 @@ from .grouping import GAP
 from .joining import joined_source
 from .master_curves import moved_words, shift_words, shifted_by
 from .overlap import Curve
-from .shifting import FEWEST, THERMOMETER, shifts_between
+from .shifting import FEWEST, THERMOMETER, shifts_between, thinned
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 
 Array = npt.NDArray[np.float64]
@@ -149,5 +149,5 @@ def _curve(test: RelaxationTest | CreepTest) -> Curve:
             "overlap; give a law of shift or leave them out"
         )
     if isinstance(test, RelaxationTest):
-        return Curve(x, (np.log10(test.modulus[::-1]),))
-    return Curve(x, (-np.log10(test.compliance[::-1]),))
+        return thinned(Curve(x, (np.log10(test.modulus[::-1]),)))
+    return thinned(Curve(x, (-np.log10(test.compliance[::-1]),)))

@@ -64,7 +64,6 @@ class Step:
     vertical: float
     variance: float  # of the shift, apart from what is common
     common: float  # part of its standard deviation that every step may have with the same sign
-    deviation: tuple[float, ...]  # of each modulus from the common curve, root mean square
 
 
 @dataclass(frozen=True)
@@ -97,20 +96,19 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
     free = hold.moves and hold.spread > 0
     found, degree = _found(colder, hotter, hold)
     pair = _pair(colder, hotter, np.array([found]), hold, hold.spread > 0, degree)
-    variance, of_vertical, both = _variances(pair)
+    variance, _, both = _variances(pair)
     # a vertical shift that the data leave open may run the same way in all steps
     leaning = (both / hold.spread) ** 2 if hold.spread > 0 else 0.0
     richer = _refined(colder, hotter, found, hold, degree + 1)
     others = _without_blocks(colder, hotter, found, hold, degree)
     jackknife = (_BLOCKS - 1) / _BLOCKS * float(np.sum((others - np.mean(others)) ** 2))
-    unknowns, residual, _ = _solved(_pair(colder, hotter, np.array([found]), hold, free, degree))
-    each = residual[0].reshape(len(colder.y), -1)
+    # where it may move, the pair has it as its last unknown
+    vertical = float(_solved(pair)[0][0, -1, 0]) if free else 0.0
     return Step(
         found,
-        hold.expected + (float(unknowns[0, -1, 0]) if free else 0.0),
+        hold.expected + vertical,
         max(variance - leaning, jackknife) + (richer - found) ** 2,
         float(np.sqrt(leaning)),
-        tuple(float(value) for value in np.sqrt(np.mean(each**2, axis=1))),
     )
 
 

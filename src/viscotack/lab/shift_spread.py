@@ -54,9 +54,7 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
         wider = quantile * float(np.std(logs, ddof=1))
         intervals.append(_wider(each, wider))
         if each.bounded and not each.known and each.high > each.low:
-            more = max(more, np.log(intervals[-1].high / intervals[-1].low) / np.log(
-                each.high / each.low
-            ))  # fmt: skip
+            more = max(more, _width(intervals[-1]) / _width(each))
     cautions = report.cautions
     if more > _WORTH:
         worst = int(np.argmax(shifts.uncertainty))
@@ -98,6 +96,10 @@ def _refitted(report: FitReport, curve: MasterCurve) -> Any:
         return fit_series(seen, arms=arms, level=report.level, draws=0, seed=0).material
     known = {each.name: each.value for each in report.intervals if each.known}
     return fitted_constants(seen, model=report.model, known=known)[0]
+
+
+def _width(each: Interval) -> float:
+    return float(np.log(each.high / each.low))
 
 
 def _wider(each: Interval, wider: float) -> Interval:

@@ -18,6 +18,7 @@ from .sweeps import FrequencySweeps, ShiftTable
 Array = npt.NDArray[np.float64]
 
 FEWEST = 4  # points of one temperature; fewer carry no shape
+MOST = 200  # more are averaged: a shift takes no longer, and is no less sure
 BY = ("both", "storage", "loss", "tan")
 BEST = ("both", "auto")  # by, vertical: the most that the data carry
 THERMOMETER = 0.2  # K: how well the temperature of a chamber is known
@@ -69,7 +70,8 @@ def shift_factors(
 
     Notes
     -----
-    Points within 1 K are one temperature, their mean.
+    Points within 1 K are one temperature, their mean. More than 200 points of one temperature are
+    averaged over equal stretches of the logarithm of frequency.
     """
     levels = temperature_levels(sweeps)
     return shifts_between(
@@ -211,4 +213,14 @@ def curve(level: FrequencySweeps) -> Curve:
             f"{np.ptp(x):.1g} decades of frequency: too few to find a shift from overlap; "
             "give a law of shift or leave them out"
         )
-    return Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order])))
+    return thinned(Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order]))))
+
+
+def thinned(curve: Curve) -> Curve:
+    """Return a curve of at most MOST points: means over equal stretches, where it has more."""
+    if curve.x.size <= MOST:
+        return curve
+    stretch = (MOST * (curve.x - curve.x[0]) / (np.ptp(curve.x) * (1 + 1e-12))).astype(int)
+    _, stretch, count = np.unique(stretch, return_inverse=True, return_counts=True)
+    x, *y = (np.bincount(stretch, column) / count for column in (curve.x, *curve.y))
+    return Curve(x, tuple(y))
