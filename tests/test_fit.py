@@ -544,6 +544,27 @@ def test_impossible_options_are_refused(options, words):
         fit(curve(), poisson_ratio=0.5, **options)
 
 
+def liquid(decades):
+    """Return a relaxation test of a liquid with one relaxation time, over decades of modulus."""
+    time = np.geomspace(0.1, 10 * decades * np.log(10), 50)
+    scatter = np.exp(0.02 * np.random.default_rng(0).standard_normal(50))
+    return RelaxationTest(time, 1e6 * np.exp(-time / 10) * scatter, "E")
+
+
+@pytest.mark.parametrize("options", [{"model": "prony"}, {"model": "prony", "arms": 3}], ids=str)
+def test_a_modulus_over_more_decades_than_instruments_have_is_refused(options):
+    # what underflowed on the way is no measurement, and its logarithms overflow in drawn series
+    with pytest.raises(ValueError, match="over 260 decades"):
+        fit(liquid(260), poisson_ratio=0.5, **options)
+    report = fit(liquid(19), poisson_ratio=0.5, **options)
+    assert report.interval("rubbery_modulus").low == 0
+
+
+def test_a_constant_that_nothing_moves_has_no_bound():
+    report = fit(liquid(9), poisson_ratio=0.5, model="sls", draws=2)
+    assert all(each.high == np.inf for each in report.intervals)
+
+
 def test_unfit_data_is_refused():
     with pytest.raises(ValueError, match="at least 3 points"):
         fit(curve().chosen([0, 1]), poisson_ratio=0.5)

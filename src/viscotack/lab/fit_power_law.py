@@ -73,8 +73,10 @@ def fit_constants(
     # linearised, or by the profile where a straight line is no good picture of the sum of squares
     ends = np.array([best.x - half, best.x + half]).T
     if poor:
-        # an error that moves the constant by so much costs so much
-        allowed = 2 * best.cost + half**2 / np.sum(influences**2, axis=1)
+        # an error that moves the constant by so much costs so much; what no error moves, nothing
+        moved = np.sum(influences**2, axis=1)
+        more = np.divide(half**2, moved, out=np.full(half.size, np.inf), where=moved > 0)
+        allowed = 2 * best.cost + more
         ends = np.array(
             [
                 [search.profile_end(best.x, i, side, half[i], allowed[i]) for side in (-1, 1)]
