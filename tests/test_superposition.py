@@ -17,6 +17,7 @@ from viscotack.lab import (
     master_curve,
     nearest_law,
     read_dma,
+    read_relaxations,
     shift_factors,
     superposed,
     superposition,
@@ -182,6 +183,27 @@ def test_tests_over_time_superpose(make):
     assert len(curve) == sum(map(len, tests))
     exact, _ = superposed(tests, reference_temperature=REFERENCE, shift=LAW)
     assert_allclose(exact.time[[0, -1]], curve.time[[0, -1]], rtol=0.3)
+
+
+def test_the_source_of_tests_from_several_files_names_all(tmp_path):
+    paths = []
+    for test in relaxations(0, temperatures=CHAMBER[:3]):
+        rows = "".join(
+            f"{t!r},{G!r}\n"
+            for t, G in zip(*map(np.ndarray.tolist, (test.time, test.modulus)), strict=True)
+        )
+        path = tmp_path / f"melt_{test.temperature:.2f}K.csv"
+        path.write_text("t,G_relax\ns,Pa\n" + rows)
+        paths.append(path)
+    tests = read_relaxations(paths, temperature_in_name=True)
+    curve, _ = superposed(tests, reference_temperature=REFERENCE, vertical=EXPANSION)
+    assert all(path.name in curve.source.path for path in paths)
+    assert "3 files as one material" in curve.source.notes
+    copy = tmp_path / "melt_283.15K.csv"
+    copy.write_bytes(paths[0].read_bytes())
+    tests = read_relaxations([*paths, copy], temperature_in_name=True)
+    with pytest.raises(ValueError, match="is the same file as"):
+        superposed(tests, reference_temperature=REFERENCE, shift=LAW)
 
 
 def test_tests_over_time_that_cannot_superpose_are_refused():
