@@ -179,3 +179,15 @@ def test_the_loss_scales_with_the_storage_and_not_with_a_constant():
     storage = 1e6 * omega**0.2
     loss = loss_from_storage(omega, storage)
     assert_allclose(loss_from_storage(60 * omega, 3 * storage + 5e6), 3 * loss, rtol=1e-10)
+
+
+def test_a_table_goes_on_straight_for_a_kelvin():
+    # the chamber was at -0.01 C when it was set to 0 C
+    table = TabulatedShift(253.15, (243.15, 253.15, 273.14), (1.5, 0.0, -2.0))
+    inside = np.diff(table.log10_shift([273.13, 273.14]))[0]
+    beside = np.diff(table.log10_shift([273.15, 273.16]))[0]
+    assert beside == pytest.approx(inside, rel=2e-3)
+    assert table.log10_shift(273.15) < table.log10_shift(273.14)
+    assert table.log10_shift(242.65) > 1.5
+    with pytest.raises(ValueError, match="a table is not extrapolated"):
+        table.log10_shift(274.2)

@@ -8,10 +8,7 @@ from typing import Any
 from viscotack.errors import InputError
 from viscotack.materials.checks import rests
 from viscotack.materials.conversion import slowed
-from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
-
-# A chamber is set to a whole degree and drifts: this much beyond the measured range is inside it.
-_DRIFT = 1.0
+from viscotack.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +149,7 @@ class Passport:
             raise InputError(f"{self.name}: no law says how times change with temperature{known}")
         if self.temperatures is not None:
             low, high = self.temperatures
-            if not low - _DRIFT <= temperature <= high + _DRIFT:
+            if not low - BESIDE <= temperature <= high + BESIDE:
                 raise InputError(
                     f"{self.name} was measured from {_both(low)} to {_both(high)}, got "
                     f"{_both(temperature)}; superposition is not extrapolated"

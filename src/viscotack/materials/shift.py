@@ -154,6 +154,10 @@ class Arrhenius:
         return replace(self, reference_temperature=temperature)
 
 
+# K: a chamber is set to a whole degree and drifts, so this much beyond what was measured is inside
+BESIDE = 1.0
+
+
 @dataclass(frozen=True)
 class TabulatedShift:
     """A measured shift: passes through a table, smoothly, and is refused outside it.
@@ -175,7 +179,8 @@ class TabulatedShift:
     Notes
     -----
     Between the rows runs the monotone cubic of Fritsch & Carlson (1980), doi:10.1137/0717021: it
-    adds no bump that the table does not have.
+    adds no bump that the table does not have. Up to 1 K beside its ends goes a straight line: a
+    sweep at 0 C is written down with the -0.01 C that the chamber had.
 
     Examples
     --------
@@ -230,8 +235,7 @@ class TabulatedShift:
         """Return log10 a_T at temperatures [K] inside the table, in the shape given."""
         asked = _temperatures(temperature)
         self._refuse_outside(asked)
-        curve = PchipInterpolator(self.temperature, self.values)
-        return like_input(curve(asked) - curve(self.reference_temperature))
+        return like_input(self._along(asked) - self._along(np.asarray(self.reference_temperature)))
 
     def deviation(self, temperature: float, other: float) -> float:
         """Return the standard deviation of log10 a_T between two temperatures [K] of the table.
@@ -248,9 +252,14 @@ class TabulatedShift:
         """Return the same table seen from another reference temperature [K] inside it."""
         return replace(self, reference_temperature=temperature)
 
+    def _along(self, temperature: Array) -> Array:
+        curve = PchipInterpolator(self.temperature, self.values)
+        inside = np.clip(temperature, self.temperature[0], self.temperature[-1])
+        return curve(inside) + curve.derivative()(inside) * (temperature - inside)
+
     def _refuse_outside(self, temperature: Array) -> None:
         low, high = self.temperature[0], self.temperature[-1]
-        outside = temperature[(temperature < low) | (temperature > high)]
+        outside = temperature[(temperature < low - BESIDE) | (temperature > high + BESIDE)]
         if outside.size:
             raise InputError(
                 f"the table of shifts runs from {_in_celsius(low)} to {_in_celsius(high)}, "
