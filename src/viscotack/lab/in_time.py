@@ -146,7 +146,7 @@ def _curve(test: RelaxationTest | CreepTest) -> Curve:
     if x.size < FEWEST or np.ptp(x) < 0.1:
         raise InputError(
             f"{x.size} points at {test.temperature:.2f} K are too few to find a shift from "
-            "overlap; give a law of shift or leave them out"
+            "overlap; give a law of shift (--wlf, --shift-file) or leave them out (--leave-out)"
         )
     if isinstance(test, RelaxationTest):
         return thinned(Curve(x, (np.log10(test.modulus[::-1]),)))

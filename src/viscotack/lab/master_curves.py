@@ -89,7 +89,7 @@ def master_curve(
     if reference_temperature is None:
         return _unshifted(sweeps, shift)
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is not known; give read_dma temperature=")
+        raise InputError("the temperature of some points is not known; say it, --temperature")
     if shift is not None and (by is not None or vertical is not None):
         raise InputError("by and vertical are for shifts found from overlap; leave shift= out")
     reference_temperature = float(reference_temperature)

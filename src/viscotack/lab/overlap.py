@@ -140,7 +140,8 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     if best in (0, tried.size - 1):
         raise InputError(
             "the curves fit best end to end, so the data do not fix the shift; measure closer "
-            "temperatures, superpose by another modulus, or give a law of shift"
+            "temperatures, superpose by another modulus (--shift-by), or give a law of shift "
+            "(--glass-transition, --wlf, --shift-file)"
         )
     degree = _DEGREES[int(degree)]
     return _refined(colder, hotter, float(tried[best]), hold, degree), degree

@@ -112,13 +112,14 @@ def shifts_between(
         )
     if len(curves) < 2:
         raise InputError(
-            "a shift needs sweeps at two or more temperatures, got one; give a law of shift"
+            "a shift needs sweeps at two or more temperatures, got one; give a law of shift "
+            "(--glass-transition, --wlf, --shift-file)"
         )
     if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
         raise InputError(
-            f"reference_temperature must lie between {temperature[0]:.2f} and "
+            f"--reference-temperature must lie between {temperature[0]:.2f} and "
             f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give a law of shift to go "
-            "beyond"
+            "beyond (--glass-transition, --wlf, --shift-file)"
         )
     steps = steps_between(temperature, curves, by, vertical)
     shift, up, deviation = _summed(steps, temperature, reference_temperature)
@@ -197,7 +198,7 @@ def _summed(
 def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
     """Return the points of each temperature, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is not known; give read_dma temperature=")
+        raise InputError("the temperature of some points is not known; say it, --temperature")
     order = np.argsort(sweeps.temperature, kind="stable")
     breaks = np.flatnonzero(np.diff(sweeps.temperature[order]) > GAP) + 1
     return [sweeps.chosen(points) for points in np.split(order, breaks)]
@@ -211,7 +212,7 @@ def curve(level: FrequencySweeps) -> Curve:
         raise InputError(
             f"{x.size} points at {np.mean(level.temperature):.2f} K, over "
             f"{np.ptp(x):.1g} decades of frequency: too few to find a shift from overlap; "
-            "give a law of shift or leave them out"
+            "give a law of shift (--wlf, --shift-file) or leave them out (--leave-out)"
         )
     return thinned(Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order]))))
 

@@ -56,7 +56,9 @@ def shift_lines(passport: Passport) -> list[str]:
     )
     lines = ["         T [C]   log10 a_T          +-    log10 b_T"]
     lines += [
-        f"    {T - 273.15:>10.2f}{value:>12.3f}{doubt:>12.2g}{up:>13.3f}".replace("nan", "  -")
+        f"    {round(T - 273.15, 2) + 0.0:>10.2f}{value:>12.3f}{doubt:>12.2g}{up:>13.3f}".replace(
+            "nan", "  -"
+        )
         for T, value, doubt, up in rows
     ]
     if passport.fitted_shift is None:

@@ -73,7 +73,7 @@ def swept(sweeps: Any, shifting: Shifting) -> tuple[Any, Any, tuple[str, ...]]:
     """Return the master curve of a DMA, how times shift, and what speaks against it."""
     from viscotack.lab import contradiction, master_curve, superposition
 
-    law, file = shifting.law(), sweeps.source.path
+    law, file = shifting.law(), _named(sweeps.source.path.split(", "))
     for words in shifting.leave_out:
         sweeps = sweeps.chosen(_others(sweeps.temperature, words, file))
     known = sweeps.temperature[np.isfinite(sweeps.temperature)]
@@ -81,7 +81,7 @@ def swept(sweeps: Any, shifting: Shifting) -> tuple[Any, Any, tuple[str, ...]]:
     _ask_reference(file, known, shifting)
     if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
         raise InputError(
-            f"{file} is a temperature ramp at one frequency: nothing overlaps that could tell the "
+            f"{file}: a temperature ramp at one frequency, nothing overlaps that could tell the "
             'shift; give --glass-transition "-115 degC", --wlf or --shift-file'
         )
     curve = master_curve(
@@ -107,7 +107,7 @@ def stepped(measured: Any, shifting: Shifting) -> tuple[Any, Any, tuple[str, ...
 
     law = shifting.law()
     tests = measured if isinstance(measured, tuple) else (measured,)
-    file = ", ".join(dict.fromkeys(test.source.path for test in tests))
+    file = _named(list(dict.fromkeys(test.source.path for test in tests)))
     known = np.array([np.nan if t.temperature is None else t.temperature for t in tests])
     for words in shifting.leave_out:
         keep = _others(known, words, file)
@@ -115,7 +115,7 @@ def stepped(measured: Any, shifting: Shifting) -> tuple[Any, Any, tuple[str, ...
     if len(tests) == 1 and shifting.reference is None:
         if shifting.vertical is not None:
             raise InputError(
-                f"{file} holds one temperature: there is nothing to shift; leave --vertical out"
+                f"{file}: one temperature, there is nothing to shift; leave --vertical out"
             )
         return tests[0], None, ()
     _ask_reference(file, known[np.isfinite(known)], shifting)
@@ -129,10 +129,15 @@ def stepped(measured: Any, shifting: Shifting) -> tuple[Any, Any, tuple[str, ...
     return curve, law if isinstance(law, WLF) else table, ()
 
 
+def _named(paths: list[str]) -> str:
+    """Return the names of files, of many the first."""
+    return ", ".join(paths) if len(paths) < 4 else f"{paths[0]} and {len(paths) - 1} more"
+
+
 def _ask_reference(file: str, known: Any, shifting: Shifting) -> None:
     if shifting.reference is None and known.size and np.ptp(known) > _SEVERAL:
         raise InputError(
-            f"{file} has sweeps from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} C; "
+            f"{file}: measured from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} C; "
             'say at which temperature the material is wanted, --reference-temperature "20 degC"'
         )
 
@@ -145,7 +150,7 @@ def _others(temperature: Any, words: str, file: str) -> Any:
         known = np.unique(np.round(temperature[np.isfinite(temperature)] - 273.15))
         there = ", ".join(f"{T:g} C" for T in known) or "temperatures that it does not say"
         raise InputError(
-            f"--leave-out {words}: {file} has no test within 1 K of it; it has some at {there}"
+            f"--leave-out {words}: {file}: no test within 1 K of it; there are some at {there}"
         )
     if near.all():
         raise InputError(f"--leave-out {words} leaves nothing of {file}")
