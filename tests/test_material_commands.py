@@ -8,7 +8,7 @@ import pytest
 
 from melts import CHAMBER, LAW, melt, relaxations
 from viscotack.app.cli import main
-from viscotack.materials import Prony
+from viscotack.materials import Prony, StandardSolid
 from viscotack.materials.exchange import CODES, COMPRESSIBLE
 from viscotack.materials.library import published
 from viscotack.materials.passport_file import read_passport, write_passport
@@ -163,7 +163,7 @@ def melt_file(folder):
 def test_shifts_are_printed_drawn_and_kept(lab, capsys):
     melt_file(lab)
     line = 'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
-    out, _ = printed(line + "--model prony --arms 12 -o melt.toml --plot melt.png", capsys)
+    out, _ = printed(line + "--model prony --arms 16 -o melt.toml --plot melt.png", capsys)
     assert "log10 a_T" in out and "nearest law: WLF" in out
     passport = read_passport("melt.toml")
     assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[:5]), atol=0.1)
@@ -194,6 +194,73 @@ def test_flags_say_how_sweeps_are_shifted(lab, capsys):
         ('--wlf "10,90 K" --vertical none', "for shifts found from overlap"),
     ):
         assert words in " ".join(refused(line + flags, capsys).split())
+
+
+def trios_files(folder):
+    """Write sweeps of a standard solid, one file a temperature, as TRIOS exports them."""
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.3, poisson_ratio=0.5)
+    random = np.random.default_rng(1)
+    omega = 2 * np.pi * np.geomspace(0.05, 50, 12)
+    for T in CHAMBER[:5]:
+        E = solid.complex_modulus(omega * 10 ** LAW.log10_shift(T)) / 1e6
+        E = E.real * np.exp(0.01 * random.normal(size=12)) + 1j * E.imag
+        # the chamber is not quite at what it was set to
+        celsius = T - 273.15 - 0.01
+        lines = [
+            "Filename\trubber.tri",
+            "Geometry name\tFilm tension",
+            "[step]",
+            f"Step name\tFrequency sweep ({celsius:.0f} °C)",
+            "Number of points\t12",
+            "Variables\tTemperature\tAngular frequency\tStorage modulus\tLoss modulus",
+            "\t°C\trad/s\tMPa\tMPa",
+        ]
+        lines += [
+            f"data point {i + 1}\t{celsius:.2f}\t{w:.8g}\t{e.real:.8g}\t{e.imag:.8g}"
+            for i, (w, e) in enumerate(zip(omega, E, strict=True))
+        ]
+        name = f"rubber_{T - 273.15:.0f}.txt"
+        (folder / name).write_text("\r\n".join([*lines, ""]), encoding="utf-8")
+
+
+CASE = """
+[sphere]
+radius = "5 mm"
+[material]
+passport = "rubber.toml"
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1 um"
+[protocol]
+preload_depth = "3 um"
+speed = "1 um/s"
+"""
+
+
+def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys):
+    trios_files(lab)
+    (lab / "case.toml").write_text(CASE)
+    files = " ".join(f"rubber_{celsius}.txt" for celsius in (-40, -30, -20, -10, 0))
+    line = f"material fit {files} --poisson-ratio 0.5 --model sls --shift-by both "
+    assert '--reference-temperature "20 degC"' in refused(line, capsys)
+    line += '--reference-temperature "-30 degC" '
+    refusal = refused(line + '--leave-out "15 degC"', capsys)
+    assert "rubber_-40.txt and 4 more: no test within 1 K" in " ".join(refusal.split())
+    out, _ = printed(line + '--leave-out "-10 degC" -o rubber.toml', capsys)
+    assert "nearest law: WLF" in out and "-10.0" not in out
+    passport = read_passport("rubber.toml")
+    assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[[0, 1, 2, 4]]), atol=0.1)
+
+    pull = "simulate sphere case.toml --until pull-off --accuracy 2e-2 --json --temperature "
+    forces = []
+    for celsius in (-30, 0):
+        out, err = printed(f'{pull} "{celsius} degC"', capsys)
+        forces.append(json.loads(out)["pull_off_force"])
+        assert ("times of the material are known to" in err) == (celsius == 0)
+    # faster relaxation holds less
+    assert forces[1] < 0.9 * forces[0]
+    assert "superposition is not extrapolated" in refused(f'{pull} "20 degC"', capsys)
 
 
 def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
