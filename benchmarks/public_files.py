@@ -181,6 +181,7 @@ RECIPES = (
     Recipe("*freq_user_raw.csv", "dma", below("f,", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
     Recipe("*/freq_user_master.csv", "dma", below("f, ", ",", (0, 1, 2)), (HERTZ, MEGA, MEGA)),
     Recipe("*time_user_master.csv", "relaxation", below("t,", ",", (0, 1)), (1, MEGA)),
+    Recipe("*time_user_raw.csv", "relaxation", below("t,", ",", (0, 1)), (1, MEGA)),
     Recipe("*__shift_factors.csv", "shifts", below("T,", ",", (0, 1))),
     Recipe("*freq_Eplexor*.xls", "dma", excel("Exported Data", ("f", "E'|G'", "E''|G''")),
            (HERTZ, MEGA, MEGA)),
@@ -247,7 +248,6 @@ REFUSED = (
     ("*/input_master.csv", "looks like headings", "no headings, a command of ANSYS above"),
     ("*prony_terms*.csv", "looks like headings", "no measurement: a fitted series"),
     ("*data_framework_DMA.txt", "looks like headings", "no measurement: a fitted series"),
-    ("*time_user_raw.csv", "temperature runs over", "relaxation at 21 temperatures in one table"),
     ("*pyviscoe.csv", "above that of diamond", "pascals labelled MPa"),
     ("*0.[67][0-9].csv", "flow curve", "flow curve"),
     ("*0.80.csv", "flow curve", "flow curve"),
@@ -292,6 +292,10 @@ def celsius(path, name):
     """Return the temperatures that a file states [C], or None where it states none."""
     if fnmatch(name, "*freq_user_raw.csv"):
         return below("f,", ",", (3,))(path)[0].to_numpy().ravel()
+    if fnmatch(name, "*time_user_raw.csv"):
+        # a test has the mean of its points, which the file numbers
+        table = below("t,", ",", (2, 3))(path)[0]
+        return np.sort(table.groupby(3)[2].mean().to_numpy())
     if fnmatch(name, "*freq_Eplexor*.xls"):
         return excel("Exported Data", ("T",))(path)[0].to_numpy().ravel()
     if fnmatch(name, "*ttw_[0-9][0-9].csv"):
@@ -319,6 +323,10 @@ def celsius(path, name):
 
 def other_temperature(test, stated):
     """Return what is wrong with the temperature that was read, or nothing."""
+    if isinstance(test, tuple):
+        found = np.array([each.temperature for each in test]) - 273.15
+        same = stated is not None and np.allclose(found, stated, rtol=0, atol=1e-9)
+        return "" if same else "other temperatures than the file states"
     found = np.atleast_1d(np.asarray(test.temperature, dtype=float)) - 273.15
     if stated is None:
         return "" if np.all(np.isnan(found)) else "a temperature that the file does not state"
@@ -364,10 +372,12 @@ def found(test, name):
         return ordered(np.column_stack((test.angular_frequency, test.storage, test.loss)), name)
     if name == "shifts":
         points = np.column_stack((test.temperature - 273.15, test.log10_shift))
-    elif name == "relaxation":
-        points = np.column_stack((test.time, test.modulus))
     else:
-        points = np.column_stack((test.time, test.compliance))
+        column = "modulus" if name == "relaxation" else "compliance"
+        several = test if isinstance(test, tuple) else (test,)
+        points = np.concatenate(
+            [np.column_stack((each.time, getattr(each, column))) for each in several]
+        )
     return ordered(points, name)
 
 
@@ -403,7 +413,8 @@ def outcome(path, name):
         return "UNEXPECTED", words
     if refusal is not None or recipe is None:
         return "MISREAD", "read, and should have been refused, or no recipe is there"
-    kind = type(test).__name__
+    # steps at several temperatures are several tests
+    kind = type(test[0] if isinstance(test, tuple) else test).__name__
     names = {"dma": "FrequencySweeps", "relaxation": "RelaxationTest", "creep": "CreepTest",
              "shifts": "ShiftTable"}  # fmt: skip
     if kind != names[recipe.test]:
@@ -418,8 +429,9 @@ def outcome(path, name):
         return "MISREAD", "other numbers than the independent parse"
     if recipe.test != "shifts":
         tensile = ("_user_" in name or "Eplexor" in name) and "shear" not in name
-        if test.kind != ("E" if tensile else "G"):
-            return "MISREAD", f"taken for kind {test.kind}"
+        one = test[0] if isinstance(test, tuple) else test
+        if one.kind != ("E" if tensile else "G"):
+            return "MISREAD", f"taken for kind {one.kind}"
         if wrong := other_temperature(test, celsius(path, name)):
             return "MISREAD", wrong
     if flags:
@@ -500,7 +512,7 @@ python benchmarks/public_files.py RepTate rheojax pyRheo mastercurves pyvisco RH
 
 "asked" files do not say a unit, or whether a modulus is tensile or shear: the refusal names the
 flags, and with them the numbers are those of the independent parse. Of files without headings no
-reader can know what their columns are.Measured on RepTate 4aeb671, RheoJAX b79e79e
+reader can know what their columns are. Measured on RepTate 4aeb671, RheoJAX b79e79e
 (without the two owchirp files of `examples/data/laos`, which were not at hand), pyRheo 9435084,
 mastercurves cb2cc35, pyvisco 252a4b8 and RHEOS a4e6de8.
 

@@ -1,10 +1,14 @@
 """Prony series to and from other programs: each convention, both ways."""
 
+import json
+
 import numpy as np
 import pytest
+from scipy.constants import gas_constant
 
 from viscotack.materials import Prony
-from viscotack.materials.exchange import CODES, SI, Units, exported, imported
+from viscotack.materials.exchange import CODES, COMPRESSIBLE, SI, Units, exported, imported
+from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
 SOLID = Prony(
     rubbery_modulus=1.458e6,
@@ -21,7 +25,13 @@ LOST = 1e-15 / SOLID.modulus_ratio
 @pytest.mark.parametrize("nu", [0.3, 0.47, 0.5])
 def test_a_series_comes_back_as_it_went(code, units, nu):
     solid = Prony(rubbery_modulus=SOLID.rubbery_modulus, branches=SOLID.branches, poisson_ratio=nu)
-    back = imported(exported(solid, code, units=units, notes=("a name", "two\nlines")), code)
+    if code in ("rheojax", "reptate") and units != SI or code == "pyvisco" and units.time != "s":
+        with pytest.raises(ValueError, match="counts in"):
+            exported(solid, code, units=units)
+        return
+    bulk = 2e9 if nu == 0.5 and code in COMPRESSIBLE else None
+    text = exported(solid, code, units=units, notes=("a name", "two\nlines"), bulk_modulus=bulk)
+    back = imported(text, code, **({"poisson_ratio": nu} if code == "pyvisco" else {}))
     # the columns of Radioss hold 13 digits
     allowed = 1e-12 if code == "radioss" else 2 * LOST
     assert back.poisson_ratio == nu
@@ -87,6 +97,176 @@ def test_what_an_analyst_typed_is_read():
     assert solid.branches == ((5e6, 0.1), (4e6, 2.0))
 
 
+# ---- what the programs make of it: other readers, and their own formulas -----------------------
+
+
+def words_of(line, separator=","):
+    return [word.strip() for word in line.split(separator)]
+
+
+def read_abaqus(text):
+    """Return G(0), K(0), g_i, k_i, tau_i, and the row of *TRS."""
+    blocks, key = {}, ""
+    for line in text.splitlines():
+        if line.startswith("**"):
+            continue
+        if line.startswith("*"):
+            key = line
+            blocks[key] = []
+        else:
+            blocks[key].append([float(w) for w in words_of(line)])
+    (E, nu), rows = blocks["*ELASTIC, MODULI=LONG TERM"][0], blocks["*VISCOELASTIC, TIME=PRONY"]
+    g, k, tau = np.array(rows).T
+    shift = {key: rows[0] for key, rows in blocks.items() if key.startswith("*TRS")}
+    # long-term moduli are those left of the instantaneous ones
+    return E / 2 / (1 + nu) / (1 - g.sum()), E / 3 / (1 - 2 * nu) / (1 - k.sum()), g, k, tau, shift
+
+
+def read_ansys(text):
+    """Return G(0), K(0), alpha of shear and bulk, tau, and the rows of TB,SHIFT."""
+    constants, tables, shift = {}, {"SHEAR": [], "BULK": []}, {}
+    rows = None
+    for line in text.splitlines():
+        words = words_of(line.split("!")[0])
+        if words[0] == "MP":
+            constants[words[1]] = float(words[3])
+        elif words[0] == "TB":
+            rows = tables[words[5]] if words[1] == "PRONY" else shift.setdefault(words[5], [])
+        elif words[0] == "TBDATA":
+            rows += [float(w) for w in words[2:]]
+    E, nu = constants["EX"], constants["NUXY"]
+    g, tau = np.reshape(tables["SHEAR"], (-1, 2)).T
+    k = np.reshape(tables["BULK"], (-1, 2))[:, 0] if tables["BULK"] else 0 * g
+    return E / 2 / (1 + nu), E / 3 / (1 - 2 * nu), g, k, tau, shift
+
+
+def read_radioss(text):
+    """Return G(0), K(0), parts of shear and bulk, tau; the elastic material is in a comment."""
+    lines = text.splitlines()
+    E, nu = (float(w) for w in next(x for x in lines if "material law:" in x).split(":")[1].split())
+    rows = [x for x in lines[lines.index("/VISC/PRONY/1") :] if x[0] not in "#/"][1:]
+    G_i, beta, K_i, beta_k = np.array([[float(w) for w in row.split()] for row in rows]).T
+    assert np.all((beta_k == beta) | (K_i == 0))
+    # /VISC/PRONY adds to the stress of the elastic law
+    G, K = E / 2 / (1 + nu) + G_i.sum(), E / 3 / (1 - 2 * nu) + K_i.sum()
+    return G, K, G_i / G, K_i / K, 1 / beta, {}
+
+
+def pulled(card, time):
+    """Return axial stress of one element pulled at once to a strain of 1 and held, over time [s].
+
+    Free at its sides. Marched: in each step the branches decay exactly and the sideways strain is
+    that of no sideways stress, with the recursion of the three programs' manuals, in which a branch
+    takes (1 - exp(-dt/tau)) tau/dt of an increment of strain.
+    """
+    G, K, g, k, tau, _ = card
+    shear, bulk = np.zeros_like(g), np.zeros_like(k)  # of each branch: stress deviator, pressure
+    d, v, stress, before = 0.0, 0.0, [], 0.0
+    rest_g, rest_k = 1 - g.sum(), 1 - k.sum()
+    for i, t in enumerate(time):
+        dt = t - before
+        decay = np.exp(-dt / tau) if i else np.ones_like(tau)
+        gain = -np.expm1(-dt / tau) * tau / dt if i else np.ones_like(tau)
+        # unknown: strain sideways e; d = (2/3) (1 - e) axial deviator, v = 1 + 2 e volume
+        at = []
+        for e in (0.0, 1.0):
+            new_d, new_v = 2 / 3 * (1 - e), 1 + 2 * e
+            s = decay * shear + gain * 2 * G * g * (new_d - d)
+            p = decay * bulk + gain * K * k * (new_v - v)
+            axial = 2 * G * rest_g * new_d + s.sum()
+            pressure = K * rest_k * new_v + p.sum()
+            at.append((pressure - axial / 2, axial + pressure, s, p, new_d, new_v))
+        e = -at[0][0] / (at[1][0] - at[0][0])
+        mix = [(1 - e) * a + e * b for a, b in zip(at[0], at[1], strict=True)]
+        stress.append(mix[1])
+        shear, bulk, d, v, before = *mix[2:], t
+    return np.array(stress)
+
+
+READERS = {"abaqus": read_abaqus, "ansys": read_ansys, "radioss": read_radioss}
+TIMES = np.concatenate(([0.0], np.geomspace(1e-7, 1e3, 400)))
+
+
+@pytest.mark.parametrize("code", READERS)
+@pytest.mark.parametrize("nu", [0.3, 0.47])
+def test_one_element_relaxes_as_the_material_in_the_programs_formulas(code, nu):
+    solid = Prony(rubbery_modulus=SOLID.rubbery_modulus, branches=SOLID.branches, poisson_ratio=nu)
+    stress = 1e6 * pulled(READERS[code](exported(solid, code, units=Units("MPa", "s"))), TIMES)
+    np.testing.assert_allclose(stress, solid.relaxation(TIMES), rtol=1e-9)
+
+
+@pytest.mark.parametrize("code", READERS)
+def test_an_incompressible_solid_needs_a_bulk_modulus_and_relaxes_with_it(code):
+    solid = Prony(rubbery_modulus=1e6, branches=SOLID.branches, poisson_ratio=0.5)
+    with pytest.raises(ValueError, match=f"{code} forbids a Poisson ratio of 0.5; give the bulk"):
+        exported(solid, code)
+    text = exported(solid, code, bulk_modulus=2e9)
+    card = READERS[code](text)
+    assert card[1] == pytest.approx(2e9, rel=1e-6) and not np.any(card[3])
+    stress = pulled(card, TIMES)
+    # E = 9 K G/(3 K + G), at short times 0.17 % less than 3 G: that is said
+    np.testing.assert_allclose(stress, solid.relaxation(TIMES), rtol=2e-3)
+    assert stress[0] / solid.glassy_modulus - 1 == pytest.approx(-1.741e-3, rel=1e-3)
+    assert "at short times is 0.17 % below" in text
+    with pytest.raises(ValueError, match="below the glassy shear modulus"):
+        exported(solid, code, bulk_modulus=1e6)
+
+
+def test_a_bulk_modulus_is_refused_where_it_has_no_place():
+    with pytest.raises(ValueError, match="is for a Poisson ratio of 0.5"):
+        exported(SOLID, "abaqus", bulk_modulus=2e9)
+    with pytest.raises(ValueError, match="is for a Poisson ratio of 0.5"):
+        exported(Prony(rubbery_modulus=1e6, branches=[(1e6, 1)], poisson_ratio=0.5), "tamaas",
+                 bulk_modulus=2e9)  # fmt: skip
+
+
+def test_shift_laws_go_along():
+    law, cold = WLF(293.15, 8.0, 100.0), 273.15
+    assert read_abaqus(exported(SOLID, "abaqus", shift=law))[5] == {
+        "*TRS, DEFINITION=WLF": [293.15, 8.0, 100.0]
+    }
+    T, c1, c2 = read_ansys(exported(SOLID, "ansys", shift=law))[5]["WLF"]
+    # Ansys has A = 1/a_T
+    assert c1 * (cold - T) / (c2 + cold - T) == pytest.approx(-law.log10_shift(cold))
+    law = Arrhenius(293.15, 1e5)
+    T, energy = read_abaqus(exported(SOLID, "abaqus", shift=law))[5]["*TRS, DEFINITION=ARRHENIUS"]
+    decades = energy / gas_constant * (1 / cold - 1 / T) / np.log(10)
+    assert decades == pytest.approx(law.log10_shift(cold))
+    T, ratio = read_ansys(exported(SOLID, "ansys", shift=law))[5]["TN"]
+    assert ratio * (1 / T - 1 / cold) / np.log(10) == pytest.approx(-law.log10_shift(cold))
+    table = TabulatedShift(293.15, (253.15, 293.15), (5.0, 0.0))
+    for code in ("abaqus", "ansys"):
+        text = exported(SOLID, code, shift=table)
+        assert "fit a WLF or Arrhenius law" in text
+        assert imported(exported(SOLID, code, shift=law), code) == imported(text, code)
+    assert "has no place here" in exported(SOLID, "comsol", shift=law)
+
+
+def test_python_programs_get_the_moduli_that_they_count_with():
+    time, G = np.geomspace(1e-7, 1e3, 50), 1 / 2 / (1 + SOLID.poisson_ratio)
+    record = json.loads(exported(SOLID, "rheojax"))
+    values = {name: each["value"] for name, each in record["parameters"].items()}
+    assert record["class"] == "GeneralizedMaxwell"
+    shear = values["G_inf"] + sum(
+        values[f"G_{i}"] * np.exp(-time / values[f"tau_{i}"]) for i in range(1, 5)
+    )
+    np.testing.assert_allclose(shear, G * SOLID.relaxation(time), rtol=1e-12)
+    for each in record["parameters"].values():
+        assert each["bounds"][0] <= each["value"] <= each["bounds"][1]
+    names, units, *rows = exported(SOLID, "pyvisco", units=Units("MPa", "s")).splitlines()
+    assert (names, units) == ("tau_i,alpha_i,E_0,E_i", "s,-,MPa,MPa")
+    tau, alpha, E_0, E_i = np.array([[float(w) for w in row.split(",")] for row in rows]).T
+    relaxing = E_0[0] * (1 - alpha.sum() + np.exp(-time[:, None] / tau) @ alpha)
+    np.testing.assert_allclose(1e6 * relaxing, SOLID.relaxation(time), rtol=1e-12)
+    np.testing.assert_allclose(E_i, E_0 * alpha, rtol=1e-14)
+    lines = [x for x in exported(SOLID, "reptate").splitlines() if x and x[0] != "#"]
+    modes = np.array([[float(w) for w in x.split()] for x in lines[1:]])
+    assert int(lines[0]) == len(modes) == 5
+    shear = np.exp(-time[:, None] / modes[:, 1]) @ modes[:, 2]
+    # the plateau flows in 4e5 s: 0.24 % less of it after 1000 s
+    np.testing.assert_allclose(shear, G * SOLID.relaxation(time), rtol=2.5e-3)
+
+
 UNITS, ANSYS, COMSOL, HASH = (
     f"{mark} units: pressure Pa, time s\n" for mark in ("**", "!", "%", "#")
 )
@@ -113,6 +293,14 @@ UNITS, ANSYS, COMSOL, HASH = (
         ("tamaas", HASH + "model.E = 1\n", "model.nu and shear_moduli"),
         ("tamaas", HASH + "model.E = open('x')\n", "must be plain numbers"),
         ("nastran", "", "must be one of abaqus"),
+        ("rheojax", "{}", "no record of a GeneralizedMaxwell"),
+        ("rheojax", '{"parameters": {"G_inf": {"value": 1}}}', "does not say the Poisson ratio"),
+        ("rheojax", '{"parameters": {"tau_1": {"value": 1}}, "poisson_ratio": 0.5}',
+         "the record has no G_1"),
+        ("pyvisco", "tau_i,alpha_i,E_0\ns,-,Pa\n", "does not say the Poisson ratio"),
+        ("reptate", "1\n1 2 3\n", "do not say the Poisson ratio"),
+        ("reptate", exported(SOLID, "reptate").replace("\n5\n", "\n4\n"),
+         "says 4 modes, and 5 follow"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_understood_is_refused_with_its_line(code, text, words):
@@ -134,7 +322,8 @@ def test_cut_or_scrambled_text_never_crashes(code):
 
 
 def _read_or_refuse(text, code):
+    also = {"poisson_ratio": 0.47} if code == "pyvisco" else {}
     try:
-        assert isinstance(imported(text, code), Prony)
+        assert isinstance(imported(text, code, **also), Prony)
     except ValueError as error:
         assert str(error)

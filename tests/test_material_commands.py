@@ -6,8 +6,10 @@ import shlex
 import numpy as np
 import pytest
 
+from melts import CHAMBER, LAW, melt, relaxations
 from viscotack.app.cli import main
-from viscotack.materials import Prony
+from viscotack.materials import Prony, StandardSolid
+from viscotack.materials.exchange import CODES, COMPRESSIBLE
 from viscotack.materials.library import published
 from viscotack.materials.passport_file import read_passport, write_passport
 
@@ -126,20 +128,155 @@ def test_a_power_law_becomes_a_series_with_a_stated_error(lab, capsys):
     assert np.max(np.abs(series.material.complex_modulus(omega) / exact - 1)) < 3e-4
 
 
-@pytest.mark.parametrize("code", ["abaqus", "ansys", "comsol", "radioss", "tamaas"])
+@pytest.mark.parametrize("code", CODES)
 def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
+    bulk = '--bulk-modulus "2 GPa"' if code in COMPRESSIBLE else ""
+    unit = "Pa" if code in ("rheojax", "reptate") else "MPa"
     printed(
-        f'material export pdms-10-1 --to {code} --frequencies "1 Hz,1 MHz" --pressure-unit MPa '
-        "-o card.txt",
+        f'material export pdms-10-1 --to {code} --frequencies "1 Hz,1 MHz" --pressure-unit {unit} '
+        f"{bulk} -o card.txt",
         capsys,
     )
     text = (lab / "card.txt").read_text()
-    assert "units: pressure MPa, time s" in text and "largest error" in text
-    printed(f"material convert card.txt --from {code} -o back.toml", capsys)
+    if code != "pyvisco":
+        assert f"units: pressure {unit}, time s" in text and "largest error" in text
+    assert ("*TRS" in text) == (code == "abaqus") and ("TB,SHIFT" in text) == (code == "ansys")
+    also = "--poisson-ratio 0.5" if code == "pyvisco" else ""
+    printed(f"material convert card.txt --from {code} {also} -o back.toml", capsys)
     back = read_passport("back.toml").material
     omega = 2 * np.pi * np.geomspace(1, 1e6, 50)
     exact = published("pdms-10-1").material.complex_modulus(omega)
     assert np.max(np.abs(back.complex_modulus(omega) / exact - 1)) < 3.1e-4
+
+
+def melt_file(folder):
+    """Write the sweeps of a melt from -40 to 0 C as a laboratory would."""
+    sweeps = melt(2, temperatures=CHAMBER[:5])
+    rows = zip(
+        sweeps.angular_frequency / 2 / np.pi, sweeps.storage, sweeps.loss,
+        sweeps.temperature - 273.15, strict=True,
+    )  # fmt: skip
+    lines = [",".join(f"{x:.8g}" for x in row) for row in rows]
+    (folder / "melt.csv").write_text("\n".join(["f,G',G'',T", "Hz,Pa,Pa,C", *lines, ""]))
+
+
+def test_shifts_are_printed_drawn_and_kept(lab, capsys):
+    melt_file(lab)
+    line = 'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
+    out, _ = printed(line + "--model prony --arms 16 -o melt.toml --plot melt.png", capsys)
+    assert "log10 a_T" in out and "nearest law: WLF" in out
+    passport = read_passport("melt.toml")
+    assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[:5]), atol=0.1)
+    assert max(passport.shift.uncertainty) < 0.06
+    assert (lab / "melt.png").stat().st_size > 10_000
+    shown, _ = printed("material show melt.toml", capsys)
+    assert "nearest law: WLF" in shown
+
+
+def test_flags_say_how_sweeps_are_shifted(lab, capsys):
+    melt_file(lab)
+    line = (
+        'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
+        "--model sls --json "
+    )
+    out, _ = printed(
+        line + '--shift-by storage --vertical "6.5e-4 1/K" --leave-out "-40 degC" '
+        '--leave-out "0 degC"',
+        capsys,
+    )
+    answer = json.loads(out)
+    assert len(answer["shift"]["values"]) == 3
+    assert "storage alone" in answer["origin"]["notes"][-1]
+    assert "0.00065 1/K" in answer["origin"]["notes"][-1]
+    for flags, words in (
+        ('--leave-out "7 degC"', "no test within 1 K of it; there are some at -40 C, -30 C"),
+        ("--vertical most", "must be auto, none, free or the coefficient"),
+        ('--wlf "10,90 K" --vertical none', "for shifts found from overlap"),
+    ):
+        assert words in " ".join(refused(line + flags, capsys).split())
+
+
+def trios_files(folder):
+    """Write sweeps of a standard solid, one file a temperature, as TRIOS exports them."""
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.3, poisson_ratio=0.5)
+    random = np.random.default_rng(1)
+    omega = 2 * np.pi * np.geomspace(0.05, 50, 12)
+    for T in CHAMBER[:5]:
+        E = solid.complex_modulus(omega * 10 ** LAW.log10_shift(T)) / 1e6
+        E = E.real * np.exp(0.01 * random.normal(size=12)) + 1j * E.imag
+        # the chamber is not quite at what it was set to
+        celsius = T - 273.15 - 0.01
+        lines = [
+            "Filename\trubber.tri",
+            "Geometry name\tFilm tension",
+            "[step]",
+            f"Step name\tFrequency sweep ({celsius:.0f} °C)",
+            "Number of points\t12",
+            "Variables\tTemperature\tAngular frequency\tStorage modulus\tLoss modulus",
+            "\t°C\trad/s\tMPa\tMPa",
+        ]
+        lines += [
+            f"data point {i + 1}\t{celsius:.2f}\t{w:.8g}\t{e.real:.8g}\t{e.imag:.8g}"
+            for i, (w, e) in enumerate(zip(omega, E, strict=True))
+        ]
+        name = f"rubber_{T - 273.15:.0f}.txt"
+        (folder / name).write_text("\r\n".join([*lines, ""]), encoding="utf-8")
+
+
+CASE = """
+[sphere]
+radius = "5 mm"
+[material]
+passport = "rubber.toml"
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "0.15 J/m^2"
+equilibrium_gap = "1 um"
+[protocol]
+preload_depth = "3 um"
+speed = "1 um/s"
+"""
+
+
+def test_sweeps_in_several_files_give_a_force_at_another_temperature(lab, capsys):
+    trios_files(lab)
+    (lab / "case.toml").write_text(CASE)
+    files = " ".join(f"rubber_{celsius}.txt" for celsius in (-40, -30, -20, -10, 0))
+    line = f"material fit {files} --poisson-ratio 0.5 --model sls --shift-by both "
+    assert '--reference-temperature "20 degC"' in refused(line, capsys)
+    line += '--reference-temperature "-30 degC" '
+    refusal = refused(line + '--leave-out "15 degC"', capsys)
+    assert "rubber_-40.txt and 4 more: no test within 1 K" in " ".join(refusal.split())
+    out, _ = printed(line + '--leave-out "-10 degC" -o rubber.toml', capsys)
+    assert "nearest law: WLF" in out and "-10.0" not in out
+    passport = read_passport("rubber.toml")
+    assert np.allclose(passport.shift.values, LAW.log10_shift(CHAMBER[[0, 1, 2, 4]]), atol=0.1)
+
+    pull = "simulate sphere case.toml --until pull-off --accuracy 2e-2 --json --temperature "
+    forces = []
+    for celsius in (-30, 0):
+        out, err = printed(f'{pull} "{celsius} degC"', capsys)
+        forces.append(json.loads(out)["pull_off_force"])
+        assert ("times of the material are known to" in err) == (celsius == 0)
+    # faster relaxation holds less
+    assert forces[1] < 0.9 * forces[0]
+    assert "superposition is not extrapolated" in refused(f'{pull} "20 degC"', capsys)
+
+
+def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
+    rows = [
+        f"{t:.6g},{E:.6g},{test.temperature - 273.15:.6g}"
+        for test in relaxations(0)
+        for t, E in zip(test.time, test.modulus, strict=True)
+    ]
+    (lab / "steps.csv").write_text("\n".join(["t,G_relax,T", "s,Pa,C", *rows, ""]))
+    line = "material fit steps.csv --test relaxation --poisson-ratio 0.5 --model prony --arms 8 "
+    assert "say at which temperature" in refused(line, capsys)
+    out, _ = printed(line + '--reference-temperature "-30 degC" --vertical "6.5e-4 1/K" --json',
+                     capsys)  # fmt: skip
+    answer = json.loads(out)
+    assert np.allclose(answer["shift"]["values"], LAW.log10_shift(CHAMBER[:5]), atol=0.1)
+    assert "5 tests" in answer["origin"]["notes"][-1]
 
 
 @pytest.mark.parametrize(
@@ -156,15 +293,25 @@ def test_a_material_goes_to_every_program_and_back(code, lab, capsys):
         (FIT + "-o /nowhere/x.toml", "there is no folder /nowhere"),
         (FIT + "--plot fit.docx", "its ending must be one of"),
         (FIT + "--model sls --arms 3", "arms go with the model prony"),
-        (FIT + "--test creep", "cannot be used for --test creep"),
+        (FIT + "--test creep --frequency-unit Hz", "cannot be used for --test creep"),
         ("material show nothing", "neither a passport"),
         ("material show dma.csv", "is not a TOML file"),
         ('material convert pdms-10-1 --temperature "60 degC"', "superposition is not extrapolated"),
         ("material convert dma.csv --from abaqus", "dma.csv: the text does not say its units"),
         ("material convert pdms-10-1 --pressure-unit MPa", "cannot be used without --from"),
         ("material export pdms-10-1 --to nastran", "nastran"),
+        ("material export pdms-10-1 --to ansys", "ansys forbids a Poisson ratio of 0.5"),
+        (FIT + "--model fractional-maxwell -o x.toml", "law for fits only"),
+        (
+            "simulate sphere --material fractional-maxwell --tabor 2 --preload 3 --rate 1",
+            "two springpots have no plateau",
+        ),
         ('material export pdms-10-1 --to abaqus --frequencies "1 Hz"', "needs two values"),
         ("material export pdms-10-1 --to abaqus --pressure-unit m", "does not measure"),
+        (
+            'simulate sphere --tabor 2 --preload 3 --rate 1 --temperature "0 degC"',
+            "changes nothing without dimensions",
+        ),
         ("simulate sphere --material dma.toml --tabor 2 --preload 3 --rate 1", "there is no file"),
     ],
 )

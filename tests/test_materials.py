@@ -8,6 +8,7 @@ import pytest
 
 from viscotack.materials import (
     Elastic,
+    FractionalZener,
     Modes,
     Prony,
     RelaxationPowerLaw,
@@ -18,6 +19,7 @@ from viscotack.materials import (
 ELASTIC = dict(rubbery_modulus=1e6, poisson_ratio=0.5)
 STANDARD = dict(ELASTIC, glassy_modulus=1e7, tau0=1e-3)
 POWER_LAW = dict(STANDARD, exponent=0.6)
+FRACTIONAL = dict(STANDARD, order=0.6)
 PRONY = dict(ELASTIC, branches=[(4e6, 1.0), (5e6, 1e-3)])
 CASES = [
     (Elastic, ELASTIC),
@@ -25,6 +27,7 @@ CASES = [
     (Prony, PRONY),
     (RetardationPowerLaw, POWER_LAW),
     (RelaxationPowerLaw, POWER_LAW),
+    (FractionalZener, FRACTIONAL),
 ]
 every_class = pytest.mark.parametrize(
     ("kind", "numbers"), CASES, ids=[c.__name__ for c, _ in CASES]
@@ -68,6 +71,14 @@ def test_exponent_is_positive_and_at_most_3(kind):
             kind(**(POWER_LAW | dict(exponent=wrong)))
     with pytest.raises(ValueError, match="exponent must lie in .0, 3., got 3.1; .*StandardSolid"):
         kind(**(POWER_LAW | dict(exponent=3.1)))
+
+
+def test_order_of_a_springpot_lies_between_a_spring_and_a_dashpot():
+    for wrong in (0, 0.01, 0.96, 1.0, math.nan):
+        with pytest.raises(ValueError, match="order must (lie between 0.02 and 0.95|be finite)"):
+            FractionalZener(**(FRACTIONAL | dict(order=wrong)))
+    with pytest.raises(ValueError, match="perhaps the two are exchanged"):
+        FractionalZener(**(FRACTIONAL | dict(glassy_modulus=999999)))
 
 
 @pytest.mark.parametrize(

@@ -438,7 +438,7 @@ def test_the_command_line_reads_several_files(file, capsys):
     origin = json.loads(capsys.readouterr().out)["origin"]
     assert origin["file"] == "film_3_-40C.csv, film_3_-30C.csv, film_3_-20C.csv"
     assert exit_status([*command, "--test", "creep"]) == 2
-    assert "--test creep reads one file" in capsys.readouterr().err
+    assert "it holds frequency sweeps, --test dma" in capsys.readouterr().err
 
 
 # ---- sizes -------------------------------------------------------------------------------------

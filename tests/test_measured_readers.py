@@ -14,9 +14,12 @@ from viscotack.lab import (
     MasterCurve,
     RelaxationTest,
     ShiftTable,
+    read,
     read_creep,
+    read_creeps,
     read_dma,
     read_relaxation,
+    read_relaxations,
     read_shifts,
 )
 from viscotack.lab.grouping import grouped
@@ -559,6 +562,47 @@ def test_reptate_relaxation_and_shift_factors_are_read(file):
 def test_a_creep_test_is_read_and_becomes_tensile(file):
     test = read_creep(file("t\tJ(t)\ns\t1/MPa\n1\t3\n10\t6\n"))
     assert_allclose(test.in_tension(0.5).compliance, [1e-6, 2e-6])
+
+
+STEPS = "t, G_relax, T\ns, Pa, C\n"
+
+
+def test_steps_at_several_temperatures_are_several_tests(file):
+    path = file(STEPS + "10,300,40\n1,500,40.2\n1,900,20\n10,700,19.9\n")
+    for tests in (read(path), read_relaxations(path)):
+        cold, hot = tests
+        assert (cold.time.tolist(), cold.modulus.tolist()) == ([1, 10], [900, 700])
+        assert (hot.time.tolist(), hot.modulus.tolist()) == ([1, 10], [500, 300])
+        assert cold.temperature == pytest.approx(293.1)
+        assert hot.temperature == pytest.approx(313.25)
+    with pytest.raises(ValueError, match=r"temperature runs over 20\.3 K"):
+        read_relaxation(path)
+    creep = read(file("t, J, T\ns, 1/MPa, C\n1,3,20\n10,6,20\n1,4,30\n10,8,30\n"), kind="G")
+    assert [test.compliance[0] for test in creep] == [3e-6, 4e-6]
+
+
+def test_a_drift_of_the_chamber_is_one_test(file):
+    drifting = STEPS + "1,900,20\n10,700,22\n100,500,24\n"
+    assert read(file(drifting)).temperature == pytest.approx(295.15)
+    (one,) = read_relaxations(file(drifting))
+    assert one.time.tolist() == [1, 10, 100]
+    for rows in ("1,900,20\n10,700,40\n100,500,60\n", "100,500,60\n10,700,40\n1,900,20\n"):
+        # the time of a test begins again at each temperature; here it runs on
+        with pytest.raises(ValueError, match="temperature runs over 40 K"):
+            read(file(STEPS + rows))
+
+
+def test_files_of_steps_are_tests_of_one_material(file):
+    step = "t, G_relax\ns, Pa\n1,{}\n10,{}\n"
+    paths = [file(step.format(500, 300), "pib_40C.csv"), file(step.format(900, 700), "pib_20C.csv")]
+    tests = read(paths, temperature_in_name=True)
+    assert [test.temperature for test in tests] == [293.15, 313.15]
+    assert [test.modulus[0] for test in tests] == [900, 500]
+    creep = file("t, J\ns, 1/MPa\n1,3\n10,6\n", "pib_60C.csv")
+    with pytest.raises(ValueError, match="some files are relaxation, others creep tests"):
+        read([*paths, creep], temperature_in_name=True, kind="G")
+    with pytest.raises(ValueError, match="no file"):
+        read_creeps([])
 
 
 def test_wrong_tests_in_time_say_what_was_expected(file):

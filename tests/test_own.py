@@ -15,12 +15,12 @@ from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.schema import schema, words
 
 OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
-FILES = {"law": "morse.py", "material": "fractional_zener.py", "shape": "rounded_cone.py"}
+FILES = {"law": "morse.py", "material": "cole_cole.py", "shape": "rounded_cone.py"}
 MORSE, ZENER, SHAPE, RADIUS = own_nouns(OWN / file for file in FILES.values())
 
 CASE = """
 [material]
-model = "fractional-zener"
+model = "cole-cole"
 rubbery_modulus = "1.5 MPa"
 glassy_modulus = "15 MPa"
 tau0 = "0.1 s"
@@ -75,7 +75,7 @@ def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
     assert vt.pull_off_force(result) > 0
     vt.save(result, tmp_path / "run.npz")
-    with pytest.raises(ValueError, match="unknown type 'FractionalZener'.*also=.FractionalZener,"):
+    with pytest.raises(ValueError, match="unknown type 'ColeCole'.*also=.ColeCole,"):
         vt.load(tmp_path / "run.npz")
     again = vt.load(tmp_path / "run.npz", also=(MORSE, ZENER, SHAPE))
     assert again.problem == problem
@@ -106,14 +106,14 @@ def test_the_command_line_knows_them(case_file, tmp_path):
 
 def test_flags_take_their_numbers_in_the_order_of_their_fields():
     status, out, err = call(
-        *"simulate sphere --law morse:3 --material fractional-zener:0.6 --tabor 1".split(),
+        *"simulate sphere --law morse:3 --material cole-cole:0.6 --tabor 1".split(),
         *"--modulus-ratio 0.1 --preload 3 --rate 10 --until pull-off --accuracy 1e-2".split(),
         "--json",
     )
     assert status == 0, err
     stated = json.loads(out)["problem"]
     assert stated["traction"]["steepness"] == 3 and stated["material"]["order"] == 0.6
-    status, _, err = call(*"simulate sphere --material fractional-zener --tabor 1".split())
+    status, _, err = call(*"simulate sphere --material cole-cole --tabor 1".split())
     assert status == 2 and "missing" in err
 
 
@@ -141,7 +141,7 @@ geometry.rounding = 20e-6
 def test_schema_and_words_know_them():
     found = schema((MORSE, ZENER, SHAPE))["$defs"]
     assert found["Morse"]["properties"]["steepness"]["exclusiveMinimum"] == 0
-    assert found["FractionalZener"]["properties"]["order"]["maximum"] == 0.95
+    assert found["ColeCole"]["properties"]["order"]["maximum"] == 0.95
     assert found["RoundedCone"]["properties"]["rounding"]["unit"] == "m"
     told = words((MORSE, ZENER, SHAPE, RADIUS))
     for row in ("| `steepness` | b | 1 |", "| `order` | a | 1 |", "| `rounding` | b | m |"):
@@ -171,7 +171,7 @@ def test_a_morse_law_of_short_range_pulls_like_jkr():
     assert force != pytest.approx(1.0, abs=0.001)
 
 
-def test_fractional_zener_of_order_near_one_tends_to_the_standard_solid():
+def test_cole_cole_of_order_near_one_tends_to_the_standard_solid():
     standard = vt.StandardSolid(
         rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5
     )
@@ -186,7 +186,7 @@ def test_fractional_zener_of_order_near_one_tends_to_the_standard_solid():
     assert off[1] < 0.55 * off[0]
 
 
-def test_the_modes_of_fractional_zener_are_its_creep():
+def test_the_modes_of_cole_cole_are_its_creep():
     solid = ZENER(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, order=0.6, poisson_ratio=0.0)
     modes = solid.retardation_modes(shortest=1e-3, longest=1e3, tolerance=1e-3)
     t = np.geomspace(1e-3, 1e3, 40)
@@ -269,9 +269,9 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
 
 def test_flags_that_ones_own_material_needs_are_named():
     status, _, err = call(
-        *"simulate sphere --material fractional-zener:0.6 --tabor 1 --preload 3 --rate 1".split()
+        *"simulate sphere --material cole-cole:0.6 --tabor 1 --preload 3 --rate 1".split()
     )
-    assert status == 2 and "--modulus-ratio missing for --material fractional-zener" in err
+    assert status == 2 and "--modulus-ratio missing for --material cole-cole" in err
     status, _, err = call(*"simulate sphere --law morsel --material elastic".split())
     assert status == 2 and "missing" in err
 

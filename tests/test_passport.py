@@ -1,11 +1,14 @@
 """Material passports: written and read back, refused when they lie."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from viscotack.app import questions
+from viscotack.campaign import read_plan
+from viscotack.forecast import predict
 from viscotack.materials import (
     Elastic,
     Prony,
@@ -13,12 +16,13 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
+from viscotack.materials.conversion import slowed
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.problem.case_file import read_case
+from viscotack.problem.case_file import read_case, shift_deviation
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)
 MATERIAL = {
@@ -180,3 +184,61 @@ def test_flags_may_name_a_passport(tmp_path):
     for flag, value in (("exponent", 0.3), ("tau0", "1 s"), ("modulus-ratio", 0.1)):
         with pytest.raises(ValueError, match=f"states the whole material; leave out --{flag}"):
             questions.stated(questions.SPHERE, flags | scales | {flag: value})
+
+
+def lens_with(passport, folder, **temperature):
+    """Write a passport and a case that names it; return the case."""
+    write_passport(passport, folder / "m.toml")
+    extra = "".join(f'{key} = "{value}"\n' for key, value in temperature.items())
+    case = folder / "lens.toml"
+    case.write_text(
+        f'[material]\npassport = "m.toml"\n{extra}'
+        '[interface]\nlaw = "lennard-jones"\nwork_of_adhesion = "0.1 J/m^2"\n'
+        'equilibrium_gap = "1 um"\n[sphere]\nradius = "1 mm"\n'
+        '[protocol]\npreload_force = "1 mN"\nspeed = "10 um/s"\n'
+    )
+    return case
+
+
+def uncertain():
+    material = RetardationPowerLaw(
+        rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    )
+    shift = TabulatedShift(293.15, (253.15, 273.15, 293.15), (3.0, 1.2, 0.0), (0.3, 0.15, 0.0))
+    return Passport(
+        name="m", material=material, temperature=293.15, shift=shift, temperatures=(253.15, 293.15)
+    )
+
+
+def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
+    case = lens_with(uncertain(), tmp_path)
+    moved = read_case(case, temperature=273.15)
+    (tmp_path / "cold").mkdir()
+    cold = lens_with(uncertain(), tmp_path / "cold", temperature="0 degC")
+    assert moved == read_case(cold)
+    assert moved.material.tau0 == pytest.approx(0.1 * 10**1.2, rel=1e-12)
+    with pytest.raises(ValueError, match="not extrapolated"):
+        read_case(case, temperature=333.15)
+    plan = tmp_path / "plan.toml"
+    grid = "[[grid]]\nprotocol.speed = [1e-6, 1e-4]\n"
+    plan.write_text(f'problem = "lens.toml"\ntemperature = "0 degC"\n{grid}')
+    for found in (read_plan(plan), read_plan(plan, temperature="273.15 K")):
+        assert found.kind.problem(found.cases[0].inputs).material == moved.material
+    plan.write_text(f'temperature = "0 degC"\n{grid}')
+    with pytest.raises(ValueError, match="temperature goes with problem"):
+        read_plan(plan)
+    assert shift_deviation(case, temperature=273.15) == pytest.approx(0.15)
+
+
+def test_uncertain_times_widen_a_prediction(tmp_path):
+    problem = read_case(lens_with(uncertain(), tmp_path), temperature=273.15)
+    plain, wide = predict(problem), predict(problem, shift_deviation=0.15)
+    assert wide.value == plain.value
+    assert wide.interval[0] < plain.interval[0] and wide.interval[1] > plain.interval[1]
+    assert np.ptp(wide.work_interval) > np.ptp(plain.work_interval)
+    # as far as slower material is stuck more firmly
+    slower = replace(problem, material=slowed(problem.material, 10 ** (1.6449 * 0.15)))
+    up = np.log(predict(slower).value / plain.value)
+    own = np.log(plain.interval[1] / plain.value)
+    assert np.log(wide.interval[1] / wide.value) == pytest.approx(np.hypot(up, own), rel=1e-3)
+    assert "known to 0.15 decades" in wide.why

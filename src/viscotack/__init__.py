@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from .geometry import PowerLawProfile as PowerLawProfile
     from .geometry import Sphere as Sphere
     from .materials import Elastic as Elastic
+    from .materials import FractionalZener as FractionalZener
     from .materials import Prony as Prony
     from .materials import RelaxationPowerLaw as RelaxationPowerLaw
     from .materials import RetardationPowerLaw as RetardationPowerLaw
@@ -131,7 +132,14 @@ _NAMES = {
         "LoadTo",
         "Retraction",
     ),
-    "materials": ("Elastic", "StandardSolid", "Prony", "RetardationPowerLaw", "RelaxationPowerLaw"),
+    "materials": (
+        "Elastic",
+        "StandardSolid",
+        "FractionalZener",
+        "Prony",
+        "RetardationPowerLaw",
+        "RelaxationPowerLaw",
+    ),
     "problem": ("Problem", "Groups", "PunchGroups", "Scales", "PunchScales"),
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),

@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose
 from reference_data import VALUES
 from viscotack.materials import (
     Elastic,
+    FractionalZener,
     Modes,
     Prony,
     RelaxationPowerLaw,
@@ -42,6 +43,12 @@ def standard_solid(k=0.1):
     return StandardSolid(rubbery_modulus=E0, glassy_modulus=E0 / k, tau0=TAU, poisson_ratio=NU)
 
 
+def fractional(order, k):
+    return FractionalZener(
+        rubbery_modulus=E0, glassy_modulus=E0 / k, order=order, tau0=TAU, poisson_ratio=NU
+    )
+
+
 SOLIDS = {
     "elastic": Elastic(rubbery_modulus=E0, poisson_ratio=NU),
     "standard": standard_solid(),
@@ -56,6 +63,9 @@ SOLIDS = {
     "relaxation 0.5": power_law(RelaxationPowerLaw, exponent=0.5, k=1e-3),
     "relaxation 2": power_law(RelaxationPowerLaw, exponent=2, k=0.1),
     "relaxation 3": power_law(RelaxationPowerLaw, exponent=3, k=1e-6),
+    "fractional 0.2": fractional(0.2, k=1e-3),
+    "fractional 0.6": fractional(0.6, k=1e-6),
+    "fractional 0.9": fractional(0.9, k=0.1),
 }
 every_solid = pytest.mark.parametrize("solid", SOLIDS.values(), ids=SOLIDS)
 

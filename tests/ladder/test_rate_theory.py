@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from viscotack.materials import RetardationPowerLaw, StandardSolid
+from viscotack.materials.shift import WLF
 from viscotack.theory import (
     CrackLaw,
     bounds,
@@ -455,5 +456,11 @@ def test_wlf_is_one_at_the_glass_transition_and_ends_at_its_constant():
     assert np.log10(empirical.wlf_shift(215.0, glass_transition=200.0)) == pytest.approx(
         -3.927927927927928, rel=1e-12, abs=0
     )
-    with pytest.raises(ValueError, match="below the glass transition"):
-        empirical.wlf_shift(190.0, glass_transition=200.0)
+    # the range is that of the law everywhere: down to its pole
+    law = WLF.from_glass_transition(200.0)
+    assert np.log10(empirical.wlf_shift(185.0, glass_transition=200.0)) == pytest.approx(
+        law.log10_shift(185.0), rel=1e-12, abs=0
+    )
+    for below in (law.pole, 149.0, 100.0):
+        with pytest.raises(ValueError, match="has its pole"):
+            empirical.wlf_shift(below, glass_transition=200.0)

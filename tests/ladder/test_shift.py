@@ -10,6 +10,7 @@ from scipy.constants import gas_constant
 from reference_data import VALUES
 from viscotack.lab import loss_from_storage
 from viscotack.materials import Prony, RetardationPowerLaw, StandardSolid
+from viscotack.materials.passport import Evidence, Passport
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
 
 GLASS = 158.15  # PDMS, -115 C
@@ -83,6 +84,33 @@ def test_a_table_passes_through_its_rows():
     assert_allclose(law.log10_shift(np.array(law.temperature)), values, rtol=1e-14, atol=1e-14)
 
 
+def test_the_error_of_a_table_is_that_of_its_rows_and_of_its_zero():
+    table = TabulatedShift(ROOM, (260.0, 280.0, ROOM), (3.0, 1.0, 0.0), (0.4, 0.3, 0.0))
+    assert table.deviation(260.0, ROOM) == pytest.approx(0.4, rel=1e-15)
+    assert table.deviation(270.0, ROOM) == pytest.approx(0.35, rel=1e-12)
+    # both rows count as if they erred apart
+    assert table.deviation(260.0, 280.0) == pytest.approx(0.5, rel=1e-12)
+    assert table.deviation(280.0, 280.0) == 0
+    assert TabulatedShift(ROOM, (260.0, ROOM), (3.0, 0.0)).deviation(260.0, ROOM) == 0
+
+
+def test_the_interval_of_a_time_grows_with_the_error_of_its_shift():
+    table = TabulatedShift(ROOM, (260.0, ROOM), (3.0, 0.0), (0.1, 0.0))
+    evidence = Evidence(numbers=9, constants=3, level=0.9, intervals=(("tau0", 0.8, 1.25),))
+    passport = Passport(
+        name="x",
+        material=StandardSolid(rubbery_modulus=1, glassy_modulus=2, tau0=1.0, poisson_ratio=0.5),
+        temperature=ROOM,
+        shift=table,
+        evidence=evidence,
+    )
+    assert passport.shift_deviation(260.0) == pytest.approx(0.1, rel=1e-15)
+    moved = passport.moved_to(260.0)
+    ((_, low, high),) = moved.evidence.intervals
+    half = np.hypot(np.log(1.25), 1.6448536269514722 * 0.1 * np.log(10))
+    assert_allclose([low, high], 1000 * np.exp([-half, half]), rtol=1e-9)
+
+
 # ---- rung 2: limits ----------------------------------------------------------------------------
 
 
@@ -151,3 +179,15 @@ def test_the_loss_scales_with_the_storage_and_not_with_a_constant():
     storage = 1e6 * omega**0.2
     loss = loss_from_storage(omega, storage)
     assert_allclose(loss_from_storage(60 * omega, 3 * storage + 5e6), 3 * loss, rtol=1e-10)
+
+
+def test_a_table_goes_on_straight_for_a_kelvin():
+    # the chamber was at -0.01 C when it was set to 0 C
+    table = TabulatedShift(253.15, (243.15, 253.15, 273.14), (1.5, 0.0, -2.0))
+    inside = np.diff(table.log10_shift([273.13, 273.14]))[0]
+    beside = np.diff(table.log10_shift([273.15, 273.16]))[0]
+    assert beside == pytest.approx(inside, rel=2e-3)
+    assert table.log10_shift(273.15) < table.log10_shift(273.14)
+    assert table.log10_shift(242.65) > 1.5
+    with pytest.raises(ValueError, match="a table is not extrapolated"):
+        table.log10_shift(274.2)

@@ -22,9 +22,10 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
+from viscotack.materials.checks import rests
 from viscotack.materials.constants import ContactModulus, ModulusRatio
 from viscotack.materials.passport_file import read_passport
-from viscotack.materials.words import MODELS
+from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
@@ -70,11 +71,19 @@ _MATERIALS = {
     "sls": "standard linear solid, tau0 is its retardation time",
 }
 _OTHER_MATERIALS = (
+    "fractional-zener:ORDER: standard solid with a springpot of this order, 0.02 to 0.95. "
     "elastic: no memory; --rate is only needed in SI, in h0/s. prony:FILE: CSV file with the "
     "header 'modulus_ratio,relaxation_time_s' and a branch a row, its modulus over the rubbery "
     "modulus and its relaxation time. The unit of time (of --rate and of the crack speed) is then "
     "that of the header: s, ms, ..., or none. FILE.toml: a passport, as `viscotack material fit` "
     "writes it. NAME:NUMBERS for one of --with."
+)
+
+
+_TEMPERATURE = (
+    'Of a material from a passport, "0 degC", within the range in which it was measured: its times '
+    "shift. Of answers in SI; without dimensions a rate counts in times of the material. Goes with "
+    "CASE.toml as well."
 )
 
 
@@ -138,6 +147,7 @@ class Door:
             *(Question(name, question_of(card)) for name, card in self.numbers.items()),
             *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
+            Question("temperature", _TEMPERATURE, text=True),
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
             Question("exponent", question_of(_SOLID["exponent"].card)),
         ]
@@ -213,6 +223,11 @@ def stated(
     given, nouns = given_of(answers), known(also)
     given |= _scales_of_passport(given)
     in_si = bool(given.keys() & SCALES.keys())
+    if "temperature" in given and not in_si:
+        raise InputError(
+            "--temperature changes nothing without dimensions: there --rate counts in times of the "
+            "material, which shift with it; give --radius and --work-of-adhesion, or CASE.toml"
+        )
     _refuse_missing(door, given, in_si, nouns)
     solid, unit = material_from({"material": door.material, **given}, nouns)
     elastic = isinstance(solid, Elastic)
@@ -251,7 +266,12 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
         for flag in ("modulus-ratio", "exponent"):
             if flag in given:
                 raise InputError(f"{name} states the whole material; leave out --{flag}")
-        return read_passport(name).material.reduced(), "1"
+        return _solid_of(given).reduced(), "1"
+    if "temperature" in given:
+        raise InputError(
+            "--temperature is for a material from a passport, which says how times shift; give "
+            "--material FILE.toml"
+        )
     kind = _kind_of_material(name, nouns)
     word, _, rest = name.partition(":")
     require(given, material_needs(given, nouns), f" for --material {word}")
@@ -284,12 +304,14 @@ def _kind_of_material(name: str, nouns: Nouns) -> Any:
         return None
     word, _, rest = name.partition(":")
     kind = nouns.materials.get(word)
+    rests(FITS_ONLY.get(word))
     spelled = kind in (RetardationPowerLaw, Elastic, StandardSolid, Prony)
     if kind is None or kind is RelaxationPowerLaw or spelled and (kind is Prony) != bool(rest):
         own = [w for w in nouns.materials if w not in MODELS]
         raise InputError(
             "--material must be a passport FILE.toml, "
-            f"{', '.join(['power-law', 'elastic', 'sls', *own])} or prony:FILE, got {name!r}"
+            f"{', '.join(['power-law', 'elastic', 'sls', 'fractional-zener:ORDER', *own])} "
+            f"or prony:FILE, got {name!r}"
             f"{OWN}"
         )
     return kind
@@ -354,6 +376,33 @@ def _listed(words: list[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
+def _solid_of(given: Mapping[str, Any]) -> Material:
+    """Return the material of a passport, at the temperature asked for."""
+    passport = read_passport(given["material"])
+    temperature = temperature_of(given)
+    return passport.material if temperature is None else passport.at_temperature(temperature)
+
+
+def temperature_of(answers: Mapping[str, Any]) -> float | None:
+    """Return the temperature [K] that is asked for, None where none is."""
+    given = given_of(answers)
+    if "temperature" not in given:
+        return None
+    try:
+        return parse(given["temperature"], "K")
+    except ValueError as error:
+        raise InputError(f'--temperature: {error}; for example --temperature "0 degC"') from None
+
+
+def shift_deviation_of(answers: Mapping[str, Any]) -> float:
+    """Return the standard deviation of log10 a_T of a passport at the temperature asked for."""
+    given = given_of(answers)
+    temperature = temperature_of(given)
+    if temperature is None or not given.get("material", "").endswith(".toml"):
+        return 0.0
+    return read_passport(given["material"]).shift_deviation(temperature)
+
+
 def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a passport says of the scales, where the answer is wanted in SI."""
     name = given.get("material", "")
@@ -362,7 +411,7 @@ def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
     for flag in ("contact-modulus", "poisson-ratio", "tau0"):
         if flag in given:
             raise InputError(f"{name} states the whole material; leave out --{flag}")
-    solid = read_passport(name).material
+    solid = _solid_of(given)
     scales = {
         "contact-modulus": f"{solid.contact_modulus!r} Pa",
         "poisson-ratio": solid.poisson_ratio,

@@ -26,7 +26,7 @@ from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_
 from .design import Tally, accepted, fill, grid
 from .own import digests
 
-_KEYS = ("kind", "problem", "with", "settings", "grid", "fill", "list")
+_KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     path : path
         A TOML file as docs/campaigns.md describes it, or a CSV file with a column per input.
     **changed
-        Settings (fields of `CaseSettings`) that replace those of the file; None leaves one.
+        Settings (fields of `CaseSettings`) that replace those of the file; None leaves one. And
+        `temperature`, in words, which replaces that of the base problem's material.
 
     Raises
     ------
@@ -93,6 +94,8 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     changed = {name: value for name, value in changed.items() if value is not None}
     source = read_text(path)
     if path.suffix == ".csv":
+        if "temperature" in changed:
+            raise InputError(f"{path} states cases without dimensions, which have no temperature")
         rows = _Listed(path, source)
         try:
             kind = KINDS[kind_of_columns(set(rows.names))]
@@ -112,6 +115,8 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
         if not blocks:
             raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+        if "temperature" in changed:
+            tables["temperature"] = changed.pop("temperature")
         own = (*_own(path, tables), *changed.get("own", ()))
         changed |= {"own": own} if own else {}
         kind, base = _kind(path, tables, blocks, own)
@@ -218,16 +223,30 @@ def _kind(
         if "kind" in tables:
             raise InputError(f"{path}: kind and problem exclude each other; leave one out")
         also = own_nouns(own)
-        problem = read_case(path.parent / str(tables["problem"]), also=also)
+        problem = read_case(
+            path.parent / str(tables["problem"]), also=also, temperature=_temperature(path, tables)
+        )
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
             return kind_of_problem(problem, names, also), to_dict(problem)
         except ValueError as error:
             raise InputError(f"{path}: {error}") from None
+    if "temperature" in tables:
+        raise InputError(f"{path}: temperature goes with problem, whose material it shifts")
     name = tables.get("kind", "sphere")
     if name not in KINDS:
         raise InputError(f"{path}: kind must be one of {', '.join(KINDS)}, got {name!r}")
     return KINDS[name], None
+
+
+def _temperature(path: Path, tables: Mapping[str, Any]) -> float | None:
+    """Return the temperature of the base problem's material [K]; that of its file where None."""
+    if "temperature" not in tables:
+        return None
+    try:
+        return parse(tables["temperature"], "K")
+    except ValueError as error:
+        raise InputError(f'{path}: temperature: {error}; write "20 degC"') from None
 
 
 def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +12,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import RetardationPowerLaw
+from viscotack.materials.conversion import slowed
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.traction import LennardJones
@@ -26,7 +29,9 @@ Array = npt.NDArray[np.float64]
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
 
-def predict(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction:
+def predict(
+    problem: Problem | Groups, *, confidence: float = 0.9, shift_deviation: float = 0.0
+) -> Prediction:
     """Return the pull-off force, its work and its curve, without simulating.
 
     Parameters
@@ -36,6 +41,10 @@ def predict(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction
     confidence : float
         Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for
         which they were measured.
+    shift_deviation : float
+        Standard deviation of log10 a_T by which the times of the material are uncertain, as
+        :meth:`viscotack.materials.passport.Passport.shift_deviation` has it. It widens the
+        intervals: the problem is answered for slower and faster material as well.
 
     Returns
     -------
@@ -74,6 +83,8 @@ def predict(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction
     >>> f"{answer.value:.1f} by {answer.method}"
     '7.3 by surrogate'
     """
+    if shift_deviation > 0:
+        return _uncertain(problem, confidence, shift_deviation)
     groups = _groups(problem)
     check_confidence(confidence)
     if unlearned := _unlearned(groups):
@@ -97,6 +108,40 @@ def predict(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction
         why="every input lies in the range that was learned from",
         curve=type(curves)(curves.depth[0], curves.force[0], curves.contact_radius[0]),
         problem=problem,
+    )
+
+
+def _uncertain(problem: Problem | Groups, confidence: float, deviation: float) -> Prediction:
+    """Return a prediction whose intervals hold the uncertainty of the material's times as well."""
+    found = predict(problem, confidence=confidence)
+    decades = NormalDist().inv_cdf((1 + confidence) / 2) * deviation
+    others = []
+    for factor in (10.0**-decades, 10.0**decades):
+        material = slowed(problem.material, factor)
+        others.append(predict(replace(problem, material=material), confidence=confidence))
+    work = None
+    if found.work_to_pull_off is not None and found.work_interval is not None:
+        known = [each.work_to_pull_off for each in others if each.work_to_pull_off is not None]
+        work = _widened(found.work_to_pull_off, found.work_interval, known)
+    return replace(
+        found,
+        interval=_widened(found.value, found.interval, [each.value for each in others]),
+        work_interval=work,
+        why=f"{found.why}; intervals hold times of the material known to {deviation:.2g} decades, "
+        "from its shift",
+    )
+
+
+def _widened(
+    value: float, interval: tuple[float, float], others: list[float]
+) -> tuple[float, float]:
+    """Return an interval with the reach of other answers added in quadrature, as logarithms."""
+    low, high = interval
+    down = max([np.log(value / other) for other in others if other < value], default=0.0)
+    up = max([np.log(other / value) for other in others if other > value], default=0.0)
+    return (
+        float(value * np.exp(-np.hypot(np.log(value / low), down))) if low > 0 else low,
+        float(value * np.exp(np.hypot(np.log(high / value), up))),
     )
 
 

@@ -1,18 +1,14 @@
 """What a measurement cannot determine, in sentences that say so."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from viscotack.materials import Prony
-
+from .fit_plateaus import change, open_ends
 from .fit_prony import FittedSeries, fit_series
 from .fit_report import Interval, Scatter
 from .observed import Observed, only
 
-# A modulus that changes by more than this share a decade is on no plateau.
-_PLATEAU = 0.05
 # A law that puts a plateau this many times beyond the measured moduli extrapolates.
 _BEYOND = 1.25
 # Points from which on one modulus alone has a shape to be compared with the other.
@@ -21,35 +17,35 @@ _SHAPE = 8
 _GAP = 1.5
 # Root mean square of ln(measured/fitted) from which on a model has missed.
 _MISSED = 0.4
-
-
-def opened(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[Interval, ...]:
-    """Return the intervals, without an outer end where no plateau was measured.
-
-    A series of arms ends where the measurement ends, and takes the last modulus for the plateau;
-    its bootstrap cannot know what lies beyond. A law that goes on beyond has its own intervals.
-    """
-    if not isinstance(material, Prony):
-        return intervals
-    found = []
-    for each in intervals:
-        if _change(data, material, each.name) > _PLATEAU:
-            rubbery = each.name == "rubbery_modulus"
-            each = replace(each, low=0.0) if rubbery else replace(each, high=np.inf)
-        found.append(each)
-    return tuple(found)
+# Loss over storage modulus at the slowest point from which on a material flows. The most lossy
+# rubbers reach 2 to 2.5 at their peak.
+_FLOWS = 3.0
+# Slope of ln(compliance), or fall of ln(modulus), over ln(time) from which on it does.
+_FLOWING = 0.8
 
 
 def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
     """Return what the measurement cannot say of the constants, and where it ends."""
+    if getattr(material, "no_contact", ""):
+        flowing = flow(data, material)
+        liquid = (f"this is a liquid: at the slowest point {flowing}",) if flowing else ()
+        return (*liquid, material.no_contact, *_constants(data, material, intervals), _ends(data))
     if scatter_of(data, material) > _MISSED:
         return (_ends(data),)
+    return (*_constants(data, material, intervals), _ends(data))
+
+
+def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
+    """Return what the measurement cannot say of single constants."""
     said = {"rubbery_modulus": _rubbery, "glassy_modulus": _glassy}
     words = []
     for each in intervals:
         if each.known:
             continue
-        if each.name in said:
+        if not each.told:
+            if each.name in open_ends(data, material):
+                words += said[each.name](data, material, each)
+        elif each.name in said:
             words += said[each.name](data, material, each)
         elif not each.bounded:
             words.append(f"{each.name}: the data set no bound on one side or on both")
@@ -58,7 +54,7 @@ def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...])
                 f"{each.name} is known only to a factor of {each.high / each.low:.2g}; "
                 "the constants can make up for each other"
             )
-    return (*words, _ends(data))
+    return tuple(words)
 
 
 def misfit_cautions(data: Observed, material: Any, found: Scatter) -> tuple[str, ...]:
@@ -77,11 +73,8 @@ def misfit_cautions(data: Observed, material: Any, found: Scatter) -> tuple[str,
             f"the {worse} modulus scatters {noise[worse]:.2g} times as much as the other part "
             "about a smooth curve, and counts by so much less"
         )
-    if found.correlation > 0:
-        words.append(
-            f"neighbouring residuals err alike (correlation {found.correlation:.2f}): the model, "
-            f"or a sweep, is off in places; intervals were widened {found.widening:.1f} times"
-        )
+    if found.shared:
+        words.append(f"{found.shared}; the intervals are wider for it")
     return tuple(words)
 
 
@@ -90,7 +83,7 @@ def scatter_of(data: Observed, material: Any) -> float:
     return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
 
 
-def series_cautions(data: Observed, found: FittedSeries) -> tuple[str, ...]:
+def series_cautions(data: Observed, found: FittedSeries, *, few: bool) -> tuple[str, ...]:
     """Return what to know of a fitted series: too many constants, gaps, moduli that contradict."""
     words = []
     arms, numbers = found.grid, data.values.size
@@ -107,6 +100,8 @@ def series_cautions(data: Observed, found: FittedSeries) -> tuple[str, ...]:
             "one: in such gaps the series rises in stairs that nobody measured, and its band does "
             "not show it; a power law goes smoothly through them"
         )
+    if few:
+        return tuple(words)
     if len(data.parts) == 2 and data.at.size >= _SHAPE and found.scatter.deviation > 0.05:
         alone = fit_series(only(data, "storage"), arms=None, level=0.9, draws=0, seed=0)
         if found.scatter.deviation > 3 * alone.scatter.deviation:
@@ -121,6 +116,23 @@ def series_cautions(data: Observed, found: FittedSeries) -> tuple[str, ...]:
     return tuple(words)
 
 
+def few_arms_caution(data: Observed, found: FittedSeries) -> tuple[str, ...]:
+    """Return what a given number of arms costs beside as many as the data carry."""
+    few = len(found.material.branches)
+    if data.values.size < 6:
+        return ()
+    free = fit_series(data, arms=None, level=0.9, draws=0, seed=0)
+    many, own = len(free.material.branches), scatter_of(data, found.material)
+    best = scatter_of(data, free.material)
+    if few >= many or own < 1.1 * best:
+        return ()
+    worst = float(np.max(np.abs(np.expm1(-data.residuals(found.material)))))
+    return (
+        f"{few} arms meet the measurement to {100 * own:.2g} % on average and {100 * worst:.2g} % "
+        f"at worst; the {many} that the data carry, to {100 * best:.2g} %",
+    )
+
+
 def _ends(data: Observed) -> str:
     slow, fast = data.frequencies
     return (
@@ -129,25 +141,45 @@ def _ends(data: Observed) -> str:
     )
 
 
-def _change(data: Observed, material: Any, name: str) -> float:
-    """Return by which share a decade the modulus still changes at the end next to a plateau."""
-    slow = name == "rubbery_modulus"
+def flow(data: Observed, material: Any) -> str:
+    """Return that a material flows at the slowest point and with which viscosity, or nothing."""
+    shear = 2 * (1 + data.poisson_ratio)
     if data.in_frequency:
-        modulus = complex(material.complex_modulus(data.frequencies[0 if slow else 1]))
-        # d ln E'/d ln omega is about 2/pi times the loss angle
-        return float(10 ** (2 / np.pi * np.angle(modulus)) - 1)
-    end = data.at[-1] if slow else data.at[0]
-    ratio = data.predicted(material, [end / np.sqrt(10), end * np.sqrt(10)])[0]
-    return float(np.exp(abs(np.log(ratio[1] / ratio[0]))) - 1)
+        slow = data.frequencies[0]
+        modulus = complex(material.complex_modulus(slow))
+        if modulus.imag < _FLOWS * modulus.real:
+            return ""
+        ratio = modulus.imag / max(modulus.real, 1e-12 * modulus.imag)
+        how = f"the loss modulus is {ratio:.2g} times the storage modulus"
+        viscosity = modulus.imag / slow
+    else:
+        end = float(data.at[-1])
+        near = data.predicted(material, [end / np.sqrt(10), end])[0]
+        slope = float(np.log(near[1] / near[0]) / np.log(np.sqrt(10)))
+        creeping = data.quantity == "creep"
+        if (slope if creeping else -slope) < _FLOWING:
+            return ""
+        what = "compliance rises" if creeping else "modulus falls"
+        how = f"the {what} as time to the power {abs(slope):.2g}"
+        # stress over the rate of strain of a creep; at least, from a relaxation
+        viscosity = end / near[1] / slope if creeping else end * near[1]
+    return f"{how} (shear viscosity about {viscosity / shear:.2g} Pa s)"
 
 
 def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
     softest = data.moduli[0]
+    flowing = flow(data, material)
+    if flowing:
+        return [
+            f"this is a liquid: at the slowest point {flowing}. It has no rubbery plateau; "
+            f"rubbery_modulus = {interval.value:.3g} Pa is where the fit ends and no property of "
+            "the material, and what rests on it (a relaxed contact, slow detachment) is not known"
+        ]
     if not interval.bounded:
-        change = 100 * _change(data, material, interval.name)
+        rate = 100 * change(data, material, interval.name)
         return [
             "no rubbery plateau was measured: at the slowest point the modulus still falls by "
-            f"{change:.2g} % a decade. rubbery_modulus is {_bound(interval)}, and slow detachment "
+            f"{rate:.2g} % a decade. rubbery_modulus is {_bound(interval)}, and slow detachment "
             "cannot be forecast; give it if you know it"
         ]
     if softest > _BEYOND * interval.value:
@@ -161,11 +193,12 @@ def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
 def _glassy(data: Observed, material: Any, interval: Interval) -> list[str]:
     stiffest = data.moduli[1]
     if not interval.bounded:
-        change = 100 * _change(data, material, interval.name)
-        ratio = material.rubbery_modulus / max(interval.low, material.rubbery_modulus)
+        rate = 100 * change(data, material, interval.name)
+        least = interval.low if interval.told else interval.value
+        ratio = material.rubbery_modulus / max(least, material.rubbery_modulus)
         return [
             "no glassy plateau was measured: at the fastest point the modulus still rises by "
-            f"{change:.2g} % a decade. glassy_modulus is {_bound(interval)} and "
+            f"{rate:.2g} % a decade. glassy_modulus is {_bound(interval)} and "
             f"modulus_ratio at most {ratio:.2g}, so that fast detachment may hold up to 1/k times "
             "the slow force with k unknown; give glassy_modulus if you know it"
         ]
@@ -178,6 +211,8 @@ def _glassy(data: Observed, material: Any, interval: Interval) -> list[str]:
 
 
 def _bound(interval: Interval) -> str:
+    if not interval.told:
+        return "a guess"
     if np.isfinite(interval.high):
         return f"at most {interval.high:.3g} Pa"
     return f"at least {interval.low:.3g} Pa" if interval.low > 0 else "not bounded"

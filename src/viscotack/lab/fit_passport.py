@@ -2,9 +2,10 @@
 
 from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
-from viscotack.materials.shift import Shift, TabulatedShift
+from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
 
 from .fit_report import FitReport
+from .shift_laws import nearest_law
 from .sweeps import ShiftTable
 
 
@@ -38,7 +39,9 @@ def issued(
     """
     seen = report.observed
     source = seen.source
+    fitted = None
     if isinstance(shift, ShiftTable):
+        fitted = _fitted(shift, seen.temperature)
         # one row shifts nothing
         shift = _tabulated(shift, seen.temperature) if len(shift) > 1 else None
     elif shift is not None and seen.temperature is not None:
@@ -48,6 +51,7 @@ def issued(
         material=report.material,
         temperature=seen.temperature,
         shift=shift,
+        fitted_shift=fitted,
         temperatures=seen.temperatures,
         frequencies=seen.frequencies,
         measured=seen.kind,
@@ -64,7 +68,7 @@ def issued(
             constants=report.constants,
             scatter=report.scatter.deviation,
             level=report.level,
-            intervals=tuple((i.name, i.low, i.high) for i in report.intervals),
+            intervals=tuple((i.name, i.low, i.high) for i in report.intervals if i.told),
             undetermined=report.undetermined,
             cautions=report.cautions,
         ),
@@ -75,4 +79,16 @@ def _tabulated(table: ShiftTable, temperature: float | None) -> TabulatedShift:
     if temperature is None:
         raise InputError("a table of shifts needs the temperature of the master curve [K]")
     rows, values = tuple(table.temperature.tolist()), tuple(table.log10_shift.tolist())
-    return TabulatedShift(temperature, rows, values)
+    more = {
+        key: () if column is None else tuple(column.tolist())
+        for key, column in (("uncertainty", table.uncertainty), ("vertical", table.log10_vertical))
+    }
+    return TabulatedShift(temperature, rows, values, **more)
+
+
+def _fitted(table: ShiftTable, temperature: float | None) -> FittedShift | None:
+    """Return the law nearest to a table, None where none fits or nothing says where it is zero."""
+    if temperature is None or len(table) < 3:
+        return None
+    found = nearest_law(table, reference_temperature=temperature)
+    return found and FittedShift(found.law, found.standard_error, found.misfit)

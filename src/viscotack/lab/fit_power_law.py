@@ -5,7 +5,8 @@ over the logarithms of the constants, from the best places of a coarse search. I
 of the linearised problem; where a constant is poorly determined, those of the profile: the
 constant is moved and all others refitted, until the sum of squares has grown by as much as the
 confidence level allows (Venzon & Moolgavkar, Applied Statistics 37 (1988) 87-94). A profile that
-never grows so far has no end on that side: the data set no bound.
+never grows so far has no end on that side: the data set no bound. How much the level allows is said
+by the residuals (:mod:`.fit_errors`): errors that points have in common count as what they are.
 """
 
 from collections.abc import Mapping
@@ -14,15 +15,15 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.stats import t as student
 
+from .fit_errors import errors
 from .fit_report import Interval, Scatter, scatter, unit_of
 from .fit_search import Search
 from .observed import Observed
 
 Array = npt.NDArray[np.float64]
 
-_POOR = 0.15  # standard deviation of ln(constant) from which on the profile is asked
+_POOR = 0.25  # half an interval of ln(constant) from which on the profile is asked
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,18 +65,21 @@ def fit_constants(
     search = Search.of(data, model, known)
     best = search.minimum()
     residuals = data.weighed(data.residuals(search.solid(best.x)))
-    spread = scatter(residuals, len(search.free))
-    t = float(student.ppf((1 + level) / 2, max(spread.degrees, 1))) * spread.widening
-    covariance = spread.deviation**2 * np.linalg.pinv(best.jac.T @ best.jac)
-    deviations = np.sqrt(np.diag(covariance))
-    poor = bool(np.any(deviations > _POOR) or np.any(search.at_bound(best.x)))
+    known_errors = errors(data, residuals, best.jac)
+    spread = scatter(residuals, len(search.free), known_errors.words())
+    influences = np.linalg.pinv(best.jac)
+    half = known_errors.half_width(influences, level)
+    poor = bool(np.any(half > _POOR) or np.any(search.at_bound(best.x)))
     # linearised, or by the profile where a straight line is no good picture of the sum of squares
-    ends = np.array([best.x - t * deviations, best.x + t * deviations]).T
+    ends = np.array([best.x - half, best.x + half]).T
     if poor:
-        allowed = 2 * best.cost + (t * spread.deviation) ** 2
+        # an error that moves the constant by so much costs so much; what no error moves, nothing
+        moved = np.sum(influences**2, axis=1)
+        more = np.divide(half**2, moved, out=np.full(half.size, np.inf), where=moved > 0)
+        allowed = 2 * best.cost + more
         ends = np.array(
             [
-                [search.profile_end(best.x, i, side, deviations[i], allowed) for side in (-1, 1)]
+                [search.profile_end(best.x, i, side, half[i], allowed[i]) for side in (-1, 1)]
                 for i in range(len(search.free))
             ]
         )
@@ -88,7 +92,7 @@ def fit_constants(
         for name in search.names
         for value in [float(getattr(material, name))]
     )
-    sample = _draws(search, best.x, covariance * spread.widening**2, ends, draws, seed)
+    sample = _draws(search, best.x, known_errors.covariance(influences), ends, draws, seed)
     return FewConstants(material, intervals, spread, len(search.free), sample)
 
 
@@ -107,5 +111,8 @@ def _draws(
     # a constant without bound would be drawn from everywhere: it stays within its interval
     low = np.maximum(search.low, np.where(np.isfinite(ends[:, 0]), -np.inf, x - 1.0)) + 1e-9
     high = np.minimum(search.high, np.where(np.isfinite(ends[:, 1]), np.inf, x + 1.0)) - 1e-9
-    drawn = np.random.default_rng(seed).multivariate_normal(x, covariance, count, method="eigh")
+    # by its own axes: a constant that nothing tells makes the matrix indefinite by round-off
+    value, axes = np.linalg.eigh((covariance + covariance.T) / 2)
+    along = np.random.default_rng(seed).normal(size=(count, x.size))
+    drawn = x + along * np.sqrt(np.maximum(value, 0.0)) @ axes.T
     return tuple(search.solid(np.clip(each, low, high)) for each in drawn)

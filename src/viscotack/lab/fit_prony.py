@@ -4,19 +4,23 @@ The relaxation times stand on a logarithmic grid over the measured range, and th
 negative, make the sum of squares of ln(measured/fitted) smallest: a few steps of Gauss and Newton,
 each a linear problem with bounds (:mod:`.nonnegative`). Creep is fitted by
 retardation times in the same way, and interconverted exactly. Grids of more and more arms are
-tried; the information criterion chooses. Arms that get no modulus are left out.
+tried; the information criterion chooses. Arms that get no modulus are left out. Intervals of the
+plateaus are those of all series on a dense grid (:mod:`.fit_plateaus`).
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
+from scipy.optimize import least_squares
 
 from viscotack.errors import InputError
 from viscotack.materials import Prony
 from viscotack.materials.conversion import RetardationSeries, relaxation_series
 from viscotack.materials.modes import maxwell
 
+from .fit_errors import Errors, errors
+from .fit_plateaus import NAMES, Plateau, open_ends
 from .fit_report import Interval, Scatter, information_criterion, scatter
 from .nonnegative import nonnegative
 from .observed import Observed, only
@@ -26,6 +30,9 @@ Array = npt.NDArray[np.float64]
 _MOST = 60  # arms
 _ENOUGH = 40  # points of a curve from which on its scatter is known apart from its shape
 _REPEATABLE = 2e-3  # no laboratory finds a modulus again better: finer residuals decide nothing
+_DENSE, _DENSEST = 4, 80  # times a decade on the grid of the intervals, and at most
+_MOVED = 12  # arms up to which their times are moved to where they serve best
+_MADE = 120  # measurements made to see how far a sum of squares grows by chance
 _FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) beside the smallest number
 
 
@@ -57,8 +64,8 @@ def fit_series(
     level : float
         Confidence level of the intervals, in (0, 1).
     draws : int
-        How many series to draw by the bootstrap: the fitted numbers with noise of the size of the
-        residuals, fitted again on the same times.
+        How many series to draw by the bootstrap: the fitted numbers with errors such as the
+        residuals, fitted again on the same times. 0: none, and no intervals.
     seed : int
         Of the random numbers.
     """
@@ -79,14 +86,24 @@ def fit_series(
     else:
         chosen = _grid(data, arms)
     times, weights = _fitted(data, chosen, data.logs)
+    if arms is not None and arms <= _MOVED:
+        times, weights = _moved(data, chosen, times, weights)
     material = _material(data, times, weights)
     residuals = data.weighed(data.residuals(material))
     constants = int(np.count_nonzero(weights))
     spread = scatter(residuals, constants)
-    sample = _bootstrap(data, times, weights, spread, draws, seed)
+    intervals = tuple(
+        Interval(name, float(getattr(material, name)), np.nan, np.nan, unit="Pa") for name in NAMES
+    )
+    sample: tuple[Prony, ...] = ()
+    if draws:
+        known = errors(data, residuals, _slopes(data, times, weights))
+        spread = scatter(residuals, constants, known.words())
+        intervals = _plateaus(data, material, times, weights, known, level, seed)
+        sample = _bootstrap(data, times, weights, known, draws, seed)
     return FittedSeries(
         material=material,
-        intervals=_plateaus(material, sample, level),
+        intervals=intervals,
         scatter=spread,
         constants=constants,
         grid=chosen.size,
@@ -177,6 +194,39 @@ def _fitted(
     return times[keep], np.concatenate([weights[:1], weights[1:][keep]])
 
 
+def _moved(data: Observed, grid: Array, times: Array, weights: Array) -> tuple[Array, Array]:
+    """Return the few times, and weights, that meet the numbers best, from those of a grid."""
+    if not times.size:
+        return times, weights
+    kept, found = times, weights
+    # an arm that got nothing where the grid has it may be of use elsewhere
+    least = 1e-2 * float(np.max(weights[1:]))
+    times, weights = grid, np.full(grid.size + 1, least)
+    weights[0] = found[0]
+    weights[1 + np.searchsorted(grid, kept)] = np.maximum(found[1:], least)
+    count = times.size
+    noise = np.repeat(data.noise, data.at.size)
+    slow, fast = data.frequencies
+    low = np.concatenate((np.full(count, np.log(0.1 / fast)), np.full(count + 1, -np.inf)))
+    high = np.concatenate((np.full(count, np.log(10 / slow)), np.full(count + 1, np.inf)))
+
+    def parts(x: Array) -> tuple[Array, Array]:
+        return np.exp(x[:count]), np.exp(np.clip(x[count:], -700, 700))
+
+    def misfit(x: Array) -> Array:
+        where, sizes = parts(x)
+        model = np.maximum(_basis(data, where) @ sizes, 1e-300)
+        return np.clip((np.log(model) - data.logs) / noise, -50, 50)
+
+    start = np.clip(np.log(np.concatenate((times, weights))), low + 1e-9, high - 1e-9)
+    where, sizes = parts(least_squares(misfit, start, bounds=(low, high), max_nfev=400).x)
+    order = np.argsort(where)
+    where = where[order]
+    if np.any(np.diff(where) < 1e-3 * where[1:]):  # two became one
+        return kept, found
+    return where, np.concatenate((sizes[:1], sizes[1:][order]))
+
+
 def _material(data: Observed, times: Array, weights: Array) -> Prony:
     arms = tuple(zip(weights[1:], times, strict=True))
     if not arms:
@@ -201,12 +251,17 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
     return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
 
 
+def _slopes(data: Observed, times: Array, weights: Array) -> Array:
+    """Return the change of the logarithms over their noise with each weight."""
+    basis = _basis(data, times)
+    return basis / (basis @ weights * np.repeat(data.noise, data.at.size))[:, None]
+
+
 def _bootstrap(
-    data: Observed, times: Array, weights: Array, spread: Scatter, count: int, seed: int
+    data: Observed, times: Array, weights: Array, known: Errors, count: int, seed: int
 ) -> tuple[Prony, ...]:
     logs = np.log(_basis(data, times) @ weights)
-    noise = np.random.default_rng(seed).normal(size=(count, logs.size))
-    noise *= spread.deviation * spread.widening * np.repeat(data.noise, data.at.size)
+    noise = known.drawn(count, np.random.default_rng(seed)) * np.repeat(data.noise, data.at.size)
     found = []
     for each in noise:
         kept, drawn = _fitted(data, times, logs + each)
@@ -215,14 +270,50 @@ def _bootstrap(
     return tuple(found)
 
 
-def _plateaus(material: Prony, sample: tuple[Prony, ...], level: float) -> tuple[Interval, ...]:
-    part = (1 - level) / 2
+def _dense(data: Observed) -> Array:
+    """Return times on a grid so dense that others between them add hardly anything."""
+    slow, fast = data.frequencies
+    beyond = 10**-0.5 if data.in_frequency else 1.0
+    count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
+    return np.geomspace(beyond / fast, 10**0.5 / slow, count)
+
+
+def _plateaus(
+    data: Observed,
+    material: Prony,
+    times: Array,
+    weights: Array,
+    known: Errors,
+    level: float,
+    seed: int,
+) -> tuple[Interval, ...]:
+    """Return the intervals of the plateaus; one-sided where the other side was not measured."""
+    basis = _basis(data, _dense(data))
+    logs = np.log(_basis(data, times) @ weights)
+    noise = np.repeat(data.noise, data.at.size)
+    # about the fit the logarithm is straight
+    columns = basis / (np.exp(logs) * noise)[:, None]
+    numbers = (1 + data.logs - logs) / noise
+    drawn = known.drawn(_MADE, np.random.default_rng(seed), sure=False)
+    # of creep the weights are compliances: the sum of all is the rubbery one
+    creeping = data.quantity == "creep"
+    whole, floor = np.ones(basis.shape[1]), np.eye(basis.shape[1])[0]
+    opened = open_ends(data, material)
     found = []
-    for name in ("rubbery_modulus", "glassy_modulus"):
+    for name in NAMES:
+        quantity = Plateau(
+            columns, numbers, whole if (name == "glassy_modulus") != creeping else floor, drawn
+        )
+        tail = 1 - level if name in opened else (1 - level) / 2
+        ends = []
+        for side in (-1, 1):
+            if name in opened and side == (-1 if name == "rubbery_modulus" else 1):
+                ends.append(np.inf if side > 0 else 0.0)  # not measured
+            elif creeping:
+                compliance = quantity.end(-side, tail)
+                ends.append(1 / compliance if compliance > 0 else np.inf)
+            else:
+                ends.append(quantity.end(side, tail))
         value = float(getattr(material, name))
-        low = high = value
-        if sample:
-            drawn = [getattr(solid, name) for solid in sample]
-            low, high = np.quantile(drawn, [part, 1 - part])
-        found.append(Interval(name, value, float(low), float(high), unit="Pa"))
+        found.append(Interval(name, value, min(ends[0], value), max(ends[1], value), unit="Pa"))
     return tuple(found)

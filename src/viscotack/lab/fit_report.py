@@ -13,7 +13,7 @@ from .observed import Observed
 
 Array = npt.NDArray[np.float64]
 
-_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "tau0": "s"}
+_UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau0": "s"}
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,8 @@ class Interval:
         Fitted, in SI.
     low, high : float
         Ends of the interval, in SI; 0 and inf where the data set no bound on that side. Both are
-        the value itself where it was given instead of fitted.
+        the value itself where it was given instead of fitted, and nan where nobody asked for an
+        interval.
     unit : str
         SI unit, "1" for a pure number.
     known : bool
@@ -43,6 +44,11 @@ class Interval:
     known: bool = False
 
     @property
+    def told(self) -> bool:
+        """Whether there is an interval."""
+        return not (np.isnan(self.low) or np.isnan(self.high))
+
+    @property
     def bounded(self) -> bool:
         """Whether the data say how small and how large it may be."""
         return self.low > 0 and bool(np.isfinite(self.high))
@@ -53,6 +59,8 @@ class Interval:
         line = f"{self.name:<16} {self.value:>11.5g}{unit}"
         if self.known:
             return f"{line}  given"
+        if not self.told:
+            return f"{line}  (no interval: no draws were asked for)"
         if self.bounded:
             return f"{line}  ({self.low:.5g} to {self.high:.5g})"
         if self.low > 0:
@@ -70,31 +78,21 @@ class Scatter:
     ----------
     deviation : float
         Standard deviation of one number, with the constants taken off the count.
-    correlation : float
-        Correlation of neighbouring residuals where it is beyond chance, else 0. Neighbours that
-        err alike carry less than their number says.
     degrees : int
         Numbers less constants.
+    shared : str
+        What the errors have in common, in words; empty where each is its own, or nobody asked.
     """
 
     deviation: float
-    correlation: float
     degrees: int
-
-    @property
-    def widening(self) -> float:
-        """Factor on every interval for what neighbours have in common."""
-        return float(np.sqrt((1 + self.correlation) / (1 - self.correlation)))
+    shared: str = ""
 
 
-def scatter(residuals: Array, constants: int) -> Scatter:
+def scatter(residuals: Array, constants: int, shared: str = "") -> Scatter:
     """Return the scatter of residuals of shape (P, N) after a fit of so many constants."""
     degrees = residuals.size - constants
-    deviation = float(np.sqrt(np.sum(residuals**2) / max(degrees, 1)))
-    square = float(np.sum(residuals**2))
-    r = float(np.sum(residuals[:, 1:] * residuals[:, :-1])) / square if square > 0 else 0.0
-    beyond_chance = r > 2 / np.sqrt(residuals.size)
-    return Scatter(deviation, min(r, 0.98) if beyond_chance else 0.0, degrees)
+    return Scatter(float(np.sqrt(np.sum(residuals**2) / max(degrees, 1))), degrees, shared)
 
 
 def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
@@ -125,7 +123,7 @@ class FitReport:
     observed : Observed
         What it was fitted to.
     intervals : tuple of Interval
-        The constants, or for a Prony series its two plateaus.
+        The constants, or for a Prony series its two plateaus (without ends if nothing was drawn).
     level : float
         Confidence level of the intervals and of `band`.
     scatter : Scatter
@@ -182,6 +180,8 @@ class FitReport:
             Pointwise, at the level of the report, [Pa] or [1/Pa]. Outside the measured range they
             only say what the model would have.
         """
+        if not self.draws:
+            raise InputError("a band is drawn from solids; fit with draws=100, not draws=0")
         curves = np.array([self.observed.predicted(solid, at) for solid in self.draws])
         part = (1 - self.level) / 2
         return np.quantile(curves, part, axis=0), np.quantile(curves, 1 - part, axis=0)

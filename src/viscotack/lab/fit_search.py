@@ -1,15 +1,24 @@
 """The search for the constants of a law: where to begin, how to descend, how far one may go."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import brentq, least_squares
+from scipy.optimize import least_squares
 
+from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.materials import RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.materials import (
+    FractionalKelvinVoigt,
+    FractionalMaxwell,
+    FractionalZener,
+    RelaxationPowerLaw,
+    RetardationPowerLaw,
+    StandardSolid,
+)
 from viscotack.materials.interconversion import reciprocal
 
 from .observed import Observed
@@ -20,10 +29,22 @@ KINDS = {
     "power-law": RetardationPowerLaw,
     "relaxation-power-law": RelaxationPowerLaw,
     "sls": StandardSolid,
+    "fractional-zener": FractionalZener,
+    "fractional-maxwell": FractionalMaxwell,
+    "fractional-kelvin-voigt": FractionalKelvinVoigt,
 }
 _FAR = np.log(1e4)  # how far from the measured moduli a plateau is looked for
 _COARSE = 1e-3
-_EXPONENTS = (0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.9, 2.7)
+_SKETCH = 60  # points on which minima are compared
+_MODULI = ("rubbery_modulus", "glassy_modulus", "modulus")
+_TRIED = {
+    "rubbery_modulus": (1.0,),
+    "modulus": (1.0,),
+    "exponent": (0.08, 0.15, 0.25, 0.4, 0.6, 0.9, 1.3, 1.9, 2.7),
+    "order": (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9),
+    "lower_order": (0.02, 0.1, 0.2, 0.35, 0.5, 0.7),
+}
+_UPPER_ORDERS = (0.15, 0.3, 0.5, 0.7, 0.9, 0.98)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +62,7 @@ class Search:
     def of(cls, data: Observed, model: str, known: Mapping[str, float]) -> "Search":
         """Return the search for a model's constants, without those that are known."""
         kind = KINDS[model]
-        names = ("rubbery_modulus", "glassy_modulus", "exponent", "tau0")
-        names = tuple(n for n in names if n in kind.__dataclass_fields__)
+        names = tuple(name for name in cards(kind) if name != "poisson_ratio")
         for name in known:
             if name not in names:
                 raise InputError(
@@ -55,6 +75,9 @@ class Search:
             "rubbery_modulus": (np.log(softest) - _FAR, middle),
             "glassy_modulus": (middle, np.log(stiffest) + _FAR),
             "exponent": (np.log(0.02), np.log(3.0) - 1e-9),
+            "modulus": (np.log(softest) - _FAR, np.log(stiffest) + _FAR),
+            "order": _order_bounds(kind),
+            "lower_order": (np.log(1e-3), -1e-9),
             "tau0": (-np.log(fast) - 2 * _FAR, -np.log(slow) + 2 * _FAR),
         }
         free = [name for name in names if name not in known]
@@ -73,6 +96,10 @@ class Search:
     def solid(self, x: Array) -> Any:
         """Return the solid whose free constants have the natural logarithms x."""
         values = self.known | dict(zip(self.free, np.exp(x).tolist(), strict=True))
+        if "lower_order" in values:
+            # two springpots are the same two in either order
+            lower, upper = sorted((values["order"], values["lower_order"]))
+            values |= {"order": max(upper, 0.05), "lower_order": max(lower, upper - 0.989)}
         return self.kind(**values, poisson_ratio=self.data.poisson_ratio)
 
     def misfit(self, x: Array) -> Array:
@@ -110,7 +137,16 @@ class Search:
 
     def minimum(self) -> Any:
         """Return the best of the minima that the most promising places lead to."""
-        found = [self.polished(x) for x in self.places(3)]
+        places = self.places(3)
+        if self.data.at.size > 2 * _SKETCH:
+            # of many points every n-th shows which place is the best
+            each = -(-self.data.at.size // _SKETCH)
+            few = replace(
+                self.data, at=self.data.at[::each], values=self.data.values[:, ::each], sweep=None
+            )
+            rough = [replace(self, data=few).polished(x) for x in places]
+            return self.polished(min(rough, key=lambda result: result.cost).x)
+        found = [self.polished(x) for x in places]
         return min(found, key=lambda result: result.cost)
 
     def places(self, count: int) -> list[Array]:
@@ -123,67 +159,108 @@ class Search:
         softest, stiffest = data.moduli
         slow, fast = data.frequencies
         sign = -1 if data.quantity == "creep" else 1
-        exponents = [self.known["exponent"]] if "exponent" in self.known else list(_EXPONENTS)
-        if "exponent" not in self.names:
-            exponents = [1.0]
         shifts = np.linspace(-3, 3 + np.log10(fast / slow), 40) - np.log10(fast)
         if "tau0" in self.known:
             shifts = np.log10([self.known["tau0"]])
         table_at = np.geomspace(data.at[0] * 1e-9, data.at[-1] * 1e9, 240)
         ranked = []
-        for k in softest / stiffest * np.array([0.9, 0.2, 0.01]):
-            for n in exponents:
-                constants = {"glassy_modulus": 1 / k, "tau0": 1.0}
-                if "exponent" in self.names:
-                    constants["exponent"] = n
-                twin = self.kind(rubbery_modulus=1.0, poisson_ratio=0.0, **constants)
-                # seen at omega tau0 or time/tau0
-                with np.errstate(divide="ignore"):
-                    table = np.log(quick(data, twin, table_at))
-                for shift in shifts:
-                    way = shift if data.in_frequency else -shift
-                    x = np.log(data.at) + way * np.log(10)
-                    logs = np.array([np.interp(x, np.log(table_at), row) for row in table])
-                    off = np.log(data.values) - np.clip(logs, -80, 80)
-                    modulus = sign * float(np.median(off))
-                    cost = float(np.sum(np.abs(data.weighed(off - sign * modulus))))
-                    place = {
-                        "rubbery_modulus": modulus,
-                        "glassy_modulus": modulus - np.log(k),
-                        "exponent": np.log(n),
-                        "tau0": shift * np.log(10),
-                    }
-                    ranked.append((cost, [place[name] for name in self.free]))
+        for twin, known in self._twins(softest / stiffest):
+            # seen at omega tau0 or time/tau0
+            with np.errstate(divide="ignore"):
+                table = np.log(quick(data, twin, table_at))
+            for shift in shifts:
+                way = shift if data.in_frequency else -shift
+                x = np.log(data.at) + way * np.log(10)
+                logs = np.array([np.interp(x, np.log(table_at), row) for row in table])
+                off = np.log(data.values) - np.clip(logs, -80, 80)
+                modulus = sign * float(np.median(off))
+                cost = float(np.sum(np.abs(data.weighed(off - sign * modulus))))
+                moduli = {name: modulus + known[name] for name in _MODULI if name in known}
+                place = known | moduli | {"tau0": shift * np.log(10)}
+                ranked.append((cost, [place[name] for name in self.free]))
         ranked.sort(key=lambda entry: entry[0])
         return [np.array(place) for _, place in ranked[:count]]
+
+    def _twins(self, ratio: float) -> Iterator[tuple[Any, dict[str, float]]]:
+        """Yield solids of time 1 to begin with, and the logarithms of their constants."""
+        tried = {name: self._tried(name, ratio) for name in self.names if name != "tau0"}
+        for values in itertools.product(*tried.values()):
+            constants = dict(zip(tried, values, strict=True))
+            if constants.get("lower_order", -1.0) >= constants.get("order", 0.0):
+                continue
+            twin = self.kind(**constants, tau0=1.0, poisson_ratio=0.0)
+            yield twin, {name: float(np.log(value)) for name, value in constants.items()}
+
+    def _tried(self, name: str, ratio: float) -> tuple[float, ...]:
+        """Return the values of a constant to begin with; moduli in units of one of them."""
+        if name in self.known and name not in _MODULI:
+            return (self.known[name],)
+        if name == "glassy_modulus":
+            return tuple(1 / ratio / np.array([0.9, 0.2, 0.01]))
+        if name == "order" and "lower_order" in self.names:
+            return _UPPER_ORDERS
+        return _TRIED[name]
 
     def profile_end(self, x: Array, i: int, side: int, deviation: float, allowed: float) -> float:
         """Return where the profile of constant i reaches the allowed sum of squares, or inf."""
         end = self.high[i] if side > 0 else self.low[i]
-        start = {"x": x}
+        start = x.copy()
 
         def excess(value: float) -> float:
-            moved = start["x"].copy()
+            """Return the sum of squares above what is allowed, with the others at their best."""
+            nonlocal start
+            moved = start.copy()
             moved[i] = value
             found = self.polished(moved, fixed=i)
             if found is not None:
                 moved[np.arange(x.size) != i] = found.x
-                start["x"] = moved
+                start = moved
             return float(np.sum(self.misfit(moved) ** 2)) - allowed
 
-        near, step = float(x[i]), float(np.clip(deviation, 1e-4, 1.0))
+        near, below = float(x[i]), float(np.sum(self.misfit(x) ** 2)) - allowed
+        if below >= 0:  # a fit without residuals: there is no way to go
+            return near
+        step = float(np.clip(deviation, 1e-4, 1.0))
         while True:
             far = near + side * step
             if side * (end - far) <= 0:
                 far = end
-            if excess(far) > 0:
-                if excess(near) >= 0:  # a fit without residuals: there is no way to go
-                    return near
-                root: Any = brentq(excess, near, far, xtol=1e-4 + 1e-3 * step)
-                return float(root)
+            above = excess(far)
+            if above > 0:
+                return _crossing(excess, (near, below), (far, above), 1e-4 + 1e-3 * step)
             if far == end:
                 return side * np.inf
-            near, step = far, 1.6 * step
+            near, below, step = far, above, 1.6 * step
+
+
+def _crossing(
+    excess: Callable[[float], float],
+    below: tuple[float, float],
+    above: tuple[float, float],
+    within: float,
+) -> float:
+    """Return where a profile crosses zero, by false position and halves (Illinois).
+
+    The profile is only as exact as the search behind each of its values: the same place may have
+    another sign when it is asked again, and no value is asked twice here.
+    """
+    (near, under), (far, over) = below, above
+    while abs(far - near) > within:
+        place = near + (far - near) * float(np.clip(-under / (over - under), 0.1, 0.9))
+        value = excess(place)
+        if value > 0:
+            far, over, under = place, value, 0.5 * under
+        else:
+            near, under, over = place, value, 0.5 * over
+    return (near + far) / 2
+
+
+def _order_bounds(kind: Any) -> tuple[float, float]:
+    """Return the logarithms between which the order of a law's springpot lies, if it has one."""
+    if "order" not in cards(kind):
+        return (0.0, 0.0)
+    card = cards(kind)["order"].card
+    return float(np.log(card.least)) + 1e-9, float(np.log(card.most)) - 1e-9
 
 
 def quick(data: Observed, solid: Any, at: Array) -> Array:

@@ -8,15 +8,19 @@ from collections.abc import Mapping
 from threadpoolctl import threadpool_limits
 
 from viscotack.errors import InputError
+from viscotack.materials.words import FITS_ONLY
 
-from .fit_limits import misfit_cautions, opened, series_cautions, undetermined
+from .fit_limits import few_arms_caution, misfit_cautions, series_cautions, undetermined
 from .fit_power_law import fit_constants, fitted_constants
 from .fit_prony import fit_series, with_noise
 from .fit_report import FitReport, information_criterion
 from .fit_search import KINDS
 from .observed import Data, Observed, observed, only
+from .thinned import thinned
 
 MODELS = (*KINDS, "prony")
+# What `best` chooses from: a contact can be simulated on each.
+SOLIDS = tuple(model for model in MODELS if model not in FITS_ONLY)
 
 
 def fit(
@@ -45,11 +49,14 @@ def fit(
     poisson_ratio : float
         Poisson ratio nu, in [0, 0.5], constant; 0.5 for rubber, about 0.35 for a glass.
     model : str
-        "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls", "prony", or
-        "best": all are fitted, and the corrected information criterion of Akaike decides.
+        "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls",
+        "fractional-zener", "prony"; "fractional-maxwell" or "fractional-kelvin-voigt", which have
+        no plateau, so that no contact is simulated on them; or "best": all but these two are
+        fitted, and the corrected information criterion of Akaike decides.
     arms : int, optional
-        Relaxation times of a Prony series, on a logarithmic grid; left out, as many as the
-        criterion finds in the data. Arms that get no modulus are dropped.
+        Relaxation times of a Prony series, on a logarithmic grid, moved to where they serve best
+        if they are at most 12; left out, as many as the criterion finds in the data. Arms that get
+        no modulus are dropped. What few arms cost is said.
     known : mapping, optional
         Constants that are not fitted, in SI: ``{"glassy_modulus": 3e9}``, for a plateau known from
         elsewhere. For a power law or the standard solid.
@@ -58,7 +65,7 @@ def fit(
     level : float
         Confidence level of the intervals and the band.
     draws : int
-        How many solids that the data allow to draw.
+        How many solids that the data allow to draw; 0: none, and no intervals of a Prony series.
     seed : int
         Of the random numbers: the same seed, the same report.
 
@@ -74,9 +81,10 @@ def fit(
 
     Notes
     -----
-    Intervals hold if the model is right and the residuals are independent; neighbours that err
-    alike widen them. Those of a Prony series are of its plateaus only, from a bootstrap on fixed
-    times: its single arms mean nothing.
+    Intervals hold if the model is right, also where noise grows towards one end, the points of a
+    sweep err together, or an instrument drifts; what points have in common widens them. Those of
+    a Prony series are of its plateaus only, over all series on a dense grid of times: its single
+    arms mean nothing.
 
     Examples
     --------
@@ -110,7 +118,7 @@ def fit(
     with threadpool_limits(
         limits=1, user_api="blas"
     ):  # small matrices: threads only get in the way
-        seen = with_noise(seen)
+        seen = with_noise(thinned(seen))
         if model != "best":
             return _fitted(seen, model, draws=draws, **options)
         tried = [(each, _tried(seen, each)) for each in _affordable(seen)]
@@ -120,8 +128,8 @@ def fit(
 
 def _affordable(data: Observed) -> list[str]:
     """Return the models that leave numbers to spare."""
-    constants = {"power-law": 4, "relaxation-power-law": 4, "sls": 3, "prony": 3}
-    found = [model for model in MODELS if data.values.size > constants[model] + 3]
+    constants = {model: 3 if model in ("sls", "prony") else 4 for model in SOLIDS}
+    found = [model for model in SOLIDS if data.values.size > constants[model] + 3]
     if not found:
         raise InputError(
             f"{data.values.size} numbers are too few to compare models; name the one to fit"
@@ -152,26 +160,30 @@ def _fitted(
     if model == "prony":
         found = fit_series(data, arms=arms, level=level, draws=draws, seed=seed)
         compared, criterion = others or found.compared, found.criterion
+        if arms is not None:
+            cautions = few_arms_caution(data, found)
         if draws:
-            cautions = series_cautions(data, found)
+            # what few arms miss is no contradiction of the moduli
+            cautions += series_cautions(data, found, few=bool(cautions))
     else:
         found = fit_constants(data, model=model, known=known, level=level, draws=draws, seed=seed)
         compared = others
         residuals = data.weighed(data.residuals(found.material))
         criterion = information_criterion(residuals, found.constants)
     cautions = (*misfit_cautions(data, found.material, found.scatter), *cautions)
-    intervals = opened(data, found.material, found.intervals)
+    if data.points:
+        cautions = (*cautions, data.source.notes[-1])
     return FitReport(
         material=found.material,
         model=model,
         observed=data,
-        intervals=intervals,
+        intervals=found.intervals,
         level=level,
         scatter=found.scatter,
         constants=found.constants,
         criterion=criterion,
         compared=compared,
-        undetermined=undetermined(data, found.material, intervals),
+        undetermined=undetermined(data, found.material, found.intervals),
         cautions=cautions,
         draws=found.draws,
     )

@@ -40,31 +40,36 @@ def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
         raise InputError(
             "some files are tensile (E), others shear (G); read them apart, or say --kind"
         )
-    sources = [part.source for part in parts]
-    hashes = [source.sha256 for source in sources]
-    for i, digest in enumerate(hashes):
-        if digest in hashes[:i]:
-            twin = sources[hashes.index(digest)].path
-            raise InputError(f"{sources[i].path} is the same file as {twin}; leave one out")
+    source = joined_source([part.source for part in parts])
     numbers, count = [], 0
     for part in parts:
         own, renumbered = np.unique(part.sweep, return_inverse=True)
         numbers.append(renumbered + count)
         count += own.size
-    notes = [f"{len(parts)} files as one material"]
-    notes += [f"{source.path}: sha256 {source.sha256}" for source in sources]
-    notes += [f"{source.path}: {note}" for source in sources for note in source.notes]
     names = ("temperature", "angular_frequency", "storage", "loss")
     return FrequencySweeps(
         **{name: np.concatenate([getattr(part, name) for part in parts]) for name in names},
         kind=kinds.pop(),
         sweep=np.concatenate(numbers),
-        source=Source(
-            path=", ".join(source.path for source in sources),
-            sha256=hashlib.sha256("".join(hashes).encode()).hexdigest(),
-            format=", ".join(dict.fromkeys(source.format for source in sources)),
-            notes=tuple(notes),
-        ),
+        source=source,
+    )
+
+
+def joined_source(sources: Sequence[Source]) -> Source:
+    """Return several files as one source of one material, with the notes of each."""
+    hashes = [source.sha256 for source in sources]
+    for i, digest in enumerate(hashes):
+        if digest and digest in hashes[:i]:
+            twin = sources[hashes.index(digest)].path
+            raise InputError(f"{sources[i].path} is the same file as {twin}; leave one out")
+    notes = [f"{len(sources)} files as one material"]
+    notes += [f"{source.path}: sha256 {source.sha256}" for source in sources]
+    notes += [f"{source.path}: {note}" for source in sources for note in source.notes]
+    return Source(
+        path=", ".join(source.path for source in sources),
+        sha256=hashlib.sha256("".join(hashes).encode()).hexdigest(),
+        format=", ".join(dict.fromkeys(source.format for source in sources)),
+        notes=tuple(notes),
     )
 
 

@@ -68,7 +68,7 @@ class Consistency:
         )
 
 
-def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
+def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = False) -> Consistency:
     r"""Compare a master curve with the nearest pair of moduli that obey Kramers and Kronig.
 
     Parameters
@@ -77,6 +77,9 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
         Four or more points over half a decade or more.
     tolerance : float
         Relative difference beyond which a point is suspect, in (0, 1).
+    alike : bool
+        Whether all points and both moduli count alike. That says whether the pair is causal as a
+        whole; without it, which points are not.
 
     Returns
     -------
@@ -127,9 +130,9 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
     columns = np.vstack((storage / master.storage[:, None], loss / master.loss[:, None]))
     columns /= np.linalg.norm(columns, axis=0)
     sides = np.column_stack((columns, np.ones(2 * omega.size)))
-    trust = np.repeat([1.0, _TRUST], omega.size)
+    trust = np.repeat([1.0, 1.0 if alike else _TRUST], omega.size)
     tail = np.ones(2 * omega.size)
-    for _ in range(_ROUNDS):
+    for _ in range(1 if alike else _ROUNDS):
         # the triangle of all rows says the same as the rows, which may be thousands
         weighted = sides * (trust * np.sqrt(tail))[:, None]
         triangle = np.asarray(np.linalg.qr(weighted, mode="r"))
@@ -150,6 +153,22 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1) -> Consistency:
             if np.mean(suspect[master.sweep == number]) > 0.5
         )
     return Consistency(storage_off, loss_off, suspect, flagged, tolerance)
+
+
+def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
+    """Return the root mean square of ln(measured/causal) of storage and of loss.
+
+    Every point and both moduli count alike. None where there are too few points to say anything.
+    """
+    try:
+        found = consistency(master, alike=True)
+    except ValueError:
+        return None
+    storage, loss = (
+        float(np.sqrt(np.mean(np.log1p(residual) ** 2)))
+        for residual in (found.storage_residual, found.loss_residual)
+    )
+    return storage, loss
 
 
 def loss_from_storage(angular_frequency: npt.ArrayLike, storage: npt.ArrayLike) -> Array:

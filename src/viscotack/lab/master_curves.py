@@ -9,10 +9,22 @@ from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
 from .grouping import GAP
-from .shifting import shift_factors, temperature_levels
+from .kramers_kronig import causal_misfit
+from .shifting import BEST, shift_factors, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
 
 Array = npt.NDArray[np.float64]
+
+# what uses most of the data comes first
+_WAYS = (BEST, ("both", "none"), ("storage", "none"))
+_CAUSAL = 0.03  # a pair of moduli as causal as rheometers make it
+_CLEARLY = 0.8  # of the misfit
+_PARTS = {
+    "both": "storage and loss",
+    "storage": "storage alone",
+    "loss": "loss alone",
+    "tan": "the loss tangent",
+}
 
 
 def master_curve(
@@ -20,8 +32,8 @@ def master_curve(
     *,
     reference_temperature: float | None,
     shift: Shift | ShiftTable | None = None,
-    by: str = "storage",
-    vertical: bool = False,
+    by: str | None = None,
+    vertical: str | float | None = None,
 ) -> MasterCurve:
     r"""Return all sweeps shifted to one temperature, ascending in frequency.
 
@@ -40,10 +52,12 @@ def master_curve(
         temperature. The row of a table shifts the points within 1 K of it, a vertical shift
         included; between rows it is interpolated. Without it the shifts are found from the
         overlap of neighbouring sweeps, see :func:`shift_factors`.
-    by : {"storage", "loss", "both"}
-        The modulus that must superpose, where shifts are found from overlap.
-    vertical : bool
-        Whether moduli may move as well, where shifts are found from overlap.
+    by : {"both", "storage", "loss", "tan"}, optional
+        What must superpose, where shifts are found from overlap. Left out with `vertical`: the
+        most that the data carry, see :func:`most_carried`.
+    vertical : {"auto", "none", "free"} or float, optional
+        How far moduli may move as well, where shifts are found from overlap, see
+        :func:`shift_factors`; "auto" where `by` alone is given.
 
     Returns
     -------
@@ -75,28 +89,25 @@ def master_curve(
     if reference_temperature is None:
         return _unshifted(sweeps, shift)
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is not known; give read_dma temperature=")
-    if shift is not None and (vertical or by != "storage"):
+        raise InputError("the temperature of some points is not known; say it, --temperature")
+    if shift is not None and (by is not None or vertical is not None):
         raise InputError("by and vertical are for shifts found from overlap; leave shift= out")
     reference_temperature = float(reference_temperature)
     if shift is None:
         if np.ptp(sweeps.temperature) <= GAP and _near(sweeps.temperature, reference_temperature):
             return replace(_unshifted(sweeps, None), reference_temperature=reference_temperature)
         _refuse_ramp(sweeps)
+        if by is None and vertical is None:
+            return most_carried(sweeps, reference_temperature=reference_temperature)
+        by, vertical = by or BEST[0], BEST[1] if vertical is None else vertical
         shift = shift_factors(
             sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
         )
-        how = f"shifts from the overlap of {by if by != 'both' else 'storage and loss'}"
+        how = f"shifts from the overlap of {_PARTS[by]}, {moved_words(vertical)}"
     else:
-        how = _words(shift)
-    if isinstance(shift, ShiftTable):
-        horizontal, up = _by_table(sweeps.temperature, shift, reference_temperature)
-        table = shift
-    else:
-        law = shift.at_reference(reference_temperature)
-        horizontal, up = np.asarray(law.log10_shift(sweeps.temperature)), 0.0
-        levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
-        table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+        how = shift_words(shift)
+    levels = np.array([float(np.mean(t.temperature)) for t in temperature_levels(sweeps)])
+    horizontal, up, table = shifted_by(shift, sweeps.temperature, levels, reference_temperature)
     return MasterCurve(
         reference_temperature=reference_temperature,
         angular_frequency=sweeps.angular_frequency * 10**horizontal,
@@ -108,6 +119,53 @@ def master_curve(
         temperature=sweeps.temperature,
         sweep=sweeps.sweep,
     )
+
+
+def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> MasterCurve:
+    """Return the master curve by the shifts that use most of what sweeps at many temperatures say.
+
+    Both moduli, moved as far as the data fix it. Where they do not fix the shifts, or where
+    shifts by both moduli at rest, or by storage alone, make the moduli a clearly better causal
+    pair (Kramers and Kronig, all points counting alike): those, and a note says so.
+
+    Raises
+    ------
+    ValueError
+        As :func:`shift_factors`, if no way fixes the shifts.
+    """
+    best, misfit, first = None, np.inf, None
+    for by, vertical in _WAYS:
+        try:
+            curve = master_curve(
+                sweeps, reference_temperature=reference_temperature, by=by, vertical=vertical
+            )
+        except InputError as error:
+            first = first or error
+            continue
+        off = causal_misfit(curve)
+        total = np.inf if off is None else float(np.hypot(*off))
+        if best is None or total < _CLEARLY * misfit:
+            best, misfit = curve, total
+        if misfit < _CAUSAL:
+            break  # nothing to be gained
+    if best is None:
+        raise first or InputError("no shift was found")
+    if first is None:
+        return best
+    note = f"storage and loss together, free to move, do not fix the shifts: {first}"
+    return replace(best, source=best.source.noted(note))
+
+
+def moved_words(vertical: str | float) -> str:
+    """Return in a few words how far moduli may move."""
+    words = {
+        "auto": "moduli moved as far as the data fix it",
+        "none": "moduli not moved",
+        "free": "moduli moved freely",
+    }
+    if isinstance(vertical, str):
+        return words[vertical]
+    return f"moduli moved by density and temperature, expansion {vertical:g} 1/K"
 
 
 def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> MasterCurve:
@@ -124,6 +182,18 @@ def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> Mas
         temperature=sweeps.temperature,
         sweep=sweeps.sweep,
     )
+
+
+def shifted_by(
+    shift: Shift | ShiftTable, temperature: Array, levels: Array, reference: float
+) -> tuple[Array, Array, ShiftTable]:
+    """Return the horizontal and the vertical shift of each point, and the table of the levels."""
+    if isinstance(shift, ShiftTable):
+        return *_by_table(temperature, shift, reference), shift
+    law = shift.at_reference(reference)
+    horizontal = np.asarray(law.log10_shift(temperature))
+    table = ShiftTable(levels, np.asarray(law.log10_shift(levels)), None)
+    return horizontal, np.zeros_like(horizontal), table
 
 
 def _by_table(temperature: Array, table: ShiftTable, reference: float) -> tuple[Array, Array]:
@@ -170,7 +240,8 @@ def _near(temperature: Array, reference: float) -> bool:
     return bool(np.all(np.abs(temperature - reference) <= GAP))
 
 
-def _words(shift: Shift | ShiftTable) -> str:
+def shift_words(shift: Shift | ShiftTable) -> str:
+    """Return in a few words how points are shifted."""
     match shift:
         case WLF(reference_temperature=reference, c1=c1, c2=c2):
             return f"shifted by WLF with c1 = {c1:g}, c2 = {c2:g} K at {reference:g} K"

@@ -28,6 +28,11 @@ PARTS = {
 }
 
 
+# Decades of one modulus: the best rheometers and DMA together, from 1 mPa to the modulus of diamond
+# are 15. What an equation wrote down may run out below the smallest floating-point number.
+_MOST_DECADES = 20
+
+
 @dataclass(frozen=True, eq=False)
 class Observed:
     """Measured numbers in tension, ready to be compared.
@@ -52,6 +57,10 @@ class Observed:
         Lowest and highest temperature at which they were measured [K].
     source : Source
         Where they come from.
+    sweep : ndarray of int, shape (N,), or None
+        Number of the sweep that each point was measured in, where that is known.
+    points : int
+        How many points were measured, where `at` are means of them; else 0.
     """
 
     quantity: str
@@ -63,6 +72,8 @@ class Observed:
     temperature: float | None
     temperatures: tuple[float, float] | None
     source: Source
+    sweep: npt.NDArray[np.int64] | None = None
+    points: int = 0
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -132,7 +143,8 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
     Raises
     ------
     ValueError
-        If the data is of another kind, has several temperatures, or too few points.
+        If the data is of another kind, has several temperatures or too few points, or falls over
+        more than 20 decades.
 
     Examples
     --------
@@ -156,7 +168,10 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         quantity, at, values = "relaxation", tension.time, tension.modulus[None, :]
     else:
         quantity, at, values = "creep", tension.time, tension.compliance[None, :]
+    for part, row in zip(PARTS[quantity], values, strict=True):
+        _refuse_unmeasurable(part, row)
     order = np.argsort(at, kind="stable")
+    sweep = getattr(tension, "sweep", None)
     return Observed(
         quantity=quantity,
         at=at[order],
@@ -167,7 +182,20 @@ def observed(data: Any, *, poisson_ratio: float) -> Observed:
         temperature=temperature,
         temperatures=temperatures,
         source=data.source,
+        sweep=None if sweep is None else np.asarray(sweep)[order],
     )
+
+
+def _refuse_unmeasurable(part: str, values: Array) -> None:
+    low, high = float(np.min(values)), float(np.max(values))
+    decades = np.log10(high) - np.log10(low)
+    if decades > _MOST_DECADES:
+        unit = "1/Pa" if part == "creep" else "Pa"
+        raise InputError(
+            f"the numbers of {part} run over {decades:.0f} decades, from {low:.2g} to {high:.2g} "
+            f"{unit}, and no instrument tells more than {_MOST_DECADES}; leave out those below its "
+            "limit"
+        )
 
 
 def _temperatures(data: Data) -> tuple[float | None, tuple[float, float] | None]:

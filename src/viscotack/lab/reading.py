@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from os import PathLike
 from types import ModuleType
+from typing import NamedTuple
 
 from viscotack.errors import InputError
 
@@ -48,7 +49,7 @@ FORMATS: dict[str, ModuleType] = {
 
 
 def read(
-    path: Path,
+    path: Path | Sequence[Path],
     *,
     format: str | None = None,
     kind: str | None = None,
@@ -57,30 +58,42 @@ def read(
     modulus_unit: str | None = None,
     time_unit: str | None = None,
     temperature_unit: str | None = None,
+    temperature_in_name: bool = False,
     decimal: str | None = None,
-) -> Test:
+) -> Test | tuple[RelaxationTest, ...] | tuple[CreepTest, ...]:
     """Return the test that a file holds: sweeps, stress relaxation or creep.
 
     Parameters are those of :func:`read_dma`. Which test it is its columns say; where stress and
-    strain are both there, the one that is held. Sweeps go before steps of other kinds.
+    strain are both there, the one that is held. Sweeps go before steps of other kinds. Steps at
+    several temperatures are a tuple of tests, from cold to hot.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if it holds none of them.
+        As :func:`read_dma`; also if it holds none of them, or steps of both kinds.
     """
     units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
-    given = _given(kind, temperature, units)
-    file, format, tables = _tables(path, format)
-    tests = {test_of(Columns(file, table, given.units)) for table in tables if table.rows}
+    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    tests = {
+        test_of(Columns(file, table, units))
+        for file, _, tables, _ in opened
+        for table in tables
+        if table.rows
+    }
     if "dma" in tests or not tests & {"relaxation", "creep"}:
-        return assembly.sweeps(file, format, tables, given)
+        return joined([assembly.sweeps(*each) for each in opened])
     if {"relaxation", "creep"} <= tests:
+        file = opened[0].file
+        if len(opened) > 1:
+            raise InputError("some files are relaxation, others creep tests; read them apart")
         raise file.error(
             "it holds a relaxation and a creep test; say --test relaxation or --test creep"
         )
-    reader = step_tests.relaxation if "relaxation" in tests else step_tests.creep
-    return reader(file, format, tables, given)
+    if "relaxation" in tests:
+        relaxations = _relaxations(opened)
+        return relaxations[0] if len(relaxations) == 1 else relaxations
+    creeps = _creeps(opened)
+    return creeps[0] if len(creeps) == 1 else creeps
 
 
 def read_dma(
@@ -159,18 +172,8 @@ def read_dma(
     ([3200000.0, 4500000.0], 'E', 'csv')
     """
     units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
-    _given(kind, temperature, units)
-    paths = [path] if isinstance(path, str | PathLike) else list(path)
-    if not paths:
-        raise InputError("there is no file to read")
-    if temperature is not None and temperature_in_name:
-        raise InputError("--temperature and --temperature-in-name: say one of them")
-    parts = []
-    for one in paths:
-        file, found, tables = _tables(one, format)
-        own = kelvin_in_name(file) if temperature_in_name else temperature
-        parts.append(assembly.sweeps(file, found, tables, assembly.Given(kind, own, units)))
-    return joined(parts)
+    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    return joined([assembly.sweeps(*each) for each in opened])
 
 
 def read_relaxation(
@@ -226,6 +229,58 @@ def read_creep(
     return step_tests.creep(file, format, tables, given)
 
 
+def read_relaxations(
+    path: Path | Sequence[Path],
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
+    temperature_in_name: bool = False,
+    decimal: str | None = None,
+) -> tuple[RelaxationTest, ...]:
+    """Return the relaxation tests of a file or several, one for each temperature, cold to hot.
+
+    Parameters are those of :func:`read_dma`. Points within 1 K are one temperature. Rows whose
+    time never begins again are one test, as :func:`read_relaxation` reads it.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`; also if a file has not exactly one table of this kind.
+    """
+    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
+    return _relaxations(_opened(path, format, kind, temperature, units, temperature_in_name))
+
+
+def read_creeps(
+    path: Path | Sequence[Path],
+    *,
+    format: str | None = None,
+    kind: str | None = None,
+    temperature: float | None = None,
+    modulus_unit: str | None = None,
+    time_unit: str | None = None,
+    temperature_unit: str | None = None,
+    temperature_in_name: bool = False,
+    decimal: str | None = None,
+) -> tuple[CreepTest, ...]:
+    """Return the creep tests of a file or several, one for each temperature, cold to hot.
+
+    Parameters are those of :func:`read_dma`. Points within 1 K are one temperature. Rows whose
+    time never begins again are one test, as :func:`read_creep` reads it.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_dma`; also if a file has not exactly one table of this kind.
+    """
+    units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
+    return _creeps(_opened(path, format, kind, temperature, units, temperature_in_name))
+
+
 def read_shifts(
     path: Path,
     *,
@@ -247,6 +302,52 @@ def read_shifts(
     file, _, tables = _tables(path, format)
     units = Units(temperature=temperature_unit, decimal=decimal)
     return step_tests.shifts(file, tables, _given(None, None, units))
+
+
+class _Opened(NamedTuple):
+    """A file in tables, and what is said about it: what every reader of a test takes."""
+
+    file: LabFile
+    format: str
+    tables: list[Table]
+    given: assembly.Given
+
+
+def _opened(
+    path: Path | Sequence[Path],
+    format: str | None,
+    kind: str | None,
+    temperature: float | None,
+    units: Units,
+    temperature_in_name: bool,
+) -> list[_Opened]:
+    """Return one file or several, each with the temperature that is said of it."""
+    _given(kind, temperature, units)
+    paths = [path] if isinstance(path, str | PathLike) else list(path)
+    if not paths:
+        raise InputError("there is no file to read")
+    if temperature is not None and temperature_in_name:
+        raise InputError("--temperature and --temperature-in-name: say one of them")
+    opened = []
+    for one in paths:
+        file, found, tables = _tables(one, format)
+        own = kelvin_in_name(file) if temperature_in_name else temperature
+        opened.append(_Opened(file, found, tables, assembly.Given(kind, own, units)))
+    return opened
+
+
+def _relaxations(opened: Sequence[_Opened]) -> tuple[RelaxationTest, ...]:
+    tests = [test for each in opened for test in step_tests.relaxations(*each)]
+    return tuple(sorted(tests, key=_temperature))
+
+
+def _creeps(opened: Sequence[_Opened]) -> tuple[CreepTest, ...]:
+    tests = [test for each in opened for test in step_tests.creeps(*each)]
+    return tuple(sorted(tests, key=_temperature))
+
+
+def _temperature(test: RelaxationTest | CreepTest) -> float:
+    return 0.0 if test.temperature is None else test.temperature
 
 
 def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:

@@ -14,6 +14,7 @@ from .sweeps import ShiftTable
 
 Array = npt.NDArray[np.float64]
 
+_MISSED = 0.1  # decades from a row that a law may miss however sure the row is
 _UNCERTAIN = 0.01  # decades: scatter of a shift beside what its table says
 
 
@@ -138,6 +139,39 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> ShiftFi
     covariance = _covariance(columns * weight[:, None], difference * weight)
     error = np.sqrt(np.diag(covariance)[:1])
     return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
+
+
+def nearest_law(table: ShiftTable, *, reference_temperature: float) -> ShiftFit | None:
+    """Return the WLF or Arrhenius law that is nearer to a table; None where neither fits.
+
+    Three constants of WLF (its zero is one) must earn their keep against the two of Arrhenius, by
+    Schwarz's criterion. A law that misses a row by more than three of its standard deviations and
+    a tenth of a decade is none.
+
+    Examples
+    --------
+    >>> rows = np.array([273.15, 283.15, 293.15, 303.15, 313.15])
+    >>> table = ShiftTable(rows, Arrhenius(293.15, 80e3).log10_shift(rows), np.full(5, 0.02))
+    >>> type(nearest_law(table, reference_temperature=293.15).law).__name__
+    'Arrhenius'
+    """
+    fits = []
+    for kind, constants in ((fit_arrhenius, 2), (fit_wlf, 3)):
+        try:
+            found = kind(table, reference_temperature=reference_temperature)
+        except ValueError:
+            continue  # its reason is no news: the other law may fit
+        off = _off(table, found.law) / _deviation(table)
+        if np.all(np.abs(off) < 3) or found.worst[1] ** 2 < _MISSED**2:
+            fits.append((float(off @ off) + constants * math.log(len(table)), found))
+    return min(fits, key=lambda pair: pair[0])[1] if fits else None
+
+
+def _off(table: ShiftTable, law: WLF | Arrhenius) -> Array:
+    """Return log10 a_T of the table less that of the law, its own zero taken off."""
+    difference = table.log10_shift - np.asarray(law.log10_shift(table.temperature))
+    weight = _deviation(table) ** -2.0
+    return difference - float(weight @ difference / np.sum(weight))
 
 
 def _deviation(table: ShiftTable) -> Array:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -19,6 +20,7 @@ from .assembly import (
 )
 from .diagnosis import test_of
 from .doubts import doubtful_modulus
+from .grouping import GAP
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 from .table import Columns, Table
@@ -28,28 +30,100 @@ Array = npt.NDArray[np.float64]
 
 def relaxation(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> RelaxationTest:
     """Return the one stress relaxation test of a file."""
-    time, modulus, kind, temperature, columns = _test(file, tables, given, "modulus")
-    return RelaxationTest(
-        time,
-        modulus,
-        kind,
-        strain=_level(columns, "strain"),
-        temperature=temperature,
-        source=source_of(file, format, [*file.notes, *columns.notes]),
-    )
+    found = _rows(file, tables, given, "modulus")
+    return _relaxation(file, format, replace(found, temperature=_one_temperature(found)))
+
+
+def relaxations(
+    file: LabFile, format: str, tables: Sequence[Table], given: Given
+) -> tuple[RelaxationTest, ...]:
+    """Return the stress relaxation tests of a file, one for each temperature."""
+    rows = _rows(file, tables, given, "modulus")
+    return tuple(_relaxation(file, format, each) for each in _by_temperature(rows))
 
 
 def creep(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> CreepTest:
     """Return the one creep test of a file."""
-    time, compliance, kind, temperature, columns = _test(file, tables, given, "compliance")
-    return CreepTest(
-        time,
-        compliance,
-        kind,
-        stress=_level(columns, "stress"),
-        temperature=temperature,
-        source=source_of(file, format, [*file.notes, *columns.notes]),
+    found = _rows(file, tables, given, "compliance")
+    return _creep(file, format, replace(found, temperature=_one_temperature(found)))
+
+
+def creeps(
+    file: LabFile, format: str, tables: Sequence[Table], given: Given
+) -> tuple[CreepTest, ...]:
+    """Return the creep tests of a file, one for each temperature."""
+    rows = _rows(file, tables, given, "compliance")
+    return tuple(_creep(file, format, each) for each in _by_temperature(rows))
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Rows of a step test that are used: time, modulus or compliance, temperature."""
+
+    time: Array
+    values: Array
+    temperature: Array
+    kind: str
+    columns: Columns
+
+
+def _relaxation(file: LabFile, format: str, rows: _Rows) -> RelaxationTest:
+    return RelaxationTest(
+        rows.time,
+        rows.values,
+        rows.kind,
+        strain=_level(rows.columns, "strain"),
+        temperature=_mean(rows.temperature),
+        source=source_of(file, format, [*file.notes, *rows.columns.notes]),
     )
+
+
+def _creep(file: LabFile, format: str, rows: _Rows) -> CreepTest:
+    return CreepTest(
+        rows.time,
+        rows.values,
+        rows.kind,
+        stress=_level(rows.columns, "stress"),
+        temperature=_mean(rows.temperature),
+        source=source_of(file, format, [*file.notes, *rows.columns.notes]),
+    )
+
+
+def _mean(temperature: Array) -> float | None:
+    known = temperature[~np.isnan(temperature)]
+    return float(np.mean(known)) if known.size else None
+
+
+def _one_temperature(rows: _Rows) -> Array:
+    """Return the temperatures of a test, which are one."""
+    known = rows.temperature[~np.isnan(rows.temperature)]
+    if known.size and np.ptp(known) > 5:
+        raise rows.columns.error(
+            f"the temperature runs over {np.ptp(known):.3g} K; a step test has one temperature"
+        )
+    return rows.temperature
+
+
+def _by_temperature(rows: _Rows) -> list[_Rows]:
+    """Return the rows of each temperature, from cold to hot; all where none is known.
+
+    Where the time never begins again it is one test, whose temperature may drift.
+    """
+    steps = np.diff(rows.time)
+    if np.any(np.isnan(rows.temperature)) or np.all(steps > 0) or np.all(steps < 0):
+        return [replace(rows, temperature=_one_temperature(rows))]
+    order = np.argsort(rows.temperature, kind="stable")
+    breaks = np.flatnonzero(np.diff(rows.temperature[order]) > GAP) + 1
+    parts = [
+        replace(
+            rows,
+            time=rows.time[part],
+            values=rows.values[part],
+            temperature=rows.temperature[part],
+        )
+        for part in np.split(order, breaks)
+    ]
+    return [replace(part, temperature=_one_temperature(part)) for part in parts]
 
 
 def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
@@ -93,10 +167,8 @@ def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
         )
 
 
-def _test(
-    file: LabFile, tables: Sequence[Table], given: Given, wanted: str
-) -> tuple[Array, Array, str, float | None, Columns]:
-    """Return time, modulus or compliance, kind and temperature of the one table that has them."""
+def _rows(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> _Rows:
+    """Return time, modulus or compliance, and temperature of the one table that has them."""
     over, under = ("stress", "strain") if wanted == "modulus" else ("strain", "stress")
     test = "relaxation" if wanted == "modulus" else "creep"
     found = []
@@ -134,12 +206,7 @@ def _test(
         refuse_stiffer_than_diamond(columns, values)
         columns.notes += doubtful_modulus(values[np.isfinite(values) & (values > 0)])
     keep = kept(columns, time, values)
-    known = temperature[keep][~np.isnan(temperature[keep])]
-    if known.size and np.ptp(known) > 5:
-        raise columns.error(
-            f"the temperature runs over {np.ptp(known):.3g} K; a step test has one temperature"
-        )
-    return time[keep], values[keep], kind, float(np.mean(known)) if known.size else None, columns
+    return _Rows(time[keep], values[keep], temperature[keep], kind, columns)
 
 
 def _ratio(columns: Columns, over: str, under: str) -> Array:

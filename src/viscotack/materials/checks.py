@@ -29,6 +29,13 @@ def stiffens(material: Any) -> None:
         )
 
 
+def rests(material: Any) -> None:
+    """Refuse a law, or a class of laws, on which no contact comes to rest, with the reason."""
+    reason = getattr(material, "no_contact", "")
+    if reason:
+        raise InputError(f"{material.word} is a law for fits only: {reason}")
+
+
 def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
     """Return the window of time [s] and the tolerance of a set of modes as floats."""
     shortest = positive("shortest", shortest, "s")

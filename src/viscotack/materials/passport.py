@@ -1,14 +1,14 @@
 """A material with its papers: what it is, how anybody knows, where it may be trusted."""
 
+import math
 from dataclasses import dataclass, replace
+from statistics import NormalDist
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.materials.checks import rests
 from viscotack.materials.conversion import slowed
-from viscotack.materials.shift import Shift
-
-# A chamber is set to a whole degree and drifts: this much beyond the measured range is inside it.
-_DRIFT = 1.0
+from viscotack.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,6 +79,8 @@ class Passport:
         Temperature at which the material holds [K].
     shift : WLF, Arrhenius, TabulatedShift or None
         How its times change with temperature.
+    fitted_shift : FittedShift or None
+        The law nearest to a measured table of shifts.
     temperatures : (float, float) or None
         Lowest and highest temperature at which it was measured [K].
     frequencies : (float, float) or None
@@ -110,6 +112,7 @@ class Passport:
     material: Any
     temperature: float | None = None
     shift: Shift | None = None
+    fitted_shift: FittedShift | None = None
     temperatures: tuple[float, float] | None = None
     frequencies: tuple[float, float] | None = None
     measured: str | None = None
@@ -117,6 +120,7 @@ class Passport:
     evidence: Evidence | None = None
 
     def __post_init__(self):
+        rests(self.material)
         if not hasattr(self.material, "retardation_modes"):
             raise InputError(
                 f"material must be one of viscotack.materials, got {type(self.material).__name__}"
@@ -145,7 +149,7 @@ class Passport:
             raise InputError(f"{self.name}: no law says how times change with temperature{known}")
         if self.temperatures is not None:
             low, high = self.temperatures
-            if not low - _DRIFT <= temperature <= high + _DRIFT:
+            if not low - BESIDE <= temperature <= high + BESIDE:
                 raise InputError(
                     f"{self.name} was measured from {_both(low)} to {_both(high)}, got "
                     f"{_both(temperature)}; superposition is not extrapolated"
@@ -153,6 +157,12 @@ class Passport:
         law = self.shift
         decades = float(law.log10_shift(temperature)) - float(law.log10_shift(self.temperature))
         return 10.0**decades
+
+    def shift_deviation(self, temperature: float) -> float:
+        """Return the standard deviation of log10 a_T at a temperature [K]; 0 where nobody says."""
+        if self.temperature is None or not isinstance(self.shift, TabulatedShift):
+            return 0.0
+        return self.shift.deviation(temperature, self.temperature)
 
     def at_temperature(self, temperature: float) -> Any:
         """Return the material at another temperature [K]: its times multiplied by a_T.
@@ -171,14 +181,19 @@ class Passport:
         """Return the passport of the same material at another temperature [K]."""
         a = self.shift_factor(temperature)
         frequencies = self.frequencies and (self.frequencies[0] / a, self.frequencies[1] / a)
+        deviation = self.shift_deviation(temperature)
         note = f"moved from {_both(self.temperature)} to {_both(temperature)}, a_T = {a:.6g}"
+        if deviation > 0:
+            note += f", log10 a_T known to {deviation:.2g}"
         if self.temperature is None or temperature == self.temperature:
             return self
         evidence = self.evidence
         if evidence is not None:
+            # of two independent errors of ln tau0, where the second is that of the shift
+            wider = NormalDist().inv_cdf((1 + evidence.level) / 2) * deviation * math.log(10)
             moved = tuple(
-                (n, low * a, high * a) if n == "tau0" else (n, low, high)
-                for n, low, high in evidence.intervals
+                _moved(interval, getattr(self.material, "tau0", math.nan), a, wider)
+                for interval in evidence.intervals
             )
             evidence = replace(evidence, intervals=moved)
         return replace(
@@ -189,6 +204,19 @@ class Passport:
             origin=replace(self.origin, notes=(*self.origin.notes, note)),
             evidence=evidence,
         )
+
+
+def _moved(
+    interval: tuple[str, float, float], tau0: float, factor: float, wider: float
+) -> tuple[str, float, float]:
+    """Return an interval at another temperature; `wider` is the half-width of ln(factor)."""
+    name, low, high = interval
+    if name != "tau0":
+        return interval
+    # an end that is open stays open
+    down = math.hypot(math.log(tau0 / low), wider) if low > 0 else math.inf
+    up = math.hypot(math.log(high / tau0), wider) if high < math.inf else math.inf
+    return name, tau0 * factor * math.exp(-down), tau0 * factor * math.exp(up)
 
 
 def _both(temperature: float | None) -> str:

@@ -16,16 +16,17 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.files.whole import Target, write_whole
+from viscotack.materials.checks import rests
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.passport_tables import LAWS, VERSION, passport_text
-from viscotack.materials.shift import Shift, TabulatedShift
-from viscotack.materials.words import MODELS, units_of
+from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
+from viscotack.materials.words import FITS_ONLY, MODELS, units_of
 from viscotack.units import parse
 
 _TABLES = (
-    "material", "convention", "temperature", "range", "origin", "evidence",
+    "material", "convention", "temperature", "nearest_law", "range", "origin", "evidence",
     "relaxation", "retardation",
 )  # fmt: skip
 
@@ -86,6 +87,7 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
         material=material_in(tables["material"]),
         temperature=_read(temperature.get("reference"), "K"),
         shift=_shift(temperature),
+        fitted_shift=_fitted(tables.get("nearest_law", {})),
         temperatures=_span(temperature.get("measured"), "K"),
         frequencies=_span(bounds, "rad/s"),
         measured=None if measured == "not stated" else measured,
@@ -99,6 +101,7 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
 def material_in(table: Mapping[str, Any]) -> Material:
     """Return the material of a table [material] that states a model."""
     model = table["model"]
+    rests(FITS_ONLY.get(model))
     if model not in MODELS:
         raise InputError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
     units = units_of(MODELS[model])
@@ -148,7 +151,20 @@ def _shift(table: Mapping[str, Any]) -> Shift | None:
     if table["law"] == "table":
         rows = [(parse(T, "K"), float(value)) for T, value in table["shifts"]]
         temperature, values = zip(*rows, strict=True)
-        return TabulatedShift(zero, temperature, values)
+        more = {key: tuple(map(float, table.get(key, ()))) for key in ("uncertainty", "vertical")}
+        return TabulatedShift(zero, temperature, values, **more)
+    return _law(table)
+
+
+def _fitted(table: Mapping[str, Any]) -> FittedShift | None:
+    if not table:
+        return None
+    errors = tuple(map(float, table["standard_error"]))
+    return FittedShift(_law(table), errors, float(table["misfit"]))
+
+
+def _law(table: Mapping[str, Any]) -> Any:
+    zero = parse(table["zero"], "K")
     if table["law"] not in LAWS:
         raise InputError(
             f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"

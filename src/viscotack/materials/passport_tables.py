@@ -6,7 +6,7 @@ from typing import Any
 
 from viscotack.materials.conversion import prony_form, relaxation_form, retardation_series
 from viscotack.materials.passport import Passport
-from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
+from viscotack.materials.shift import WLF, Arrhenius, FittedShift, Shift, TabulatedShift
 from viscotack.materials.solids import Prony, StandardSolid
 from viscotack.materials.words import units_of, word_of
 
@@ -23,6 +23,7 @@ _TIMES = {
     "prony": "branches have relaxation times",
     "power-law": "tau0 is the characteristic retardation time",
     "relaxation-power-law": "tau0 is the characteristic relaxation time",
+    "fractional-zener": "tau0 is the retardation time",
 }
 
 
@@ -66,6 +67,7 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
         "material": {"model": model} | constants,
         "convention": convention,
         "temperature": temperature,
+        "nearest_law": _fitted_words(passport.fitted_shift),
         "range": {"angular_frequency": [_quantity(w, "rad/s") for w in bounds]} if bounds else {},
         "origin": _plain(passport.origin),
         "evidence": _plain(passport.evidence) if passport.evidence else {},
@@ -107,14 +109,26 @@ def _forms(passport: Passport) -> dict[str, dict[str, Any]]:
 def _shift_words(shift: Shift) -> dict[str, Any]:
     if isinstance(shift, TabulatedShift):
         rows = zip(shift.temperature, shift.values, strict=True)
+        columns = {"uncertainty": list(shift.uncertainty), "vertical": list(shift.vertical)}
         return {
             "law": "table",
             "zero": _quantity(shift.reference_temperature, "K"),
             "shifts": [[_quantity(T, "K"), value] for T, value in rows],
-        }
+        } | {key: values for key, values in columns.items() if values}
+    return _law_words(shift)
+
+
+def _law_words(shift: Shift) -> dict[str, Any]:
     law = next(word for word, (kind, _) in LAWS.items() if isinstance(shift, kind))
     constants = {key: _quantity(getattr(shift, key), unit) for key, unit in LAWS[law][1].items()}
     return {"law": law, "zero": _quantity(shift.reference_temperature, "K")} | constants
+
+
+def _fitted_words(fitted: FittedShift | None) -> dict[str, Any]:
+    if fitted is None:
+        return {}
+    errors = {"standard_error": list(fitted.standard_error), "misfit": fitted.misfit}
+    return _law_words(fitted.law) | errors
 
 
 def _plain(record: Any) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from viscotack.materials.passport import Passport
+from viscotack.materials.shift import WLF, FittedShift, TabulatedShift
 from viscotack.materials.words import units_of, word_of
 
 
@@ -20,6 +21,7 @@ def in_words(passport: Passport) -> str:
     if passport.temperature is not None:
         law = "no shift" if passport.shift is None else type(passport.shift).__name__
         lines.append(f"  at {passport.temperature - 273.15:.4g} C; times shift by: {law}")
+    lines += shift_lines(passport)
     if passport.temperatures is not None:
         low, high = (T - 273.15 for T in passport.temperatures)
         lines.append(f"  measured from {low:.4g} to {high:.4g} C")
@@ -37,3 +39,42 @@ def in_words(passport: Passport) -> str:
         lines += [f"  Not determined: {words}" for words in passport.evidence.undetermined]
         lines += [f"  Note: {words}" for words in passport.evidence.cautions]
     return "\n".join(line.rstrip() for line in lines)
+
+
+def shift_lines(passport: Passport) -> list[str]:
+    """Return a table of shifts and the law nearest to it as lines; none without a table."""
+    shift = passport.shift
+    if not isinstance(shift, TabulatedShift):
+        return []
+    unknown = [np.nan] * len(shift.values)
+    rows = zip(
+        shift.temperature,
+        np.asarray(shift.log10_shift(shift.temperature)),
+        shift.uncertainty or unknown,
+        shift.vertical or unknown,
+        strict=True,
+    )
+    lines = ["         T [C]   log10 a_T          +-    log10 b_T"]
+    lines += [
+        f"    {round(T - 273.15, 2) + 0.0:>10.2f}{value:>12.3f}{doubt:>12.2g}{up:>13.3f}".replace(
+            "nan", "  -"
+        )
+        for T, value, doubt, up in rows
+    ]
+    if passport.fitted_shift is None:
+        return [*lines, "  no WLF or Arrhenius law fits them"] if len(shift.values) > 2 else lines
+    return [*lines, f"  nearest law: {fitted_words(passport.fitted_shift)}"]
+
+
+def fitted_words(fitted: FittedShift) -> str:
+    """Return a law with its errors as a person reads it."""
+    law, errors = fitted.law, fitted.standard_error
+    if isinstance(law, WLF):
+        constants = (
+            f"WLF with c1 = {law.c1:.4g} +- {errors[0]:.2g}, c2 = {law.c2:.4g} +- {errors[1]:.2g} "
+            f"K at {law.reference_temperature - 273.15:.4g} C"
+        )
+    else:
+        energy = law.activation_energy / 1e3
+        constants = f"Arrhenius with {energy:.4g} +- {errors[0] / 1e3:.2g} kJ/mol"
+    return f"{constants}; {fitted.misfit:.2g} decades off on average"

@@ -154,6 +154,10 @@ class Arrhenius:
         return replace(self, reference_temperature=temperature)
 
 
+# K: a chamber is set to a whole degree and drifts, so this much beyond what was measured is inside
+BESIDE = 1.0
+
+
 @dataclass(frozen=True)
 class TabulatedShift:
     """A measured shift: passes through a table, smoothly, and is refused outside it.
@@ -166,11 +170,17 @@ class TabulatedShift:
         Temperatures of the table [K], ascending, two or more.
     values : tuple of float
         log10 a_T at these temperatures, relative to any one temperature.
+    uncertainty : tuple of float
+        Standard deviation of each value; empty where nobody says.
+    vertical : tuple of float
+        log10 of the factor that takes a modulus at these temperatures to the one at which the
+        values are zero; empty for 1.
 
     Notes
     -----
     Between the rows runs the monotone cubic of Fritsch & Carlson (1980), doi:10.1137/0717021: it
-    adds no bump that the table does not have.
+    adds no bump that the table does not have. Up to 1 K beside its ends goes a straight line: a
+    sweep at 0 C is written down with the -0.01 C that the chamber had.
 
     Examples
     --------
@@ -184,6 +194,8 @@ class TabulatedShift:
     reference_temperature: float
     temperature: tuple[float, ...]
     values: tuple[float, ...]
+    uncertainty: tuple[float, ...] = ()
+    vertical: tuple[float, ...] = ()
 
     def __post_init__(self):
         temperature = _temperatures(self.temperature)
@@ -197,6 +209,17 @@ class TabulatedShift:
             raise InputError("the temperatures of a table of shifts must ascend, each once")
         if not np.all(np.isfinite(values)):
             raise InputError("the values of a table of shifts must be finite")
+        more = {}
+        for name in ("uncertainty", "vertical"):
+            column = np.asarray(getattr(self, name), dtype=float)
+            if column.size and column.shape != values.shape:
+                raise InputError(
+                    f"{name} of a table of shifts needs one number for each temperature or none, "
+                    f"got {column.size} for {values.size}"
+                )
+            if not np.all(np.isfinite(column)) or name == "uncertainty" and np.any(column < 0):
+                raise InputError(f"{name} of a table of shifts must be finite and not negative")
+            more[name] = tuple(column.tolist())
         store(
             self,
             reference_temperature=positive(
@@ -204,6 +227,7 @@ class TabulatedShift:
             ),
             temperature=tuple(temperature.tolist()),
             values=tuple(values.tolist()),
+            **more,
         )
         self._refuse_outside(np.asarray(self.reference_temperature))
 
@@ -211,16 +235,31 @@ class TabulatedShift:
         """Return log10 a_T at temperatures [K] inside the table, in the shape given."""
         asked = _temperatures(temperature)
         self._refuse_outside(asked)
-        curve = PchipInterpolator(self.temperature, self.values)
-        return like_input(curve(asked) - curve(self.reference_temperature))
+        return like_input(self._along(asked) - self._along(np.asarray(self.reference_temperature)))
+
+    def deviation(self, temperature: float, other: float) -> float:
+        """Return the standard deviation of log10 a_T between two temperatures [K] of the table.
+
+        Both rows count as if they erred apart, which is no less than what they do. Zero where
+        nobody says.
+        """
+        if temperature == other or not self.uncertainty:
+            return 0.0
+        there, here = np.interp([temperature, other], self.temperature, self.uncertainty)
+        return math.hypot(there, here)
 
     def at_reference(self, temperature: float) -> "TabulatedShift":
         """Return the same table seen from another reference temperature [K] inside it."""
         return replace(self, reference_temperature=temperature)
 
+    def _along(self, temperature: Array) -> Array:
+        curve = PchipInterpolator(self.temperature, self.values)
+        inside = np.clip(temperature, self.temperature[0], self.temperature[-1])
+        return curve(inside) + curve.derivative()(inside) * (temperature - inside)
+
     def _refuse_outside(self, temperature: Array) -> None:
         low, high = self.temperature[0], self.temperature[-1]
-        outside = temperature[(temperature < low) | (temperature > high)]
+        outside = temperature[(temperature < low - BESIDE) | (temperature > high + BESIDE)]
         if outside.size:
             raise InputError(
                 f"the table of shifts runs from {_in_celsius(low)} to {_in_celsius(high)}, "
@@ -230,6 +269,25 @@ class TabulatedShift:
 
 
 Shift = WLF | Arrhenius | TabulatedShift
+
+
+@dataclass(frozen=True)
+class FittedShift:
+    """A law nearest to a measured table, kept beside it: for other programs, and to compare.
+
+    Parameters
+    ----------
+    law : WLF or Arrhenius
+        At its reference temperature.
+    standard_error : tuple of float
+        Of c1 [-] and c2 [K], or of the activation energy [J/mol].
+    misfit : float
+        Root mean square of log10 a_T of the table less that of the law [decades].
+    """
+
+    law: WLF | Arrhenius
+    standard_error: tuple[float, ...]
+    misfit: float
 
 
 def _temperatures(values: npt.ArrayLike) -> Array:

@@ -5,15 +5,29 @@ from typing import Any
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
+from viscotack.materials.fractional import FractionalZener
 from viscotack.materials.material import Material
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
+from viscotack.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 
 _ALL = ("rubbery_modulus", "poisson_ratio")
 # Word in a file -> class.
 MODELS: Mapping[str, Any] = {
     kind.word: kind
-    for kind in (Elastic, StandardSolid, Prony, RetardationPowerLaw, RelaxationPowerLaw)
+    for kind in (
+        Elastic,
+        StandardSolid,
+        Prony,
+        RetardationPowerLaw,
+        RelaxationPowerLaw,
+        FractionalZener,
+    )
+}
+
+# Laws for fits, on which no contact comes to rest.
+FITS_ONLY: Mapping[str, Any] = {
+    kind.word: kind for kind in (FractionalMaxwell, FractionalKelvinVoigt)
 }
 
 

@@ -7,6 +7,8 @@ import numpy as np
 
 from viscotack.lab.fit_report import FitReport
 from viscotack.lab.observed import Observed
+from viscotack.materials.passport import Passport
+from viscotack.materials.shift import WLF, FittedShift, TabulatedShift
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,19 +26,28 @@ _COLOURS = ("#0072B2", "#D55E00")  # the first two of the style
 _BEYOND = 1.0  # decades drawn beyond the measured range, as dashes: there nothing was measured
 
 
-def draw_fit(report: FitReport) -> "Figure":
+def draw_fit(report: FitReport, passport: Passport | None = None) -> "Figure":
     """Return measured numbers and fitted law above, and the residuals below.
 
     Points are measured, lines fitted, shades the band of the report; dashes are where the law
-    goes on without a measurement. :func:`viscotack.save_figure` writes the figure.
+    goes on without a measurement. With a passport that has a table of shifts they are drawn below
+    that, with their standard deviations and the law nearest to them.
+    :func:`viscotack.save_figure` writes the figure.
     """
     import matplotlib.style
     from matplotlib.figure import Figure
 
     data = report.observed
     with matplotlib.style.context(_STYLE):
-        figure = Figure(figsize=(8.4, 7.6))
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
+        shift = None if passport is None else passport.shift
+        if isinstance(shift, TabulatedShift) and passport is not None:
+            figure = Figure(figsize=(8.4, 10.4))
+            above, below, last = figure.subplots(3, 1, height_ratios=(2.6, 1.0, 1.5))
+            below.sharex(above)
+            _shifts(last, shift, passport.fitted_shift)
+        else:
+            figure = Figure(figsize=(8.4, 7.6))
+            above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
         _law(above, report)
         _points(above, data)
         above.set_yscale("log")
@@ -99,6 +110,24 @@ def _residuals(axes: "Axes", report: FitReport) -> None:
     reach = 1.15 * float(np.max(np.abs(percent)))
     axes.set_ylim(-reach, reach)
     axes.set_ylabel("measured/\nfitted − 1 [%]")
+
+
+def _shifts(axes: "Axes", shift: TabulatedShift, fitted: FittedShift | None) -> None:
+    rows = np.array(shift.temperature)
+    doubt = np.array(shift.uncertainty) if shift.uncertainty else None
+    axes.errorbar(
+        rows - 273.15, shift.log10_shift(rows), doubt, fmt="o", mfc="white", mec=_COLOURS[0],
+        ecolor=_COLOURS[0], capsize=3, label="from the sweeps, one standard deviation",
+    )  # fmt: skip
+    if fitted is not None:
+        inside = np.linspace(rows[0], rows[-1], 200)
+        values = np.asarray(fitted.law.log10_shift(inside))
+        zero = float(fitted.law.log10_shift(shift.reference_temperature))
+        name = "WLF" if isinstance(fitted.law, WLF) else "Arrhenius"
+        axes.plot(inside - 273.15, values - zero, color=_COLOURS[1], label=name)
+    axes.set_xlabel("temperature [°C]")
+    axes.set_ylabel("$\\log_{10} a_T$")
+    axes.legend(loc="best")
 
 
 def _size(data: Observed) -> float:

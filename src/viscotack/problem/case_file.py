@@ -13,7 +13,10 @@ from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
 from viscotack.materials import Material, Prony
+from viscotack.materials.checks import rests
+from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
+from viscotack.materials.words import FITS_ONLY
 from viscotack.problem import plane, revolution
 from viscotack.problem.law_table import law_from_table
 from viscotack.problem.nouns import Nouns, known
@@ -26,7 +29,12 @@ from viscotack.units import parse
 _COMMON = ("material", "interface", "protocol")
 
 
-def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Problem:
+def read_case(
+    path: str | os.PathLike[str],
+    *,
+    also: Iterable[Any] = (),
+    temperature: float | None = None,
+) -> Problem:
     """Return the problem that a TOML file states in SI.
 
     Parameters
@@ -37,6 +45,9 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
         ``radius = "5.19 mm"``.
     also : iterable of classes
         Laws, materials and shapes of the user's own that the file may name by their words.
+    temperature : float, optional
+        Of the material [K], instead of that in the file; only of a passport, and within the range
+        in which it was measured.
 
     Raises
     ------
@@ -64,7 +75,7 @@ def read_case(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Prob
             f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
             "under it is not known: leave the table out"
         )
-    material = _material(found["material"], nouns)
+    material = _material(found["material"], nouns, temperature)
     law = law_from_table(found["interface"], nouns.laws)
     kind = plane if plain else revolution
     parts = {
@@ -119,21 +130,47 @@ def _layer(table: Table, material: Material) -> Layer:
     return table.make(Layer, **table.numbers(Layer), base=base)
 
 
-def _material(table: Table, nouns: Nouns) -> Material:
+def shift_deviation(path: str | os.PathLike[str], *, temperature: float | None = None) -> float:
+    """Return how well the times of a case's material are known, as far as its shift says.
+
+    Parameters are those of :func:`read_case`, which has checked the file.
+
+    Returns
+    -------
+    float
+        Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
+    """
+    path = Path(path)
+    table = Table(path, "material", read_toml(path))
+    if "passport" not in table.values:
+        return 0.0
+    passport, stated = _passport(table, temperature)
+    return 0.0 if stated is None else passport.shift_deviation(stated)
+
+
+def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material:
     if "passport" in table.values:
-        return _from_passport(table)
+        passport, stated = _passport(table, temperature)
+        return passport.material if stated is None else table.make(passport.at_temperature, stated)
+    if temperature is not None:
+        raise InputError(
+            f"{table.path}: a temperature of {temperature:g} K is for a material from a passport, "
+            'which says how times shift; [material] passport = "pdms.toml"'
+        )
+    rests(FITS_ONLY.get(str(table.values.get("model"))))
     kind = nouns.materials[table.word("model", nouns.materials, OWN)]
     if kind is Prony and "file" in table.values:
         return _prony(table)
     return table.make(kind, **table.numbers(kind))
 
 
-def _from_passport(table: Table) -> Material:
-    """Return the material of a passport beside the file, at the temperature asked for."""
+def _passport(table: Table, temperature: float | None) -> tuple[Passport, float | None]:
+    """Return the passport beside the file, and the temperature [K] that is asked for."""
     passport = read_passport(table.path.parent / str(table.get("passport", '"pdms.toml"')))
-    if "temperature" not in table.values:
-        return passport.material
-    return table.make(passport.at_temperature, table.quantity("temperature", "K", '"20 degC"'))
+    stated = None
+    if "temperature" in table.values:
+        stated = table.quantity("temperature", "K", '"20 degC"')
+    return passport, stated if temperature is None else temperature
 
 
 def _prony(table: Table) -> Prony:

@@ -34,6 +34,7 @@ from viscotack.geometry import (
     numbers,
 )
 from viscotack.materials import Material
+from viscotack.materials.checks import rests
 from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
 from viscotack.problem import plane, revolution
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
@@ -515,6 +516,7 @@ Case = Problem | Groups | PunchGroups
 
 def _check_material(material: Any) -> None:
     """Refuse what is not a material."""
+    rests(material)
     if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
         raise InputError(
             f"material must be one of viscotack.materials, got {type(material).__name__}; "

@@ -40,6 +40,14 @@ PlanFile = Annotated[
 Folder = Annotated[
     Path, Argument(metavar="DIR", help="The folder of a campaign.", show_default=False)
 ]
+AtTemperature = Annotated[
+    str | None,
+    Option(
+        "--temperature",
+        metavar="T",
+        help='Of the material of the base problem, from a passport, "0 degC".',
+    ),
+]
 # Exit status of a run that has nothing left to do, and cases without a result.
 _SOME_FAILED = 4
 # Seconds between two lines of progress where nobody watches a bar.
@@ -58,6 +66,7 @@ def plan_command(
         Path | None,
         Option("--csv", metavar="FILE", help="Write the cases as a table; - is standard output."),
     ] = None,
+    temperature: AtTemperature = None,
     own: With = None,
     as_json: AsJson = False,
 ) -> None:
@@ -70,7 +79,7 @@ def plan_command(
         from viscotack.campaign.store import table_of_cases
 
         check_files({"--csv": csv_file}, as_json=as_json, reads=(plan_file,))
-        plan = read_plan(plan_file, own=_paths(own))
+        plan = read_plan(plan_file, own=_paths(own), temperature=temperature)
         write = Writing()
         if csv_file is not None:
             table = table_of_cases(plan.cases).drop_columns("name")
@@ -183,6 +192,7 @@ def run_command(
             help='Most memory of a case beside its worker, "400 MB", in place of the plan\'s.',
         ),
     ] = None,
+    temperature: AtTemperature = None,
     retry: Annotated[
         bool, Option("--retry", help="Run the cases that failed for a lasting reason once more.")
     ] = False,
@@ -203,6 +213,7 @@ def run_command(
         "time_limit": time_limit,
         "memory_limit": memory_limit,
         "own": _paths(own),
+        "temperature": temperature,
     }
     with _words_for_what_is_missing():
         from viscotack.campaign import AllCrashed, NoWorker, read_plan, run, shard_of

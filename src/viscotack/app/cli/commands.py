@@ -20,7 +20,17 @@ from typer import Argument, Context, Option
 
 from viscotack import __version__
 from viscotack.app.cli.asking import answers, asking
-from viscotack.app.questions import PROFILE, PUNCH, SPHERE, Door, given_of, question_of, stated
+from viscotack.app.questions import (
+    PROFILE,
+    PUNCH,
+    SPHERE,
+    Door,
+    given_of,
+    question_of,
+    shift_deviation_of,
+    stated,
+    temperature_of,
+)
 from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
@@ -29,7 +39,7 @@ from viscotack.pictures import plot
 from viscotack.problem import Case, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.problem.accuracy import Accuracy as AccuracyCard
-from viscotack.problem.case_file import read_case
+from viscotack.problem.case_file import read_case, shift_deviation
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.result import Outcome, Result, load, save, write_csv
 from viscotack.result.cycles import write_cycles
@@ -179,6 +189,7 @@ def _simulate(
         check_files(named, as_json=as_json, reads=(case,))
         seconds = _seconds(time_limit)
         problem = stated_problem(case, context, door, own)
+        say_deviation(case, context)
         from viscotack.bem import solve
 
         with _progress() as progress:
@@ -266,10 +277,10 @@ def stated_problem(
         if door is None:
             raise InputError("CASE.toml missing: the file that states the problem")
         return stated(door, given, also)
-    flags = [f"--{name}" for name in given_of(given)]
+    flags = [f"--{name}" for name in given_of(given) if name != "temperature"]
     if flags:
         raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
-    problem = read_case(case, also=also)
+    problem = read_case(case, also=also, temperature=temperature_of(given))
     if door is None or door.word == _door_of(problem):
         return problem
     found = _door_of(problem)
@@ -277,6 +288,24 @@ def stated_problem(
         f"{case} states a {found}, which has commands of its own: viscotack simulate "
         f"{found if found in _DOORS else 'case'} {case}"
     )
+
+
+def deviation_of_shift(case: Path | None, context: Context) -> float:
+    """Return how well the times of the material are known: standard deviation of log10 a_T."""
+    given = answers(context)
+    if case is None:
+        return shift_deviation_of(given)
+    return shift_deviation(case, temperature=temperature_of(given))
+
+
+def say_deviation(case: Path | None, context: Context) -> None:
+    """Say how well the times of the material are known, where an answer does not hold it."""
+    if (deviation := deviation_of_shift(case, context)) > 0:
+        typer.echo(
+            f"times of the material are known to {deviation:.2g} decades, from its shift with "
+            "temperature, which this answer does not hold; viscotack predict does",
+            err=True,
+        )
 
 
 def _seconds(time_limit: str | None) -> float | None:

@@ -18,12 +18,12 @@ from viscotack.materials.exchange import Units, exported, imported
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport import Origin, Passport
 from viscotack.materials.passport_file import read_passport, write_passport
-from viscotack.materials.passport_words import in_words
-from viscotack.materials.shift import WLF
+from viscotack.materials.passport_words import in_words, shift_lines
 from viscotack.materials.words import word_of
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
+from .superposing import Shifting, stepped, swept
 from .writing import Writing, check_files
 
 material = typer.Typer(
@@ -42,6 +42,15 @@ class Test(StrEnum):
     CREEP = "creep"
 
 
+class ShiftBy(StrEnum):
+    """What must superpose."""
+
+    BOTH = "both"
+    STORAGE = "storage"
+    LOSS = "loss"
+    TAN = "tan"
+
+
 class Model(StrEnum):
     """What to fit."""
 
@@ -49,6 +58,9 @@ class Model(StrEnum):
     POWER_LAW = "power-law"
     RELAXATION_POWER_LAW = "relaxation-power-law"
     SLS = "sls"
+    FRACTIONAL_ZENER = "fractional-zener"
+    FRACTIONAL_MAXWELL = "fractional-maxwell"
+    FRACTIONAL_KELVIN_VOIGT = "fractional-kelvin-voigt"
     PRONY = "prony"
 
 
@@ -60,6 +72,9 @@ class Code(StrEnum):
     COMSOL = "comsol"
     RADIOSS = "radioss"
     TAMAAS = "tamaas"
+    RHEOJAX = "rheojax"
+    PYVISCO = "pyvisco"
+    REPTATE = "reptate"
 
 
 _HELP_PASSPORT = (
@@ -133,6 +148,30 @@ def fit_command(
     shift_file: Annotated[
         Path | None, Option("--shift-file", metavar="FILE", help="Shift by this table of log_aT.")
     ] = None,
+    shift_by: Annotated[
+        ShiftBy | None,
+        Option(
+            "--shift-by",
+            help="What must superpose, where shifts are found from overlap; left out with "
+            "--vertical: the most that the data carry.",
+        ),
+    ] = None,
+    vertical: Annotated[
+        str | None,
+        Option(
+            metavar="WORD|EXPANSION",
+            help="How far moduli move with temperature: auto, as far as the data fix it; none; "
+            'free; or by density and temperature, with a volume expansion of "6e-4 1/K".',
+        ),
+    ] = None,
+    leave_out: Annotated[
+        list[str] | None,
+        Option(
+            "--leave-out",
+            metavar="T",
+            help='Leave out the sweep at this temperature, "-30 degC". Give it once for each.',
+        ),
+    ] = None,
     format: Annotated[
         str | None,
         Option("--format", metavar="NAME", help="Of the file, where it is not found out."),
@@ -204,7 +243,7 @@ def fit_command(
     with wrong_input():
         written = {"--plot": plot_file, "--output": output}
         check_files(written, as_json=as_json, reads=(*files, shift_file))
-        from viscotack.lab import FrequencySweeps, RelaxationTest, fit
+        from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
         from viscotack.lab.fit_passport import issued
         from viscotack.pictures.lab import draw_fit
 
@@ -216,19 +255,29 @@ def fit_command(
             "modulus_unit": modulus_unit,
             "time_unit": time_unit,
             "temperature_unit": temperature_unit,
+            "temperature_in_name": temperature_in_name,
             "decimal": decimal,
         }
-        shifting = {"glass-transition": glass_transition, "wlf": wlf, "shift-file": shift_file}
-        of_sweeps = {"frequency-unit": frequency_unit, "reference-temperature": reference}
+        shifting = Shifting(
+            reference=_kelvin(reference),
+            glass_transition=glass_transition,
+            wlf=wlf,
+            shift_file=shift_file,
+            by=None if shift_by is None else str(shift_by),
+            vertical=vertical,
+            leave_out=tuple(leave_out or ()),
+        )
+        of_sweeps = {"frequency-unit": frequency_unit, "shift-by": shift_by}
         if test in (Test.RELAXATION, Test.CREEP):
-            _refuse(f"for --test {test}", of_sweeps | shifting)
-        data = _measured(files, test, given, temperature_in_name)
-        shift = None
-        if isinstance(data, FrequencySweeps):
-            data, shift = _master_curve(data, _kelvin(reference), shifting)
+            _refuse(f"for --test {test}", of_sweeps)
+        measured = _measured(files, test, given)
+        if isinstance(measured, FrequencySweeps):
+            data, shift, cautions = swept(measured, shifting)
         else:
-            found = Test.RELAXATION if isinstance(data, RelaxationTest) else Test.CREEP
-            _refuse(f"for a {found} test, which the file holds", of_sweeps | shifting)
+            first = measured[0] if isinstance(measured, tuple) else measured
+            found = Test.RELAXATION if isinstance(first, RelaxationTest) else Test.CREEP
+            _refuse(f"for a {found} test, which the file holds", of_sweeps)
+            data, shift, cautions = stepped(measured, shifting)
         known = {"glassy_modulus": glassy_modulus, "rubbery_modulus": rubbery_modulus}
         report = fit(
             data,
@@ -239,23 +288,30 @@ def fit_command(
             loss=loss,
             level=level,
         )
-        passport = issued(
-            report,
-            name=name or files[0].stem,
-            shift=shift,
-            reference=reference_words,
-            made_by=f"viscotack {__version__}",
-        )
-        passport = _by_file_name(passport, files)
+        report = allow_for_shifts(report, data, shift)
+        report = replace(report, cautions=(*cautions, *report.cautions))
+        passport = None
+        if output is not None or not hasattr(report.material, "no_contact"):
+            passport = issued(
+                report,
+                name=name or files[0].stem,
+                shift=shift,
+                reference=reference_words,
+                made_by=f"viscotack {__version__}",
+            )
+            passport = _by_file_name(passport, files)
     write = Writing()
-    write("wrote", output, lambda target: write_passport(passport, target))
-    write.picture(plot_file, lambda: draw_fit(report))
+    if passport is not None:
+        write("wrote", output, lambda target: write_passport(passport, target))
+    write.picture(plot_file, lambda: draw_fit(report, passport))
     if as_json:
         more = {"criterion": dict(report.compared), "median_error": report.median_error}
-        write.answer(_json(passport, **more))
+        write.answer(_law_json(report, **more) if passport is None else _json(passport, **more))
     else:
-        typer.echo("\n".join(f"  Read: {note}" for note in passport.origin.notes), err=True)
-        write.answer(report.words())
+        notes = report.observed.source.notes
+        typer.echo("\n".join(f"  Read: {note}" for note in notes), err=True)
+        shifted = [] if passport is None else shift_lines(passport)
+        write.answer("\n".join([report.words(), *shifted]))
     write.end()
 
 
@@ -365,13 +421,21 @@ def export_command(
     ] = 3e-4,
     pressure_unit: Pressure = None,
     time_unit: Time = None,
+    bulk_modulus: Annotated[
+        str | None,
+        Option(
+            "--bulk-modulus",
+            metavar="PRESSURE",
+            help='Of an incompressible solid, for a program that forbids that, "2 GPa".',
+        ),
+    ] = None,
 ) -> None:
     """Write a material as input of another program, in its convention and in stated units.
 
     Without units: Pa and s. Without -o it goes to standard output.
 
     Example: viscotack material export pdms-10-1 --to abaqus --pressure-unit MPa
-    --frequencies "1 mHz,1 GHz" -o pdms.inp
+    --frequencies "1 mHz,1 GHz" --bulk-modulus "2 GPa" -o pdms.inp
     """
     with wrong_input():
         check_files({"--output": output}, reads=(Path(passport_file),))
@@ -384,6 +448,8 @@ def export_command(
             str(code),
             units=Units(pressure_unit or "Pa", time_unit or "s"),
             notes=_notes(passport, form),
+            bulk_modulus=None if bulk_modulus is None else parse(bulk_modulus, "Pa"),
+            shift=_seen_from(passport),
         )
     write = Writing()
     write("wrote", output or Path("-"), lambda target: write_whole(target, text.encode()))
@@ -402,56 +468,16 @@ def _passport(name: str) -> Passport:
     return read_passport(name)
 
 
-def _measured(
-    files: list[Path], test: Test | None, given: dict[str, Any], temperature_in_name: bool
-) -> Any:
-    """Return what the files hold: sweeps of one material, or one test over time."""
-    from viscotack.lab import read, read_creep, read_dma, read_relaxation
+def _measured(files: list[Path], test: Test | None, given: dict[str, Any]) -> Any:
+    """Return what the files hold: sweeps of one material, or tests over time."""
+    from viscotack.lab import read, read_creeps, read_dma, read_relaxations
 
-    if test is Test.DMA or len(files) > 1 or temperature_in_name:
-        if test in (Test.RELAXATION, Test.CREEP):
-            raise InputError(f"--test {test} reads one file that says its temperature")
-        return read_dma(files, **given, temperature_in_name=temperature_in_name)
-    (file,) = files
     if test is None:
-        return read(file, **given)
+        return read(files, **given)
+    if test is Test.DMA:
+        return read_dma(files, **given)
     given = {key: value for key, value in given.items() if key != "frequency_unit"}
-    return (read_relaxation if test is Test.RELAXATION else read_creep)(file, **given)
-
-
-def _master_curve(
-    sweeps: Any, reference: float | None, shifting: dict[str, Any]
-) -> tuple[Any, Any]:
-    """Return the master curve of a DMA, and how times shift."""
-    from viscotack.lab import master_curve, read_shifts
-
-    file = sweeps.source.path
-    named = [name for name, value in shifting.items() if value is not None]
-    if len(named) > 1:
-        raise InputError(f"give one shift, got {' and '.join(f'--{n}' for n in named)}")
-    if named and reference is None:
-        raise InputError(f"--{named[0]} needs --reference-temperature")
-    shift: Any = None
-    if shifting["glass-transition"] is not None:
-        shift = WLF.from_glass_transition(parse(shifting["glass-transition"], "K"))
-    elif shifting["wlf"] is not None and reference is not None:
-        c1, c2 = _two(shifting["wlf"], "--wlf")
-        shift = WLF(reference, parse(c1, "1"), parse(c2, "K"))
-    elif shifting["shift-file"] is not None:
-        shift = read_shifts(shifting["shift-file"])
-    known = sweeps.temperature[np.isfinite(sweeps.temperature)]
-    if reference is None and known.size and np.ptp(known) > 3:
-        raise InputError(
-            f"{file} has sweeps from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} C; "
-            'say at which temperature the material is wanted, --reference-temperature "20 degC"'
-        )
-    if not named and np.ptp(sweeps.angular_frequency) == 0 and known.size and np.ptp(known) > 3:
-        raise InputError(
-            f"{file} is a temperature ramp at one frequency: nothing overlaps that could tell the "
-            'shift; give --glass-transition "-115 degC", --wlf or --shift-file'
-        )
-    curve = master_curve(sweeps, reference_temperature=reference, shift=shift)
-    return curve, shift if isinstance(shift, WLF) else curve.shifts
+    return (read_relaxations if test is Test.RELAXATION else read_creeps)(files, **given)
 
 
 def _imported(
@@ -464,7 +490,7 @@ def _imported(
         constants["rubbery_modulus"] = parse(also["rubbery-modulus"], "Pa")
     if also["poisson-ratio"] is not None:
         constants["poisson_ratio"] = also["poisson-ratio"]
-    if constants and code not in (Code.COMSOL, Code.RADIOSS):
+    if constants and code in (Code.ABAQUS, Code.ANSYS, Code.TAMAAS):
         raise InputError(f"input of {code} holds modulus and Poisson ratio; leave them out")
     units = Units(pressure, time) if pressure and time else None
     try:
@@ -513,6 +539,13 @@ def _two(text: str, flag: str) -> list[str]:
     return words
 
 
+def _seen_from(passport: Passport) -> Any:
+    """Return the shift of a passport, zero at the temperature of its material."""
+    if passport.shift is None or passport.temperature is None:
+        return None
+    return passport.shift.at_reference(passport.temperature)
+
+
 def _notes(passport: Passport, form: PronyForm) -> tuple[str, ...]:
     low, high = (w / (2 * np.pi) for w in form.frequencies)
     at = "" if passport.temperature is None else f", at {passport.temperature - 273.15:.4g} C"
@@ -545,6 +578,21 @@ def _json(passport: Passport, **more: Any) -> str:
     solid = passport.material
     answer = asdict(passport) | {"material": {"model": word_of(solid)} | asdict(solid)}
     answer["modulus_ratio"] = solid.modulus_ratio
+    return json.dumps(_finite(answer | more), indent=2, allow_nan=False)
+
+
+def _law_json(report: Any, **more: Any) -> str:
+    """Return a fitted law that has no passport."""
+    solid = report.material
+    answer = {
+        "material": {"model": solid.word} | asdict(solid),
+        "evidence": {
+            "level": report.level,
+            "intervals": [(each.name, each.low, each.high) for each in report.intervals],
+            "undetermined": report.undetermined,
+            "cautions": report.cautions,
+        },
+    }
     return json.dumps(_finite(answer | more), indent=2, allow_nan=False)
 
 

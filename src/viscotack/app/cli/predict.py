@@ -23,6 +23,7 @@ from .commands import (
     CaseFile,
     With,
     application,
+    deviation_of_shift,
     stated_problem,
     wrong_input,
 )
@@ -117,7 +118,9 @@ def _predict(
         else:
             _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
             problem = _problem(what, case, context, own)
-            found = _predicted(problem, confidence, curve_file or plot_file)
+            case = Path(what) if what != "sphere" else case
+            deviation = deviation_of_shift(case, context)
+            found = _predicted(problem, confidence, deviation, curve_file or plot_file)
             result = _simulated(problem) if compare else None
             answer = prediction_summary(found)
             if result is not None:
@@ -153,9 +156,9 @@ def _problem(
 
 
 def _predicted(
-    problem: Problem | Groups, confidence: float, curve_wanted: Path | None
+    problem: Problem | Groups, confidence: float, deviation: float, curve_wanted: Path | None
 ) -> Prediction:
-    found = predict(problem, confidence=confidence)
+    found = predict(problem, confidence=confidence, shift_deviation=deviation)
     if found.curve is None and curve_wanted:
         raise InputError(
             f"{found.why}. A theory gives no curve; leave out --curve and --plot, or simulate"

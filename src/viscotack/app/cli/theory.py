@@ -24,6 +24,7 @@ from .commands import (
     PlotFile,
     With,
     application,
+    say_deviation,
     stated_problem,
     wrong_input,
 )
@@ -232,6 +233,7 @@ def _advise(
 
     with wrong_input():
         problem = stated_problem(case, context, SPHERE, own)
+        say_deviation(case, context)
         assert isinstance(problem, Problem | Groups)
         advice = advise(problem)
     if as_json:

@@ -7,25 +7,50 @@ instantaneous.
 
 from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
+    Card,
     Units,
     from_ratios,
     head,
     number,
     other_bulk,
+    shear_factor,
+    told_incompressible,
     units_of,
 )
+from viscotack.materials.shift import WLF, Arrhenius
 from viscotack.materials.solids import Prony
 
 
-def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
     """Return the material as input lines; the long-term modulus is stated and hence exact."""
-    glassy = material.glassy_modulus
+    material, glassy = card.material, card.material.glassy_modulus
+    E0, nu = card.elastic(material.rubbery_modulus)
     lines = head("**", units, notes)
     lines += ["*MATERIAL, NAME=VISCOTACK", "*ELASTIC, MODULI=LONG TERM"]
-    lines += [f"{material.rubbery_modulus / units.pascal!r}, {material.poisson_ratio!r}"]
+    lines += [f"{E0 / units.pascal!r}, {nu!r}"]
     lines += ["*VISCOELASTIC, TIME=PRONY"]
-    lines += [f"{E / glassy!r}, {E / glassy!r}, {t / units.second!r}" for E, t in material.branches]
-    return "\n".join(lines) + "\n"
+    for E, t in material.branches:
+        bulk = E / glassy if card.bulk_modulus is None else 0.0
+        lines.append(f"{E / glassy!r}, {bulk!r}, {t / units.second!r}")
+    return "\n".join([*lines, *_shifted(card)]) + "\n"
+
+
+def _shifted(card: Card) -> list[str]:
+    """Return the law of shift: log10 A = -c1 (T - T0)/(c2 + T - T0), or that of Arrhenius."""
+    match card.shift:
+        case None:
+            return []
+        case WLF(reference_temperature=T, c1=c1, c2=c2):
+            return ["** temperatures in kelvin", "*TRS, DEFINITION=WLF", f"{T!r}, {c1!r}, {c2!r}"]
+        case Arrhenius(reference_temperature=T, activation_energy=energy):
+            return [
+                "** temperatures in kelvin, energy in J/mol; the model needs *PHYSICAL CONSTANTS,",
+                "** ABSOLUTE ZERO=0., UNIVERSAL GAS CONSTANT=8.31446",
+                "*TRS, DEFINITION=ARRHENIUS",
+                f"{T!r}, {energy!r}",
+            ]
+        case _:
+            return ["** its shift is a table, which *TRS has not: fit a WLF or Arrhenius law"]
 
 
 def read(text: str, units: Units | None) -> Prony:
@@ -64,6 +89,8 @@ def read(text: str, units: Units | None) -> Prony:
     if elastic is None:
         raise InputError("there is no *ELASTIC with Young's modulus and Poisson ratio")
     modulus, nu = elastic
+    if told_incompressible(text):
+        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
     for line, g, k, _ in rows:
         if nu != 0.5 and abs(g - k) > 1e-6 * max(g, k):
             other_bulk(line, g, k)

@@ -4,30 +4,58 @@ G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)), with G_0 from EX and NUXY; S
 series apart. ``TBDATA`` takes a first place and up to six numbers: three pairs.
 """
 
+from scipy.constants import gas_constant
+
 from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
+    Card,
     Units,
     from_ratios,
     head,
     number,
     other_bulk,
+    shear_factor,
+    told_incompressible,
     units_of,
 )
+from viscotack.materials.shift import WLF, Arrhenius
 from viscotack.materials.solids import Prony
 
 
-def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
     """Return the material as APDL commands for material number 1."""
-    glassy = material.glassy_modulus
+    material, glassy = card.material, card.material.glassy_modulus
+    modulus, nu = card.elastic(glassy)
     lines = head("!", units, notes)
-    lines += [f"MP,EX,1,{glassy / units.pascal!r}", f"MP,NUXY,1,{material.poisson_ratio!r}"]
-    for part in ("SHEAR", "BULK"):
+    lines += [f"MP,EX,1,{modulus / units.pascal!r}", f"MP,NUXY,1,{nu!r}"]
+    for part in ("SHEAR", "BULK") if card.bulk_modulus is None else ("SHEAR",):
         lines.append(f"TB,PRONY,1,1,{len(material.branches)},{part}")
         for first in range(0, len(material.branches), 3):
             pairs = material.branches[first : first + 3]
             values = ",".join(f"{E / glassy!r},{t / units.second!r}" for E, t in pairs)
             lines.append(f"TBDATA,{2 * first + 1},{values}")
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_shifted(card)]) + "\n"
+
+
+def _shifted(card: Card) -> list[str]:
+    """Return the law of shift: log10 A = c1 (T - T0)/(c2 + T - T0), A = 1/a_T, or that of TN."""
+    match card.shift:
+        case None:
+            return []
+        case WLF(reference_temperature=T, c1=c1, c2=c2):
+            return [
+                "! temperatures in kelvin: TOFFST,0",
+                "TB,SHIFT,1,1,3,WLF",
+                f"TBDATA,1,{T!r},{c1!r},{c2!r}",
+            ]
+        case Arrhenius(reference_temperature=T, activation_energy=energy):
+            return [
+                "! temperatures in kelvin: TOFFST,0; ln A = H/R (1/T0 - 1/T)",
+                "TB,SHIFT,1,1,2,TN",
+                f"TBDATA,1,{T!r},{energy / gas_constant!r}",
+            ]
+        case _:
+            return ["! its shift is a table, which TB,SHIFT has not: fit a WLF or Arrhenius law"]
 
 
 def read(text: str, units: Units | None) -> Prony:
@@ -61,6 +89,8 @@ def read(text: str, units: Units | None) -> Prony:
     nu = constants.get("NUXY", constants.get("PRXY"))
     if "EX" not in constants or nu is None:
         raise InputError("MP,EX and MP,NUXY (instantaneous modulus, Poisson ratio) are missing")
+    if told_incompressible(text):
+        constants["EX"], nu = 3 * constants["EX"] * shear_factor(nu), 0.5
     if "SHEAR" not in tables:
         raise InputError("there is no TB,PRONY with SHEAR in the text")
     for part, table in tables.items():

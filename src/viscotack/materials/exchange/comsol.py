@@ -8,20 +8,30 @@ stand in comments here, as that file has no place for them.
 import re
 
 from viscotack.errors import InputError
-from viscotack.materials.exchange.units import Units, head, number, series, shear_factor, units_of
+from viscotack.materials.exchange.units import (
+    Card,
+    Units,
+    head,
+    number,
+    series,
+    shear_factor,
+    told_incompressible,
+    units_of,
+)
 from viscotack.materials.solids import Prony
 
 _MODULUS = re.compile(r"long-term Young's modulus\s+(\S+)")
 _POISSON = re.compile(r"Poisson ratio\s+(\S+)")
 
 
-def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
     """Return the table of branches, with the elastic constants in comments."""
+    material = card.material
+    E0, nu = card.elastic(material.rubbery_modulus)
     lines = head("%", units, notes)
     lines += [
-        f"% linear elastic material: long-term Young's modulus "
-        f"{material.rubbery_modulus / units.pascal!r}",
-        f"% linear elastic material: Poisson ratio {material.poisson_ratio!r}",
+        f"% linear elastic material: long-term Young's modulus {E0 / units.pascal!r}",
+        f"% linear elastic material: Poisson ratio {nu!r}",
         "% by default only the deviatoric part relaxes: let the volumetric part relax in the same "
         "ratios, unless the solid is nearly incompressible",
         "% branch, shear modulus, relaxation time",
@@ -53,6 +63,8 @@ def read(
             "a table of branches does not say the long-term Young's modulus and the Poisson "
             "ratio; give both"
         )
+    if told_incompressible(text) and poisson_ratio is None and rubbery_modulus is None:
+        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
     branches = []
     for line, raw in enumerate(text.splitlines(), 1):
         words = raw.split("%")[0].replace(",", " ").split()

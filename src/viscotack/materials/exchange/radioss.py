@@ -7,6 +7,7 @@ same number states the long-term moduli; they stand in a comment here.
 
 from viscotack.errors import InputError
 from viscotack.materials.exchange.units import (
+    Card,
     Units,
     bulk_factor,
     head,
@@ -14,6 +15,7 @@ from viscotack.materials.exchange.units import (
     other_bulk,
     series,
     shear_factor,
+    told_incompressible,
     units_of,
 )
 from viscotack.materials.solids import Prony
@@ -21,11 +23,13 @@ from viscotack.materials.solids import Prony
 _ELASTIC = "long-term Young's modulus and Poisson ratio of the material law:"
 
 
-def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
     """Return the block for material number 1; the units of /BEGIN must be those stated."""
+    material = card.material
     nu = material.poisson_ratio
+    E0, stated = card.elastic(material.rubbery_modulus)
     lines = head("#", units, notes)
-    lines += [f"# {_ELASTIC} {material.rubbery_modulus / units.pascal!r} {nu!r}"]
+    lines += [f"# {_ELASTIC} {E0 / units.pascal!r} {stated!r}"]
     lines += ["/VISC/PRONY/1", "#        M                           K_v      Itab    Ishape"]
     lines += [f"{len(material.branches):10d}{'':10}{0.0:20.12E}{0:10d}{0:10d}"]
     lines += [f"#{'G_i':>19}{'Beta_i':>20}{'K_i':>20}{'Beta_ki':>20}"]
@@ -67,6 +71,8 @@ def read(
             "/VISC/PRONY does not say the long-term Young's modulus and the Poisson ratio, its "
             "/MAT does; give both"
         )
+    if told_incompressible(text) and rubbery_modulus is None and poisson_ratio is None:
+        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
     if not rows:
         raise InputError("there is no /VISC/PRONY in the text")
     line, first = rows[0]

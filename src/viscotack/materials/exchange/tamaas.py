@@ -7,14 +7,15 @@ lengths of its model must go with the unit of pressure.
 import ast
 
 from viscotack.errors import InputError
-from viscotack.materials.exchange.units import Units, head, series, shear_factor, units_of
+from viscotack.materials.exchange.units import Card, Units, head, series, shear_factor, units_of
 from viscotack.materials.solids import Prony
 
 _NAMES = ("model.E", "model.nu", "shear_moduli", "characteristic_times")
 
 
-def written(material: Prony, units: Units, notes: tuple[str, ...]) -> str:
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
     """Return assignments to paste before ``MaxwellViscoelastic(model, ..., shear_moduli=...)``."""
+    material = card.material
     factor = shear_factor(material.poisson_ratio) / units.pascal
     values = (
         material.rubbery_modulus / units.pascal,

@@ -7,6 +7,7 @@ from typing import NoReturn
 
 from viscotack.errors import InputError
 from viscotack.materials.checks import positive
+from viscotack.materials.shift import Shift
 from viscotack.materials.solids import Prony
 from viscotack.units import parse
 
@@ -54,6 +55,59 @@ class Units:
 
 
 SI = Units("Pa", "s")
+_INCOMPRESSIBLE = "incompressible solid, written with a bulk modulus that does not relax"
+
+
+@dataclass(frozen=True)
+class Card:
+    """What a program is told of a material.
+
+    Attributes
+    ----------
+    material : Prony
+        The series.
+    bulk_modulus : float or None
+        Of an incompressible solid where the program forbids a Poisson ratio of 0.5 [Pa]; it does
+        not relax.
+    shift : WLF, Arrhenius, TabulatedShift or None
+        How times change with temperature.
+    """
+
+    material: Prony
+    bulk_modulus: float | None = None
+    shift: Shift | None = None
+
+    def elastic(self, tensile: float) -> tuple[float, float]:
+        """Return Young's modulus [Pa] and Poisson ratio to write for one of the material's."""
+        if self.bulk_modulus is None:
+            return tensile, self.material.poisson_ratio
+        K, G = self.bulk_modulus, tensile / 3
+        return 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (2 * (3 * K + G))
+
+    def notes(self) -> tuple[str, ...]:
+        """Return what must be said of the bulk modulus."""
+        if self.bulk_modulus is None:
+            return ()
+        E = self.material.glassy_modulus
+        less = 100 * (1 - self.elastic(E)[0] / E)
+        return (
+            f"{_INCOMPRESSIBLE}: {self.bulk_modulus!r} Pa",
+            f"Young's modulus at short times is {less:.2g} % below that without a change of volume",
+        )
+
+
+def told_incompressible(text: str) -> bool:
+    """Return whether a comment says that the bulk modulus stands for a Poisson ratio of 0.5."""
+    return _INCOMPRESSIBLE in text
+
+
+def refuse_units(program: str, units: Units) -> None:
+    """Refuse other units than SI for a program that has no other."""
+    if (units.pascal, units.second) != (1.0, 1.0):
+        raise InputError(
+            f"{program} counts in Pa and s, got {units.pressure} and {units.time}; leave the "
+            "units out"
+        )
 
 
 def units_of(text: str, units: Units | None) -> Units:

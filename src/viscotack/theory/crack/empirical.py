@@ -10,8 +10,10 @@ package); Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
 
 from __future__ import annotations
 
+import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 
 _OPENS = "a crack that closes is another problem"
@@ -111,8 +113,9 @@ def wlf_shift(temperature: npt.ArrayLike, *, glass_transition: npt.ArrayLike) ->
 
     .. math:: \log_{10} a_T = \frac{-17.44 (T - T_g)}{51.6 + T - T_g} \quad \text{(Eq. 4.25)}
 
-    Range: universal constants, from the glass transition to about 100 K above it. Refused below
-    it, where the law is not valid and has a pole. To shift to another temperature divide two.
+    Range: that of :class:`viscotack.materials.shift.WLF`, refused at the pole 51.6 K below the
+    glass transition and beyond. The constants are averages from the transition to about 100 K
+    above it; below it a glass need not follow them. To shift to another temperature divide two.
 
     Examples
     --------
@@ -120,5 +123,10 @@ def wlf_shift(temperature: npt.ArrayLike, *, glass_transition: npt.ArrayLike) ->
     '2.41e-13'
     """
     T, Tg = positive(temperature=temperature, glass_transition=glass_transition)
-    x = at_least(0, "the law does not hold below the glass transition", excess=T - Tg)
+    x = T - Tg
+    if np.any(x < -48.6):  # a_T leaves the range of numbers 2.8 K above the pole
+        raise InputError(
+            "the WLF shift has its pole 51.6 K below the glass transition and no value there or "
+            f"below, got {np.min(x):.4g} K from it"
+        )
     return plain(10 ** (-17.44 * x / (51.6 + x)))

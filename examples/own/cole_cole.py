@@ -1,6 +1,8 @@
-"""A fractional Zener solid, as a user would add one: one file, no edit of viscotack.
+"""The solid of Cole and Cole, as a user would add one: one file, no edit of viscotack.
 
-viscotack simulate sphere --material fractional-zener:0.6 --with examples/own/fractional_zener.py
+It is the solid that viscotack.materials has as FractionalZener, written anew.
+
+viscotack simulate sphere --material cole-cole:0.6 --with examples/own/cole_cole.py
 --modulus-ratio 0.1 --tabor 3 --preload 20 --rate 30
 """
 
@@ -25,7 +27,7 @@ Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class FractionalZener:
+class ColeCole:
     r"""A spring in series with a spring and a springpot side by side.
 
     .. math:: C^*(\omega) = C_\infty + \frac{C_0 - C_\infty}{1 + (i \omega \tau_0)^a}, \quad
@@ -49,7 +51,7 @@ class FractionalZener:
     Cole & Cole (1941), doi:10.1063/1.1750906, for the spectrum.
     """
 
-    word: ClassVar[str] = "fractional-zener"
+    word: ClassVar[str] = "cole-cole"
 
     rubbery_modulus: RubberyModulus
     glassy_modulus: GlassyModulus
@@ -117,7 +119,7 @@ class FractionalZener:
             error=tolerance,
         )
 
-    def reduced(self) -> "FractionalZener":
+    def reduced(self) -> "ColeCole":
         """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
         return replace(
             self,

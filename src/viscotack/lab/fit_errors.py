@@ -1,0 +1,292 @@
+r"""How the errors of measured numbers hang together, and how far a fitted quantity may lie off.
+
+Least squares takes every residual for an error of its own, and of one size. Laboratories have
+others: a clamp that slipped moves both moduli of one sweep together, a transducer that drifts bends
+a creep curve over a decade, noise grows towards one end. The fitted constants hardly suffer, their
+intervals do: a hundred points of five sweeps know the level of the curve as five numbers do.
+
+The errors e (the logarithms' residuals over their noise) are taken to have the covariance
+
+.. math::
+
+    V_\theta = s^2 \left( D_g + a^2 Z Z^T + b^2 K_\ell \right) ,
+
+D_g being diagonal with exp(g u) along the axis (u from -1 to 1; its mean is 1), Z telling which
+points belong to one sweep, and K_l a drift, \|K_ij\| = exp(-\|ln x_i - ln x_j\|/l) within one part.
+What remains after a fit with slopes J has the restricted likelihood (Patterson & Thompson,
+Biometrika 58 (1971) 545, doi:10.1093/biomet/58.3.545)
+
+.. math::
+
+    -2 \ln L(\theta) = \ln |V_\theta| + \ln |J^T V_\theta^{-1} J| + (M - p) \ln r^T P_\theta r .
+
+No theta is chosen: a table of them is weighed by likelihood times prior, and a quantity that the
+fit takes as the sum w_i e_i of the errors lies off by a mixture of Student distributions, of
+variances w^T V w. So little data, which cannot tell a drift from a slope, has wider intervals than
+much; and where each error is its own the mixture falls back to Student's t, a little wider.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+from scipy.linalg import cho_factor, cho_solve
+from scipy.optimize import brentq
+from scipy.stats import t as student
+
+from .observed import Observed
+
+Array = npt.NDArray[np.float64]
+
+_TRENDS = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)  # of the logarithm of the variance
+_SHARED = (0.5, 1.0, 2.0, 4.0, 8.0)  # common error beside each number's own
+_LENGTHS = (0.7, 2.3, 7.0)  # of a drift: a third of a decade, one, three
+_TREND_PRIOR = 1.0  # standard deviation of a trend, before the data
+# Prior probability that each error is its own: instruments drift over time, less so over frequency.
+_OWN, _OWN_IN_TIME = 0.8, 0.4
+_ROWS = 160  # beyond, neighbours are averaged before their covariance is sought
+
+
+@dataclass(frozen=True)
+class _Form:
+    """One covariance of the errors: its trend, what sweeps share, and a drift with its length."""
+
+    trend: float
+    sweep: float = 0.0
+    drift: float = 0.0
+    length: float = 1.0
+
+    @property
+    def shared(self) -> bool:
+        """Whether errors have something in common."""
+        return self.sweep > 0 or self.drift > 0
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Where numbers stand: part, place on the axis and sweep of each, in the order of residuals."""
+
+    part: npt.NDArray[np.int64]
+    log: Array
+    sweep: npt.NDArray[np.int64] | None
+
+    @classmethod
+    def of(cls, data: Observed) -> "Rows":
+        """Return the rows of measured numbers."""
+        parts, points = data.values.shape
+        sweep = None
+        if data.sweep is not None and 1 < np.unique(data.sweep).size < points:
+            sweep = np.tile(data.sweep, parts)
+        return cls(np.repeat(np.arange(parts), points), np.tile(np.log(data.at), parts), sweep)
+
+    def covariance(self, form: _Form) -> Array:
+        """Return the covariance matrix of a form, of mean diagonal 1 without what is shared."""
+        span = max(float(np.ptp(self.log)), 1e-12)
+        u = 2 * (self.log - np.min(self.log)) / span - 1
+        own = np.exp(form.trend * u)
+        V = np.diag(own / np.mean(own))
+        if form.sweep and self.sweep is not None:
+            V += form.sweep**2 * (self.sweep[:, None] == self.sweep)
+        if form.drift:
+            near = np.exp(-np.abs(self.log[:, None] - self.log) / form.length)
+            V += form.drift**2 * near * (self.part[:, None] == self.part)
+        return V
+
+
+@dataclass(frozen=True, eq=False)
+class Errors:
+    """What the residuals say of the errors.
+
+    Attributes
+    ----------
+    rows : Rows
+        Where the numbers stand.
+    forms : tuple of _Form
+        Covariances that the residuals allow.
+    weights : ndarray, shape (F,)
+        How probable each is, of sum 1.
+    scales : ndarray, shape (F,)
+        Factor s of each.
+    degrees : int
+        Numbers less constants.
+    """
+
+    rows: Rows
+    forms: tuple[_Form, ...]
+    weights: Array
+    scales: Array
+    degrees: int
+
+    def half_width(self, influences: Array, level: float) -> Array:
+        """Return how far quantities may lie off at a confidence level.
+
+        Parameters
+        ----------
+        influences : ndarray, shape (Q, M)
+            What an error of each number adds to each quantity.
+        level : float
+            Of the interval from -half to half, in (0, 1).
+        """
+        deviations = np.sqrt([np.diag(V) for V in self._covariances(influences)]).T
+        return np.array([self._quantile(each, level) for each in deviations])
+
+    def covariance(self, influences: Array) -> Array:
+        """Return the covariance of quantities, shape (Q, Q)."""
+        return np.einsum("f,fij->ij", self.weights, np.array(self._covariances(influences)))
+
+    def drawn(self, count: int, random: np.random.Generator, *, sure: bool = True) -> Array:
+        """Return errors drawn at random, shape (count, M); not sure: their size is drawn too."""
+        which = random.choice(len(self.forms), size=count, p=self.weights)
+        found = np.empty((count, self.rows.log.size))
+        for i in np.unique(which):
+            mine = which == i
+            root = np.linalg.cholesky(self.rows.covariance(self.forms[i]))
+            own = random.normal(size=(int(np.sum(mine)), root.shape[0]))
+            found[mine] = self.scales[i] * own @ root.T
+        if sure:
+            return found
+        # Student's t is the normal distribution of a deviation that few residuals tell
+        return found * np.sqrt(self.degrees / random.chisquare(self.degrees, size=(count, 1)))
+
+    @property
+    def shared(self) -> float:
+        """How probable it is that errors have something in common."""
+        return float(np.sum(self.weights[[form.shared for form in self.forms]]))
+
+    def words(self) -> str:
+        """Return what errors have in common, in words; empty where each is its own."""
+        if self.shared < 0.5:
+            return ""
+        shared = np.array([form.shared for form in self.forms])
+        likely = self.forms[int(np.argmax(np.where(shared, self.weights, 0)))]
+        size = self.scales[self.forms.index(likely)]
+        if likely.sweep:
+            return (
+                f"the points of one sweep err together, by about {100 * size * likely.sweep:.2g} %"
+            )
+        decades = likely.length / np.log(10)
+        return (
+            f"neighbouring points err alike over about {decades:.1g} decades, by "
+            f"{100 * size * likely.drift:.2g} %: the model, or a sweep, is off in places, or the "
+            "instrument drifts"
+        )
+
+    def _covariances(self, influences: Array) -> list[Array]:
+        """Return the covariance of quantities under each form."""
+        return [
+            s**2 * influences @ self.rows.covariance(form) @ influences.T
+            for form, s in zip(self.forms, self.scales, strict=True)
+        ]
+
+    def _quantile(self, deviations: Array, level: float) -> float:
+        largest = float(np.max(deviations))
+        if largest <= 0:
+            return 0.0
+        deviations = np.maximum(deviations, 1e-12 * largest)
+
+        def excess(q: float) -> float:
+            inside = 2 * student.cdf(q / deviations, self.degrees) - 1
+            return float(np.sum(self.weights * inside)) - level
+
+        far = largest * float(student.ppf((1 + level) / 2, self.degrees)) * (1 + 1e-9)
+        found: object = brentq(excess, 0.0, far, xtol=1e-6 * far)
+        return float(found)  # pyright: ignore[reportArgumentType]
+
+
+def errors(data: Observed, residuals: Array, slopes: Array) -> Errors:
+    """Return what residuals after a fit say of the errors.
+
+    Parameters
+    ----------
+    data : Observed
+        What was fitted.
+    residuals : ndarray, shape (P, N)
+        ln(measured/fitted) over the noise of each part.
+    slopes : ndarray, shape (P N, p)
+        Change of the fitted logarithms over their noise with each constant.
+    """
+    rows = Rows.of(data)
+    r = residuals.ravel()
+    small = _averaged(rows, r, slopes)
+    forms = _forms(rows)
+    likelihood, scales = np.array([_likelihood(*small, form) for form in forms]).T
+    own = _OWN if data.in_frequency else _OWN_IN_TIME
+    prior = np.array([_prior(form, forms, own) for form in forms])
+    posterior = np.log(prior) + likelihood
+    weights = np.exp(posterior - np.max(posterior))
+    weights /= np.sum(weights)
+    # what adds nothing is left out
+    keep = weights > 1e-2 * np.max(weights)
+    kept = tuple(form for form, yes in zip(forms, keep, strict=True) if yes)
+    degrees = max(min(r.size, small[1].size) - slopes.shape[1], 1)
+    return Errors(rows, kept, weights[keep] / np.sum(weights[keep]), scales[keep], degrees)
+
+
+def _forms(rows: Rows) -> list[_Form]:
+    shared = [_Form(0.0)]
+    if rows.sweep is not None:
+        shared += [_Form(0.0, sweep=a) for a in _SHARED]
+    shared += [_Form(0.0, drift=b, length=length) for b in _SHARED for length in _LENGTHS]
+    return [replace(form, trend=g) for form in shared for g in _TRENDS]
+
+
+def _prior(form: _Form, forms: list[_Form], own: float) -> float:
+    trend = float(np.exp(-((form.trend / _TREND_PRIOR) ** 2) / 2))
+    if not form.shared:
+        return own * trend
+    swept = any(other.sweep for other in forms)
+    if form.sweep:
+        return (1 - own) / 2 / len(_SHARED) * trend
+    return (1 - own) / (2 if swept else 1) / (len(_SHARED) * len(_LENGTHS)) * trend
+
+
+def _averaged(rows: Rows, r: Array, slopes: Array) -> tuple[Rows, Array, Array, Array]:
+    """Return rows, residuals and slopes of at most about _ROWS groups of neighbours, and counts."""
+    each = -(-r.size // _ROWS)
+    if each == 1:
+        return rows, r, slopes, np.ones(r.size)
+    sweep = rows.sweep if rows.sweep is not None else np.zeros(r.size, dtype=np.int64)
+    order = np.lexsort((rows.log, sweep, rows.part))
+    block = rows.part[order] * (np.max(sweep) + 1) + sweep[order]
+    fresh = np.concatenate(([True], np.diff(block) != 0))
+    first = np.maximum.accumulate(np.where(fresh, np.arange(r.size), 0))
+    place = np.arange(r.size) - first
+    group = np.cumsum(fresh | (place % each == 0)) - 1
+    count = np.bincount(group).astype(float)
+
+    def mean(values: Array) -> Array:
+        return np.bincount(group, weights=values[order]) / count
+
+    small = Rows(
+        np.round(mean(rows.part.astype(float))).astype(np.int64),
+        mean(rows.log),
+        None if rows.sweep is None else np.round(mean(sweep.astype(float))).astype(np.int64),
+    )
+    columns = np.column_stack([mean(column) for column in slopes.T])
+    return small, mean(r), columns, count
+
+
+def _likelihood(rows: Rows, r: Array, J: Array, count: Array, form: _Form) -> tuple[float, float]:
+    """Return the logarithm of the restricted likelihood, up to a constant, and the factor s."""
+    V = rows.covariance(form)
+    own = np.diag(rows.covariance(replace(form, sweep=0.0, drift=0.0)))
+    V[np.diag_indices_from(V)] += own * (1 / count - 1)  # a mean of n has the n-th part
+    rest, log_V, log_J = _projected(V, r, J)
+    degrees = max(r.size - J.shape[1], 1)
+    likelihood = -0.5 * (log_V + log_J + degrees * np.log(max(rest, 1e-300)))
+    return likelihood, float(np.sqrt(rest / degrees))
+
+
+def _projected(V: Array, r: Array, J: Array) -> tuple[float, float, float]:
+    """Return r^T P r, ln |V| and ln |J^T V^-1 J|."""
+    factor = cho_factor(V, lower=True)
+    solved = cho_solve(factor, np.column_stack((r, J)))
+    normal = J.T @ solved[:, 1:]
+    right = J.T @ solved[:, 0]
+    # neighbouring arms are nearly one: the pseudo-inverse leaves out what they cannot tell
+    value, vector = np.linalg.eigh((normal + normal.T) / 2)
+    kept = value > 1e-12 * max(float(value[-1]), 1e-300)
+    part = vector[:, kept].T @ right
+    rest = float(r @ solved[:, 0] - np.sum(part**2 / value[kept]))
+    log_V = 2 * float(np.sum(np.log(np.diag(factor[0]))))
+    return max(rest, 0.0), log_V, float(np.sum(np.log(value[kept])))

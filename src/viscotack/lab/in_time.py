@@ -1,0 +1,153 @@
+"""Time-temperature superposition of relaxation and creep tests: many tests as one, long.
+
+A test is a curve over time as a sweep is one over frequency: a time t at T lands at t/a_T, which
+is a frequency 1/t at omega a_T. One curve a temperature has no second modulus to tell a vertical
+shift from one in time; on a plateau of a melt that matters, and the stated uncertainty says so.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.materials.shift import Shift
+
+from .grouping import GAP
+from .joining import joined_source
+from .master_curves import moved_words, shift_words, shifted_by
+from .overlap import Curve
+from .shifting import FEWEST, THERMOMETER, shifts_between, thinned
+from .sweeps import CreepTest, RelaxationTest, ShiftTable
+
+Array = npt.NDArray[np.float64]
+Test = TypeVar("Test", RelaxationTest, CreepTest)
+
+
+def superposed(
+    tests: Sequence[Test],
+    *,
+    reference_temperature: float,
+    shift: Shift | ShiftTable | None = None,
+    vertical: str | float | None = None,
+    temperature_uncertainty: float = THERMOMETER,
+) -> tuple[Test, ShiftTable]:
+    """Return tests at several temperatures as one at one of them, and the shifts.
+
+    Parameters
+    ----------
+    tests : sequence of RelaxationTest, or of CreepTest
+        One or more, each with its temperature and four or more points; one kind of modulus.
+    reference_temperature : float
+        Temperature of the answer [K].
+    shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
+        As in :func:`viscotack.lab.master_curve`; without it shifts are found from overlap.
+    vertical, temperature_uncertainty
+        As in :func:`viscotack.lab.shift_factors`. With one curve a temperature "auto" rests on
+        what is usual where the curve is straight; a coefficient of expansion says more. Left out:
+        "auto", or "none" where the tests do not fix as much, which a note says.
+
+    Raises
+    ------
+    ValueError
+        If the tests are of two kinds, a temperature is not known, two tests are of one
+        temperature, or overlap does not fix the shifts.
+
+    Examples
+    --------
+    A solid with one relaxation time, ten times faster 10 K above:
+
+    >>> time = np.geomspace(0.1, 10, 20)
+    >>> cold = RelaxationTest(time, 1e6 * (1 + np.exp(-time)), "G", temperature=293.15)
+    >>> hot = RelaxationTest(time, 1e6 * (1 + np.exp(-10 * time)), "G", temperature=303.15)
+    >>> curve, shifts = superposed([hot, cold], reference_temperature=293.15)
+    >>> len(curve), [round(float(value), 2) for value in shifts.log10_shift]
+    (40, [0.0, -1.0])
+    """
+    ordered = _checked(tests)
+    temperature = np.array([test.temperature for test in ordered], dtype=float)
+    if shift is None:
+        shift, how = _found(
+            ordered, temperature, reference_temperature, vertical, temperature_uncertainty
+        )
+    else:
+        how = shift_words(shift)
+    slower, up, table = shifted_by(shift, temperature, temperature, reference_temperature)
+    first = ordered[0]
+    sources = list(dict.fromkeys(test.source for test in ordered))
+    one = first.source if len(sources) == 1 else joined_source(sources)
+    source = one.noted(f"{how}; {len(ordered)} tests, reference {reference_temperature:.2f} K")
+    time = np.concatenate([t.time / 10**s for t, s in zip(ordered, slower, strict=True)])
+    column = "modulus" if isinstance(first, RelaxationTest) else "compliance"
+    sign = 1 if column == "modulus" else -1
+    values = [getattr(test, column) * 10 ** (sign * v) for test, v in zip(ordered, up, strict=True)]
+    answer = replace(
+        first,
+        time=time,
+        temperature=float(reference_temperature),
+        source=source,
+        **{column: np.concatenate(values)},
+    )
+    return answer, table
+
+
+def _found(
+    tests: Sequence[RelaxationTest | CreepTest],
+    temperature: Array,
+    reference: float,
+    vertical: str | float | None,
+    uncertainty: float,
+) -> tuple[ShiftTable, str]:
+    """Return the shifts from overlap, and in words how they were found."""
+    curves, refused = [_curve(test) for test in tests], None
+    for way in ("auto", "none") if vertical is None else (vertical,):
+        try:
+            table = shifts_between(
+                temperature,
+                curves,
+                reference_temperature=reference,
+                by="both",
+                vertical=way,
+                temperature_uncertainty=uncertainty,
+            )
+        except InputError as error:
+            refused = refused or error
+            continue
+        return table, f"shifts from the overlap of the tests, {moved_words(way)}"
+    raise refused or InputError("no shift was found")
+
+
+def _checked(tests: Sequence[Test]) -> list[Test]:
+    """Return the tests from cold to hot."""
+    if not tests:
+        raise InputError("superposition needs one or more tests, got none")
+    kinds = {(type(test).__name__, test.kind) for test in tests}
+    if len(kinds) > 1:
+        words = " and ".join(sorted(f"{name} ({kind})" for name, kind in kinds))
+        raise InputError(f"tests of one kind superpose, got {words}")
+    unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
+    if unknown:
+        raise InputError(f"the temperature of {unknown[0]} is not known; say it, --temperature")
+    ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
+    temperature = np.array([test.temperature for test in ordered], dtype=float)
+    near = np.flatnonzero(np.diff(temperature) <= GAP)
+    if near.size:
+        raise InputError(
+            f"two tests are of one temperature, {temperature[near[0]]:.2f} K; superpose one of them"
+        )
+    return ordered
+
+
+def _curve(test: RelaxationTest | CreepTest) -> Curve:
+    """Return a test as a curve over minus log10 of time: its modulus, or inverse compliance."""
+    x = -np.log10(test.time[::-1])
+    if x.size < FEWEST or np.ptp(x) < 0.1:
+        raise InputError(
+            f"{x.size} points at {test.temperature:.2f} K are too few to find a shift from "
+            "overlap; give a law of shift (--wlf, --shift-file) or leave them out (--leave-out)"
+        )
+    if isinstance(test, RelaxationTest):
+        return thinned(Curve(x, (np.log10(test.modulus[::-1]),)))
+    return thinned(Curve(x, (-np.log10(test.compliance[::-1]),)))

@@ -1,0 +1,79 @@
+"""RepTate: Maxwell modes in a text file, as its command "Save Maxwell modes" writes them.
+
+Comments, the number of modes, then number, time [s] and shear modulus [Pa] of each. RepTate's modes
+flow, all of them: the rubbery modulus stands as one more mode, ten thousand times as slow as the
+slowest, and a comment says so.
+"""
+
+import re
+
+from viscotack.errors import InputError
+from viscotack.materials.exchange.units import (
+    Card,
+    Units,
+    head,
+    number,
+    refuse_units,
+    series,
+    shear_factor,
+)
+from viscotack.materials.solids import Prony
+
+_SLOWER = 1e4
+_PLATEAU = "the last mode stands for the rubbery modulus, which modes have not; Poisson ratio"
+
+
+def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
+    """Return the modes, the plateau as the last of them."""
+    refuse_units("RepTate", units)
+    material = card.material
+    factor = shear_factor(material.poisson_ratio)
+    modes = [*material.branches, (material.rubbery_modulus, _SLOWER * material.branches[-1][1])]
+    lines = [
+        "# Maxwell modes",
+        *head("#", units, notes),
+        f"# {_PLATEAU} {material.poisson_ratio!r}",
+    ]
+    lines += ["", "#number of modes", f"{len(modes)}", "", "#   i\ttau_i\tG_i"]
+    lines += [f"{i}\t{time!r}\t{E * factor!r}" for i, (E, time) in enumerate(modes, 1)]
+    return "\n".join([*lines, "", "#end"]) + "\n"
+
+
+def read(
+    text: str,
+    units: Units | None,
+    *,
+    rubbery_modulus: float | None = None,
+    poisson_ratio: float | None = None,
+) -> Prony:
+    """Return the series; the plateau is the last mode if a comment says so, or is given."""
+    if units is not None:
+        refuse_units("RepTate", units)
+    stated = re.search(re.escape(_PLATEAU) + r"\s+(\S+)", text)
+    nu = poisson_ratio
+    if nu is None and stated is not None:
+        nu = number(stated[1], text.count("\n", 0, stated.start()) + 1, "the Poisson ratio")
+    if nu is None:
+        raise InputError("modes of RepTate do not say the Poisson ratio; give it")
+    rows: list[tuple[float, float]] = []
+    count = None
+    for line, raw in enumerate(text.splitlines(), 1):
+        words = raw.split("#")[0].split()
+        if not words:
+            continue
+        if count is None:
+            count = int(number(words[0], line, "the number of modes"))
+            continue
+        if len(words) != 3:
+            raise InputError(f"line {line}: expected number, time and modulus, got {raw!r}")
+        time = number(words[1], line, "the relaxation time")
+        rows.append((number(words[2], line, "the modulus") / shear_factor(nu), time))
+    if count != len(rows):
+        raise InputError(f"the file says {count} modes, and {len(rows)} follow")
+    if rubbery_modulus is None:
+        if stated is None or not rows:
+            raise InputError(
+                "modes of RepTate flow: they have no rubbery modulus; give it, or fit the data"
+            )
+        rubbery_modulus = rows.pop()[0]
+    return series(rubbery_modulus, rows, nu)

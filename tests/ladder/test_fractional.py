@@ -1,0 +1,169 @@
+"""The verification ladder of fractional laws: identities, limits, modes, peers."""
+
+import mpmath
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.special import erfcx, rgamma
+
+from viscotack.materials import (
+    FractionalKelvinVoigt,
+    FractionalMaxwell,
+    FractionalZener,
+    StandardSolid,
+)
+from viscotack.materials.fractional import nodes, passed, remaining
+
+E0, TAU, NU = 1.2e6, 2e-3, 0.48
+ORDERS = [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95]
+POTS = dict(modulus=3e5, tau0=TAU, poisson_ratio=NU)
+
+
+def zener(order, k=1e-3):
+    return FractionalZener(
+        rubbery_modulus=E0, glassy_modulus=E0 / k, order=order, tau0=TAU, poisson_ratio=NU
+    )
+
+
+# ---- rung 1: identities ------------------------------------------------------------------------
+
+
+def test_the_function_of_order_one_half_is_an_error_function():
+    # E_1/2(-z) = exp(z^2) erfc(z), with z^2 = x
+    log_x = np.linspace(-60, 60, 400)
+    assert_allclose(remaining(0.5, log_x), erfcx(np.exp(log_x / 2)), rtol=1e-13)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_what_has_passed_and_what_remains_are_all(order):
+    log_x = np.array([-np.inf, -500, -40, -1, 0.0, 3, 50, 700, np.inf])
+    assert_allclose(passed(order, log_x) + remaining(order, log_x), 1, rtol=1e-13)
+    weights, place = nodes(order, 0.1)
+    assert np.sum(weights) == pytest.approx(1, rel=1e-14) and np.all(weights > 0)
+    assert_allclose(weights, weights[::-1]) and assert_allclose(place, -place[::-1])
+
+
+@pytest.mark.parametrize("kind", [FractionalMaxwell, FractionalKelvinVoigt])
+@pytest.mark.parametrize("orders", [(0.9, 0.2), (0.6, 0.0), (1.0, 0.3), (0.5, 0.5)])
+def test_creep_and_relaxation_of_springpots_convolve_to_time(kind, orders):
+    law = kind(order=orders[0], lower_order=orders[1], **POTS)
+    if kind is FractionalKelvinVoigt and orders[0] == 1:
+        return  # a dashpot's relaxation is an instant
+    x = np.arange(-150, 150, 0.05)
+    with np.errstate(over="ignore"):
+        early, late = 1 / (1 + np.exp(-x)), 1 / (1 + np.exp(x))
+    for t in TAU * np.array([1e-4, 1.0, 1e3]):
+        integrand = law.relaxation(t * late) * law.creep(t * early) * early * late
+        # of order a the ends of the integral fall as a, and 150 logarithms hold them
+        assert 0.05 * np.sum(integrand) == pytest.approx(1, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", [FractionalMaxwell, FractionalKelvinVoigt])
+def test_springpots_compliance_is_the_reciprocal_of_the_modulus(kind):
+    law = kind(order=0.8, lower_order=0.3, **POTS)
+    omega = 10.0 ** np.arange(-9, 9) / TAU
+    assert_allclose(law.complex_modulus(omega) * law.complex_compliance(omega), 1, rtol=1e-14)
+
+
+# ---- rung 2: limits ----------------------------------------------------------------------------
+
+
+def slope(x, y):
+    return np.polyfit(np.log(x), np.log(y), 1)[0]
+
+
+@pytest.mark.parametrize("order", [0.2, 0.5, 0.9])
+def test_creep_begins_and_ends_as_powers_of_time(order):
+    solid = zener(order, k=1e-6)
+    early, late = 10.0 ** np.array([-12.0, -11]), 10.0 ** np.array([10.0, 11])
+    assert E0 * solid.creep(0) == 1e-6
+    exact = passed(order, np.log(early) / order)
+    assert_allclose(exact, early * rgamma(1 + order), rtol=1e-9)
+    left = remaining(order, np.log(late) / order)
+    assert_allclose(left, rgamma(1 - order) / late, rtol=1e-9)
+
+
+def test_the_modulus_tends_to_the_standard_solid_with_the_order():
+    standard = StandardSolid(
+        rubbery_modulus=E0, glassy_modulus=E0 / 0.1, tau0=TAU, poisson_ratio=NU
+    )
+    away = 1 - np.array([0.95, 0.94, 0.93])
+    omega = 3.0 / TAU
+    off = [
+        abs(zener(1 - x, k=0.1).complex_modulus(omega) - standard.complex_modulus(omega))
+        for x in away
+    ]
+    assert slope(away, off) == pytest.approx(1, abs=0.05)
+
+
+def test_springpots_are_alone_far_from_their_time():
+    series = FractionalMaxwell(order=0.9, lower_order=0.2, **POTS)
+    beside = FractionalKelvinVoigt(order=0.9, lower_order=0.2, **POTS)
+    slow, fast = np.array([1e-9, 1e-8]) / TAU, np.array([1e9, 1e10]) / TAU
+    for law, ends in ((series, (0.9, 0.2)), (beside, (0.2, 0.9))):
+        for omega, order in zip((slow, fast), ends, strict=True):
+            size = np.abs(law.complex_modulus(omega))
+            assert slope(omega, size) == pytest.approx(order, abs=1e-3)
+            assert_allclose(np.angle(law.complex_modulus(omega)), order * np.pi / 2, atol=1e-5)
+    early, late = np.array([1e-9, 1e-8]) * TAU, np.array([1e9, 1e10]) * TAU
+    assert slope(early, series.relaxation(early)) == pytest.approx(-0.2, abs=1e-3)
+    assert slope(late, beside.creep(late)) == pytest.approx(0.2, abs=1e-3)
+
+
+# ---- rung 3: modes -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("order", [0.02, 0.2, 0.6, 0.95])
+@pytest.mark.parametrize("k", [0.5, 1e-4])
+def test_modes_keep_the_stated_error_over_their_window(order, k):
+    solid = zener(order, k)
+    for shortest, longest in [(1e-9, 1e3), (1e-12, 1e-6), (10.0, 1e6), (1e-15, 1e10)]:
+        t = TAU * np.geomspace(shortest, longest, 1500)
+        exact = E0 * solid.creep(t)
+        for tolerance in (1e-2, 1e-4, 1e-7):
+            modes = solid.retardation_modes(
+                shortest=TAU * shortest, longest=TAU * longest, tolerance=tolerance
+            )
+            missed = np.max(np.abs(modes.creep(t) - exact))
+            assert missed <= modes.error <= tolerance, (shortest, longest, tolerance)
+            assert modes.instantaneous + sum(modes.weights) == pytest.approx(1, abs=1e-13)
+            assert np.all(np.diff(modes.times) > 0) and min(modes.weights, default=1) > 0
+    assert (
+        zener(order, k=1.0).retardation_modes(shortest=1e-6, longest=1.0, tolerance=1e-3).weights
+        == ()
+    )
+
+
+# ---- rung 4: peers -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("order", [0.2, 0.6, 0.95])
+def test_relaxation_agrees_with_an_inverse_laplace_transform_of_many_digits(order):
+    solid = zener(order)
+    series = FractionalMaxwell(order=0.9, lower_order=0.2, **POTS)
+    beside = FractionalKelvinVoigt(order=0.7, lower_order=0.1, **POTS)
+    with mpmath.workdps(30):
+        a, time = mpmath.mpf(order), mpmath.mpf(solid.relaxation_time)
+
+        def modulus(s):
+            z = (s * time) ** a
+            return (E0 + (solid.glassy_modulus - E0) * z / (1 + z)) / s
+
+        for t in TAU * np.array([1e-6, 1e-2, 1.0, 1e3]):
+            assert solid.relaxation(t) == pytest.approx(
+                float(mpmath.invertlaplace(modulus, t)), rel=1e-11
+            )
+
+        def in_series(s):
+            x = s * TAU
+            return 3e5 / s / (x ** mpmath.mpf(-0.9) + x ** mpmath.mpf(-0.2))
+
+        def side_by_side(s):
+            x = s * TAU
+            return 1 / (3e5 * s * (x ** mpmath.mpf(0.7) + x ** mpmath.mpf(0.1)))
+
+        for t in TAU * np.array([1e-3, 1.0, 1e3]):
+            exact = float(mpmath.invertlaplace(in_series, t))
+            assert series.relaxation(t) == pytest.approx(exact, rel=1e-10)
+            exact = float(mpmath.invertlaplace(side_by_side, t))
+            assert beside.creep(t) == pytest.approx(exact, rel=1e-10)

@@ -1,0 +1,218 @@
+"""Shifts of melts, whose plateau misleads storage alone; tests over time; what contradicts."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from melts import CHAMBER, EXPANSION, LAW, REFERENCE, creeps, melt, relaxations, vertical
+from reference_data import DMA
+from viscotack.lab import (
+    FrequencySweeps,
+    ShiftTable,
+    allow_for_shifts,
+    contradiction,
+    fit,
+    master_curve,
+    nearest_law,
+    read_dma,
+    read_relaxations,
+    shift_factors,
+    superposed,
+    superposition,
+)
+from viscotack.lab.fit_passport import issued
+from viscotack.materials import StandardSolid
+from viscotack.materials.passport_file import read_passport, write_passport
+from viscotack.materials.shift import WLF, Arrhenius
+
+TRUE = LAW.log10_shift(CHAMBER)
+QUANTILE = 1.645  # of a 90 % interval
+
+
+# ---- melts -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "keywords", [{}, {"by": "both", "vertical": EXPANSION}, {"by": "tan"}], ids=str
+)
+def test_both_moduli_find_the_shift_of_a_melt(keywords):
+    table = master_curve(melt(1), reference_temperature=REFERENCE, **keywords).shifts
+    assert_allclose(table.log10_shift, TRUE, atol=0.1)
+    assert_allclose(table.log10_vertical, -np.log10(vertical(CHAMBER)), atol=0.03)
+    assert np.max(table.uncertainty) < 0.06
+
+
+def test_storage_alone_misses_the_shift_of_a_melt_and_says_how_much():
+    with pytest.raises(ValueError, match="do not fix the shift"):
+        master_curve(melt(2), reference_temperature=REFERENCE, by="storage", vertical="none")
+    sweeps = melt(2).without(0)
+    curve = master_curve(sweeps, reference_temperature=REFERENCE, by="storage", vertical="none")
+    off = np.abs(curve.shifts.log10_shift - TRUE[1:])
+    assert np.max(off) > 0.3
+    assert np.all(off <= QUANTILE * curve.shifts.uncertainty + 1e-9)
+    words = " ".join(superposition(sweeps, curve.shifts).words())
+    assert "do not superpose in loss" in words
+    assert "both moduli ask for" in words
+    assert "Kramers-Kronig" in contradiction(curve)
+
+
+def test_nothing_speaks_against_a_melt_that_superposes():
+    sweeps = melt(2)
+    curve = master_curve(sweeps, reference_temperature=REFERENCE)
+    assert superposition(sweeps, curve.shifts).holds
+    assert contradiction(curve) == ""
+
+
+@pytest.mark.parametrize("draws", [6, pytest.param(100, marks=pytest.mark.slow)])
+def test_intervals_hold_the_true_shift(draws):
+    tables = [shift_factors(melt(seed), reference_temperature=REFERENCE) for seed in range(draws)]
+    off = np.array([table.log10_shift for table in tables]) - TRUE
+    doubt = np.array([table.uncertainty for table in tables])
+    held = np.delete(np.abs(off) <= QUANTILE * doubt, 1, axis=1)  # without the reference
+    # of 36 shifts of which six and six have an error in common; of 600 it was 95 %
+    assert np.mean(held) > (0.75 if draws < 20 else 0.85)
+    score = np.delete(off / np.where(doubt == 0, 1, doubt), 1, axis=1)
+    assert 0.4 < np.sqrt(np.mean(score**2)) < 1.4
+
+
+def test_many_points_cost_no_more_than_a_few():
+    table = shift_factors(melt(3, points=2000), reference_temperature=REFERENCE)
+    few = shift_factors(melt(3), reference_temperature=REFERENCE)
+    assert_allclose(table.log10_shift, few.log10_shift, atol=0.02)
+
+
+def test_a_sweep_that_is_off_is_named():
+    sweeps = melt(0)
+    bad = np.where(sweeps.sweep == 3, np.linspace(0.5, 2.0, len(sweeps)), 1.0)
+    spoilt = replace(sweeps, loss=sweeps.loss * np.where(bad == 1, 1, 1.5), storage=sweeps.storage)
+    curve = master_curve(sweeps, reference_temperature=REFERENCE)
+    words = " ".join(superposition(spoilt, curve.shifts).words())
+    assert "do not superpose in loss" in words
+    assert "-10 C" in words
+
+
+def test_a_loss_that_contradicts_storage_is_found_out_and_the_shifts_are_called_uncertain():
+    # a published DMA through the glass transition, whose loss is no causal partner of its storage
+    sweeps = read_dma(DMA / "freq_user_raw.csv")
+    sweeps = sweeps.chosen((sweeps.temperature > 244) & (sweeps.temperature < 300))
+    curve = master_curve(sweeps, reference_temperature=298.15)
+    assert "storage and loss together, free to move, do not fix" in curve.source.notes[-1]
+    assert "do not superpose in loss" in superposition(sweeps, curve.shifts).words()[0]
+    assert "Kramers-Kronig" in contradiction(curve)
+    assert curve.shifts.uncertainty[0] > 0.5
+
+
+def test_a_law_for_the_table_is_found_or_none_is():
+    table = shift_factors(melt(0, thermometer=0.0), reference_temperature=REFERENCE)
+    found = nearest_law(table, reference_temperature=REFERENCE)
+    assert isinstance(found.law, WLF)
+    error = np.array([found.law.c1 - LAW.c1, found.law.c2 - LAW.c2]) / found.standard_error
+    assert np.all(np.abs(error) < 2)
+    stairs = ShiftTable(CHAMBER, [3, 2.9, 1.5, 1.4, 0.2, 0.1, -2], np.full(7, 0.02))
+    assert nearest_law(stairs, reference_temperature=REFERENCE) is None
+    activated = Arrhenius(REFERENCE, 60e3)
+    rows = ShiftTable(CHAMBER, activated.log10_shift(CHAMBER), np.full(7, 0.02))
+    law = nearest_law(rows, reference_temperature=REFERENCE).law
+    assert isinstance(law, Arrhenius)
+
+
+@pytest.mark.parametrize(
+    ("keywords", "words"),
+    [
+        ({"vertical": "some"}, "vertical must be one of auto, none, free"),
+        ({"vertical": True}, "vertical must be one of auto, none, free"),
+        ({"vertical": 0.1}, "from 0 to 0.01"),
+        ({"temperature_uncertainty": -1.0}, "between 0 and 50 K"),
+    ],
+)
+def test_impossible_ways_to_shift_are_refused(keywords, words):
+    with pytest.raises(ValueError, match=words):
+        shift_factors(melt(0), reference_temperature=REFERENCE, **keywords)
+
+
+# ---- what uncertain shifts do ------------------------------------------------------------------
+
+
+def sweeps_of(solid, temperatures, seed=0):
+    hertz = np.geomspace(0.1, 30, 10)
+    T, omega = (g.ravel() for g in np.meshgrid(temperatures, 2 * np.pi * hertz, indexing="ij"))
+    modulus = solid.complex_modulus(omega * 10 ** LAW.log10_shift(T))
+    scatter = np.exp(0.01 * np.random.default_rng(seed).standard_normal((2, T.size)))
+    return FrequencySweeps(
+        T, omega, modulus.real * scatter[0], modulus.imag * scatter[1], "E",
+        np.repeat(np.arange(len(temperatures)), hertz.size),
+    )  # fmt: skip
+
+
+def test_uncertain_shifts_widen_intervals_and_go_into_the_passport(tmp_path):
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1.0, poisson_ratio=0.5)
+    sweeps = sweeps_of(solid, CHAMBER[:5])
+    curve = master_curve(sweeps, reference_temperature=REFERENCE)
+    plain = fit(curve, poisson_ratio=0.5, model="sls", draws=5)
+    report = allow_for_shifts(plain, curve, curve.shifts)
+    before, after = (r.interval("tau0") for r in (plain, report))
+    assert after.value == before.value
+    assert np.log(after.high / after.low) > 1.1 * np.log(before.high / before.low)
+    assert any("the shifts are known to" in words for words in report.cautions)
+    # shifts that are certain change nothing
+    sure = replace(curve.shifts, uncertainty=np.zeros(5))
+    assert allow_for_shifts(plain, curve, sure) is plain
+
+    passport = issued(report, name="x", shift=curve.shifts)
+    write_passport(passport, tmp_path / "x.toml")
+    back = read_passport(tmp_path / "x.toml")
+    assert back == passport
+    assert back.shift.uncertainty == tuple(curve.shifts.uncertainty)
+    assert back.shift.vertical == tuple(curve.shifts.log10_vertical)
+    assert isinstance(back.fitted_shift.law, WLF)
+    assert back.shift_deviation(CHAMBER[0]) == pytest.approx(curve.shifts.uncertainty[0])
+
+
+# ---- over time ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [relaxations, creeps])
+def test_tests_over_time_superpose(make):
+    tests = make(0, temperatures=CHAMBER[:5])
+    curve, table = superposed(tests, reference_temperature=REFERENCE, vertical=EXPANSION)
+    assert_allclose(table.log10_shift, TRUE[:5], atol=0.1)
+    assert np.all(np.abs(table.log10_shift - TRUE[:5]) <= 2.6 * table.uncertainty + 1e-9)
+    assert curve.temperature == REFERENCE
+    assert len(curve) == sum(map(len, tests))
+    exact, _ = superposed(tests, reference_temperature=REFERENCE, shift=LAW)
+    assert_allclose(exact.time[[0, -1]], curve.time[[0, -1]], rtol=0.3)
+
+
+def test_the_source_of_tests_from_several_files_names_all(tmp_path):
+    paths = []
+    for test in relaxations(0, temperatures=CHAMBER[:3]):
+        rows = "".join(
+            f"{t!r},{G!r}\n"
+            for t, G in zip(*map(np.ndarray.tolist, (test.time, test.modulus)), strict=True)
+        )
+        path = tmp_path / f"melt_{test.temperature:.2f}K.csv"
+        path.write_text("t,G_relax\ns,Pa\n" + rows)
+        paths.append(path)
+    tests = read_relaxations(paths, temperature_in_name=True)
+    curve, _ = superposed(tests, reference_temperature=REFERENCE, vertical=EXPANSION)
+    assert all(path.name in curve.source.path for path in paths)
+    assert "3 files as one material" in curve.source.notes
+    copy = tmp_path / "melt_283.15K.csv"
+    copy.write_bytes(paths[0].read_bytes())
+    tests = read_relaxations([*paths, copy], temperature_in_name=True)
+    with pytest.raises(ValueError, match="is the same file as"):
+        superposed(tests, reference_temperature=REFERENCE, shift=LAW)
+
+
+def test_tests_over_time_that_cannot_superpose_are_refused():
+    tests = relaxations(0)
+    with pytest.raises(ValueError, match="tests of one kind superpose"):
+        superposed([tests[0], creeps(0)[1]], reference_temperature=REFERENCE)
+    with pytest.raises(ValueError, match="temperature of .* is not known"):
+        superposed([replace(tests[0], temperature=None)], reference_temperature=REFERENCE)
+    with pytest.raises(ValueError, match="two tests are of one temperature"):
+        superposed([tests[0], tests[0]], reference_temperature=REFERENCE)
+    with pytest.raises(ValueError, match="got none"):
+        superposed([], reference_temperature=REFERENCE)
