@@ -117,8 +117,8 @@ def test_a_mesh_of_too_many_nodes_is_refused_before_there_is_a_matrix():
     ):
         with pytest.raises(InputError, match="nodes, and a simulation takes up to 4000: ask for"):
             solve(punch)
-    with pytest.raises(InputError, match="the mesh would have 1.3.e.04 nodes"):
-        solve(replace(SPHERE, tabor=300.0), accuracy=1e-6)
+    with pytest.raises(InputError, match="the mesh would have .* nodes"):
+        solve(replace(SPHERE, tabor=19.0), accuracy=1e-6)
     endless = Grading(1e-300, 1.0, 0.1, 0.1, 10.0, 1e-300, 1.0)
     with pytest.raises(InputError, match=f"takes up to {MOST_NODES}"):
         endless.nodes(1.0, 1.0)

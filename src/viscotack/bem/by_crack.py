@@ -213,6 +213,11 @@ def too_short(groups: Groups) -> bool:
     return least < groups.effective_tabor <= LARGEST_TABOR
 
 
+def largest_radius(groups: Groups) -> float:
+    """Return the radius of the largest relaxed state of a history, about [beta]."""
+    return _start_of(groups, profile_of(groups.geometry))[1]
+
+
 def has_start(groups: Groups) -> bool:
     """Return whether the relaxed contact exists in which a test begins."""
     try:
@@ -320,8 +325,8 @@ def _zones(groups: Groups, crack: SteadyCrack, series: dict[str, Any], at: dict[
         return 0.0
     way = float(np.max(radius)) - at["contact_radius_at_pull_off"]
     if not groups.moves and energy > _SLOW:
-        # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with the
-        # square of the way of the drive: it is above the half for a quarter of the time.
+        # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
+        # the square of the way of the drive: it is above the half for a quarter of the time.
         loading = 0.25 * at["pull_off_time"] / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / _ROOT)
     zone = crack.zone_length * energy / groups.tabor**2 / _ROOT

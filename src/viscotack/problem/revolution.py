@@ -38,7 +38,7 @@ from viscotack.traction import Traction
 # another shape it is the steepest flank at the edge of a contact.
 LARGEST_CONTACT = STEEPEST_FLANK = 0.5
 # Tabor numbers that the mesh of a simulation can serve; tested from 0.01 to 10.
-SIMULATED_TABOR = (1e-6, 300.0)
+SIMULATED_TABOR = (1e-6, 200.0)
 # The largest for a solid that remembers nothing: nodes catch its crack, which nothing drives on.
 ELASTIC_TABOR = 50.0
 # A profile that reaches the limit nowhere near: 10^15 m.
