@@ -9,7 +9,8 @@ from typer.testing import CliRunner
 
 from viscotack.app.cli import application
 from viscotack.bem import solve
-from viscotack.forecast import OutOfRange, predict
+from viscotack.errors import OutOfRange
+from viscotack.forecast import predict
 from viscotack.forecast.advice import advise
 from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
@@ -212,10 +213,12 @@ def test_advice_on_spheres_is_not_given_on_cones():
         advise(problem())
 
 
-def test_a_tabor_number_that_the_mesh_cannot_serve_is_refused():
+def test_a_tabor_number_that_the_mesh_cannot_serve_is_answered_by_theory_or_refused():
     material = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    result = solve(Groups(1e4, material, AtForce(0.0), 1.0, geometry=Cone(1.0)))
+    assert result.method == "crack contact"
     with pytest.raises(ValueError, match="Tabor number must be between"):
-        solve(Groups(1e4, material, AtForce(0.0), 1.0, geometry=Cone(1.0)))
+        solve(Groups(1e-9, material, AtForce(0.0), 1.0, geometry=Cone(1.0)))
 
 
 def test_a_cone_from_a_file_is_that_cone(tmp_path):
@@ -255,6 +258,8 @@ def test_an_impossible_profile_is_refused_with_its_file(tmp_path, keys, words):
     assert "bad.toml" in str(refused.value) and "[profile]" in str(refused.value)
 
 
-def test_a_prediction_for_a_cone_is_out_of_range_and_no_defect():
-    with pytest.raises(OutOfRange, match="predictions are for spheres, got a cone"):
-        predict(problem())
+def test_a_prediction_for_a_cone_is_by_its_crack_or_out_of_range_and_no_defect():
+    assert predict(problem()).method == "crack contact"
+    long = replace(problem().groups(), tabor=1.0)
+    with pytest.raises(OutOfRange, match="learned is for spheres, got a cone.*holds from 2 on"):
+        predict(long)

@@ -85,7 +85,7 @@ def test_a_saved_result_has_its_numbers_to_the_digit(name):
 
 
 # Keys of answers that 0.1 did not have.
-NEW = ("accuracy", "accuracy_met", "cycles", "time_to_detachment")
+NEW = ("accuracy", "accuracy_met", "cycles", "method", "time_to_detachment")
 
 
 @pytest.mark.parametrize("name", RESULTS)

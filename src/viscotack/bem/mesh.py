@@ -109,7 +109,8 @@ class Grading:
         """
         first = max(first_edge - self.half_width, length)
         first /= 2.0 ** np.floor(np.log2(first / length))
-        many = len(self._growing(first, self.growth_inside, largest=_coarsest(first, self.spacing)))
+        coarsest = _coarsest(first, self.spacing)
+        many = 1 + len(self._growing(first, self.growth_inside, largest=coarsest))
         h, largest = self.spacing, _coarsest(length, self.spacing)
 
         def away(growth: float) -> npt.NDArray:

