@@ -78,8 +78,7 @@ def clipped(run: Run, at: Place) -> Place:
     """Return the march with its next step within the travel it may have, and the end of its leg."""
     leg, dt = at.leg, at.dt
     if leg.rigid and leg.rate:  # a soft spring's drive may run ahead
-        follows = at.state.rates.followed is not None
-        dt = min(dt, travel(run, at) * (_FOLLOWING if follows else 1.0) / abs(leg.rate))
+        dt = min(dt, _farthest(run, at) / abs(leg.rate))
         if not np.isnan(leg.depth) and at.ahead > 0:
             dt = min(dt, at.ahead / abs(leg.rate))
     if dt > 0.999 * at.left > 0:
@@ -189,6 +188,12 @@ def travel(run: Run, at: Place) -> float:
     return _looser(at) * run.settings.travel * reach
 
 
+def _farthest(run: Run, at: Place) -> float:
+    """Return the largest travel [h0] in a step, longer after one in the frame of the crack."""
+    follows = at.state.rates.followed is not None
+    return travel(run, at) * (_FOLLOWING if follows else 1.0)
+
+
 def _looser(at: Place) -> float:
     """Return how much longer steps may be."""
     return _LOOSER if at.past else 1.0
@@ -199,7 +204,7 @@ def changed(run: Run, at: Place, after: Snapshot) -> float:
     now = at.seen
     went = 0.0  # a rigid machine's travel is bounded before the step is tried
     if not at.leg.rigid:
-        went = (abs(after.depth - now.depth) / travel(run, at)) ** 2
+        went = (abs(after.depth - now.depth) / _farthest(run, at)) ** 2
     return max((abs(after.force - now.force) / (2 * force_change(run, at))) ** 2, went)
 
 
