@@ -12,6 +12,7 @@ _COMMANDS = (
     "crack_contact",
     "punch",
     "material",
+    "tack",
     "campaign",
     "schema",
 )

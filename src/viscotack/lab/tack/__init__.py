@@ -9,6 +9,7 @@ from .evaluation import Evaluation, Refusal, evaluate
 from .reading import FORMATS, read
 from .record import TackRecord
 from .segments import Segments
+from .surveying import Survey, Unread, survey
 
 __all__ = [
     "FORMATS",
@@ -17,7 +18,10 @@ __all__ = [
     "Measured",
     "Refusal",
     "Segments",
+    "Survey",
     "TackRecord",
+    "Unread",
     "evaluate",
     "read",
+    "survey",
 ]

@@ -118,8 +118,12 @@ def _check(format: str | None, given: Given) -> None:
             factor(unit, quantity)
 
 
-def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
+def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
     """Return files by the test they belong to, intervals in the order of their numbers."""
+    return [[path for _, path in group] for group in _groups(paths)]
+
+
+def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
     groups: dict[tuple[str, str], list[tuple[int, AnyPath]]] = {}
     for count, path in enumerate(paths):
         match = _INTERVAL.fullmatch(Path(path).stem)
@@ -191,6 +195,14 @@ def _records(
     file = load(path, raw=_RAW)
     found = format or _sniffed(file)
     layout = FORMATS[found]
+    # a damaged number may be beyond all floats; the record refuses it by name
+    with np.errstate(all="ignore"):
+        return _of_layout(file, layout, found, given, few)
+
+
+def _of_layout(
+    file: LabFile, layout: ModuleType, found: str, given: Given, few: bool
+) -> list[TackRecord]:
     if layout in (text_layout, book_layout):
         if not file.lines and not file.is_workbook:
             raise file.error("the file is neither text nor an Excel workbook; export it as text")

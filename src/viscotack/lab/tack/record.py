@@ -11,6 +11,9 @@ from viscotack.lab.sweeps import Source
 
 Array = npt.NDArray[np.float64]
 
+# beyond what any rig has: a damaged number, or a wrong unit
+_LARGEST = {"time": ("s", 1e10), "force": ("N", 1e8), "position": ("m", 1e4)}
+
 
 @dataclass(frozen=True, eq=False)
 class TackRecord:
@@ -50,11 +53,14 @@ class TackRecord:
 
     def __post_init__(self):
         length = None
-        for name, unit in (("time", "s"), ("force", "N"), ("position", "m")):
+        for name, (unit, most) in _LARGEST.items():
             row = array(name, getattr(self, name), unit, length)
             length = row.size
-            if not np.all(np.isfinite(row)):
-                raise InputError(f"{name} must be finite [{unit}]")
+            if not np.all(np.abs(row) <= most):
+                raise InputError(
+                    f"{name} must be finite and at most {most:g} {unit}, got {_worst(row):g} "
+                    f"{unit}; is the unit right?"
+                )
             store(self, name, row)
         steps = np.diff(self.time)
         if np.any(steps < 0):
@@ -75,3 +81,8 @@ class TackRecord:
 
     def __len__(self) -> int:
         return self.time.size
+
+
+def _worst(row: Array) -> float:
+    broken = row[~np.isfinite(row)]
+    return float(broken[0] if broken.size else row[np.argmax(np.abs(row))])
