@@ -49,7 +49,9 @@ def raw_numbers(record, cycle):
     slope = (
         abs(np.polyfit(t[begin : at + 1], x[begin : at + 1], 1)[0]) if at - begin > 5 else np.nan
     )
-    return float(tension[at]), float(slope), abs(float(np.polyfit(t, x, 1)[0]))
+    level = float(np.median(tension[-max(tension.size // 20, 5) :]))
+    whole = abs(float(np.polyfit(t, x, 1)[0]))
+    return float(tension[at]), float(tension[at]) - level, float(slope), whole
 
 
 def outcome(paths):
@@ -58,10 +60,11 @@ def outcome(paths):
     found = tack.survey(paths)
     for one in found.evaluations:
         for cycle in one.cycles:
-            raw, slope, whole = raw_numbers(one.record, cycle)
+            raw, above, slope, whole = raw_numbers(one.record, cycle)
             rows.append(
                 (
                     cycle.pull_off_force.value / raw - 1 if raw > 0 else np.nan,
+                    cycle.pull_off_force.value / above - 1,
                     cycle.speed.value / slope - 1,
                     cycle.mean_speed.value / whole - 1,
                     cycle,
@@ -90,14 +93,15 @@ def main():
                 print(f"BROKEN {name}: {error}")
                 continue
             rows += read
-            why.update(re.sub(r"[-+0-9.e]+", "#", reason)[:110] for reason in reasons)
+            why.update(re.sub(r"[-+]?[0-9][0-9.eE+-]*", "#", reason)[:110] for reason in reasons)
             if arguments.names:
                 forces = " ".join(f"{cycle.pull_off_force.value:.3g} N" for *_, cycle in read)
                 print(f"  {name}: {forces or reasons[0] if forces or reasons else '-'}")
         print(f"{folder}: {files} tests, {len(rows)} cycles read, {why.total()} refused")
         if rows:
-            table = np.abs(np.array([row[:3] for row in rows]))
-            for label, column in zip(("pull-off", "speed", "mean speed"), table.T, strict=True):
+            table = np.abs(np.array([row[:4] for row in rows]))
+            labels = ("pull-off", "pull-off above the end of the curve", "speed", "mean speed")
+            for label, column in zip(labels, table.T, strict=True):
                 known = column[np.isfinite(column)]
                 print(
                     f"  {label}: {np.sum(known <= 0.01)} of {known.size} within 1 % of the raw "

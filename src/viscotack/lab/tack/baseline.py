@@ -75,12 +75,13 @@ def free_after(force: Array) -> int:
     if force.size < 2 * _FEW:
         return 0
     free = count
-    round_off = 1e-9 * float(np.ptp(force))
+    # of the whole, free or not: a few quiet points at the end are no measure of noise
+    least = max(_noise(force), 1e-9 * float(np.ptp(force)))
     for _ in range(30):
         part = force[-free:]
         x = np.linspace(-1.0, 0.0, part.size)
         line = np.polynomial.Polynomial.fit(x, part, 1 if free > 4 * _FEW else 0)
-        noise = max(_noise(part), float(np.std(part - line(x))), round_off)
+        noise = max(least, float(np.std(part - line(x))))
         # a little beyond, a line may still be trusted
         reach = min(force.size, int(1.3 * free) + 1)
         ahead = force[-reach:]
@@ -96,10 +97,8 @@ def free_after(force: Array) -> int:
 
 
 def _noise(values: Array) -> float:
-    """Return the standard deviation of single points, from their differences."""
-    if values.size < 3:
-        return 0.0
-    return float(1.4826 * np.median(np.abs(np.diff(values))) / np.sqrt(2))
+    """Return the standard deviation of single points, from second differences: no slope in it."""
+    return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6))
 
 
 def baseline(
