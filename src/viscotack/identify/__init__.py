@@ -1,7 +1,7 @@
 """The interface from measured curves: which work of adhesion, which range, and how well known."""
 
 from .objective import Best, Interval, Objective, Parameter
-from .slow_tests import ModelFit, SlowTest, SlowTestFit, identify_slow, slow_test
+from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
     "Best",
@@ -11,6 +11,7 @@ __all__ = [
     "Parameter",
     "SlowTest",
     "SlowTestFit",
+    "fitted_force",
     "identify_slow",
     "slow_test",
 ]

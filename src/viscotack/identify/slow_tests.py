@@ -6,7 +6,7 @@ Every model is fitted to the same points; the Bayesian information criterion
 has a wide prior), with the scatter of the best model for all. Intervals are profile likelihoods.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -121,6 +121,8 @@ class ModelFit:
         Standard deviation of the residuals [N].
     criterion : float
         Bayesian information criterion; smaller is better.
+    values : mapping
+        All that was fitted, by the names of the model.
     """
 
     model: str
@@ -130,6 +132,7 @@ class ModelFit:
     intervals: dict[str, Interval]
     scatter: float
     criterion: float
+    values: Mapping[str, float]
 
 
 @dataclass(frozen=True)
@@ -275,13 +278,22 @@ def _objective(
     return Objective(partial(_residuals, model, test, sigma), tuple(parameters))
 
 
-def _residuals(model: ElasticModel, test: SlowTest, sigma: Array, values) -> Array:
+def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
+    """Return the forces of a fitted model at the radii or depths of a test [N]."""
+    return _force(MODELS[fit.model], test, fit.values)
+
+
+def _force(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
     if test.against == "radius":
-        force = model.by_radius(test.at, values, test.radius)
-    else:
-        assert model.by_depth is not None, "models without a depth were left out"
-        force = model.by_depth(test.at - values["zero"], values, test.radius)
-    return (force - test.force) / sigma
+        return model.by_radius(test.at, values, test.radius)
+    assert model.by_depth is not None, "models without a depth were left out"
+    return model.by_depth(test.at - values["zero"], values, test.radius)
+
+
+def _residuals(
+    model: ElasticModel, test: SlowTest, sigma: Array, values: Mapping[str, float]
+) -> Array:
+    return (_force(model, test, values) - test.force) / sigma
 
 
 def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
@@ -348,6 +360,7 @@ def _model_fit(
         intervals,
         float(np.sqrt(np.mean(rest**2))) * size * test.force_noise,
         criterion,
+        best.values,
     )
 
 

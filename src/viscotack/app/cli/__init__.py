@@ -13,6 +13,7 @@ _COMMANDS = (
     "punch",
     "material",
     "tack",
+    "identify",
     "campaign",
     "schema",
 )

@@ -165,31 +165,22 @@ def read_command(
     """
     with wrong_input():
         check_files({"--csv": table, "--plot": plot_file}, as_json=as_json, reads=files)
-        reading = {
-            "format": format,
-            "force_unit": force_unit,
-            "length_unit": length_unit,
-            "time_unit": time_unit,
-            "force_column": force_column,
-            "position_column": position_column,
-            "decimal": decimal,
-            "nominal_speed": None if nominal_speed is None else parse(nominal_speed, "m/s"),
-        }
-        evaluation = {
-            "compliance": None if compliance is None else parse(compliance, "m/N"),
-            "compliance_uncertainty": 0.0
-            if compliance_uncertainty is None
-            else parse(compliance_uncertainty, "m/N"),
-            "into": _sign("--into", into),
-            "compression": _sign("--compression", compression),
-            "retraction_only": retraction_only,
-        }
+        reading = reading_of(
+            format,
+            (force_unit, length_unit, time_unit),
+            (force_column, position_column),
+            decimal,
+            nominal_speed,
+        )
+        evaluation = evaluation_of(
+            (compliance, compliance_uncertainty), (into, compression), retraction_only
+        )
         from viscotack.lab.tack import survey
         from viscotack.pictures.tack import draw_tests
 
         found = survey(files, reading=reading, evaluation=evaluation)
         if not found.cycles:
-            raise InputError(_nothing(found))
+            raise InputError(nothing(found))
     write = Writing()
     rows = [
         {"file": one.record.source.path, **_row(cycle)}
@@ -198,10 +189,46 @@ def read_command(
     ]
     write("wrote", table, lambda target: write_whole(target, _as_csv(rows)))
     write.picture(plot_file, lambda: draw_tests(found.cycles))
-    for path, why in _reasons(found):
+    for path, why in reasons_of(found):
         typer.echo(f"refused: {path}: {why}", err=True)
     write.answer(_as_json(found) if as_json else _words(found))
     write.end()
+
+
+def reading_of(
+    format: str | None,
+    units: tuple[str | None, str | None, str | None],
+    columns: tuple[str | None, str | None],
+    decimal: str | None,
+    nominal_speed: str | None,
+) -> dict[str, Any]:
+    """Return what flags say about the files, as keywords of the reader."""
+    return {
+        "format": format,
+        "force_unit": units[0],
+        "length_unit": units[1],
+        "time_unit": units[2],
+        "force_column": columns[0],
+        "position_column": columns[1],
+        "decimal": decimal,
+        "nominal_speed": None if nominal_speed is None else parse(nominal_speed, "m/s"),
+    }
+
+
+def evaluation_of(
+    compliance: tuple[str | None, str | None],
+    signs: tuple[str | None, str | None],
+    retraction_only: bool,
+) -> dict[str, Any]:
+    """Return what flags say about the rig, as keywords of the evaluation."""
+    value, uncertainty = (None if x is None else parse(x, "m/N") for x in compliance)
+    return {
+        "compliance": value,
+        "compliance_uncertainty": uncertainty or 0.0,
+        "into": _sign("--into", signs[0]),
+        "compression": _sign("--compression", signs[1]),
+        "retraction_only": retraction_only,
+    }
 
 
 def _sign(flag: str, word: str | None) -> int:
@@ -210,14 +237,15 @@ def _sign(flag: str, word: str | None) -> int:
     return _SIGNS[word]
 
 
-def _reasons(found: Any) -> list[tuple[str, str]]:
+def reasons_of(found: Any) -> list[tuple[str, str]]:
     """Return why files and cycles were refused."""
     files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in found.unread]
     return files + [(path, f"cycle {one.number}: {one.reason}") for path, one in found.refused]
 
 
-def _nothing(found: Any) -> str:
-    reasons = "\n  ".join(f"{path}: {why}" for path, why in _reasons(found))
+def nothing(found: Any) -> str:
+    """Return why no cycle at all was read."""
+    reasons = "\n  ".join(f"{path}: {why}" for path, why in reasons_of(found))
     return f"no cycle of a tack test could be read:\n  {reasons}"
 
 
@@ -268,7 +296,7 @@ def _words(found: Any) -> str:
             )
         lines.append(f"     {'; '.join(one.cycles[0].source.notes)}")
     count = len(found.cycles)
-    lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(_reasons(found))} refused")
+    lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(reasons_of(found))} refused")
     return "\n".join(lines)
 
 
