@@ -3,6 +3,7 @@
 import json
 from dataclasses import asdict
 from enum import StrEnum
+from statistics import median
 from typing import Annotated, Any
 
 import typer
@@ -12,6 +13,7 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
+from .material import passport_of
 from .tack import (
     Compliance,
     ComplianceUncertainty,
@@ -157,7 +159,7 @@ def slow_command(
         fit = identify_slow(
             test,
             models=[str(model) for model in models or Model],
-            contact_modulus=_known(modulus, modulus_uncertainty),
+            contact_modulus=_pair("--contact-modulus", (modulus, modulus_uncertainty), "Pa"),
             level=level,
         )
     write = Writing()
@@ -168,14 +170,141 @@ def slow_command(
     write.end()
 
 
-def _known(value: str | None, uncertainty: str | None) -> tuple[float, float] | None:
-    if (value is None) != (uncertainty is None):
-        raise InputError(
-            "--contact-modulus and --contact-modulus-uncertainty go together; say both or neither"
+@identify.command("rates")
+def rates_command(
+    files: TestFiles,
+    passport: Annotated[
+        str,
+        Option(
+            "--material",
+            metavar="PASSPORT",
+            help="A material passport, or the name of a published material.",
+            show_default=False,
+        ),
+    ],
+    radius: Annotated[
+        str,
+        Option("--radius", metavar="LENGTH", help='Of the sphere, "5.19 mm".', show_default=False),
+    ],
+    preload: Annotated[
+        str | None,
+        Option(
+            "--preload",
+            metavar="FORCE",
+            help='Under which the contact relaxed, "1.5 mN"; else the force where retractions '
+            "begin.",
+        ),
+    ] = None,
+    work: Annotated[
+        str | None,
+        Option(
+            "--work-of-adhesion",
+            metavar="ENERGY/AREA",
+            help='Known from a slow test, "152 mJ/m2"; else it is fitted with nothing known of it.',
+        ),
+    ] = None,
+    work_uncertainty: Annotated[
+        str | None,
+        Option(
+            "--work-of-adhesion-uncertainty",
+            metavar="ENERGY/AREA",
+            help="Standard uncertainty of it; goes with it.",
+        ),
+    ] = None,
+    level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
+    plot_file: PlotFile = None,
+    format: Format = None,
+    force_unit: ForceUnit = None,
+    length_unit: LengthUnit = None,
+    time_unit: TimeUnit = None,
+    force_column: ForceColumn = None,
+    position_column: PositionColumn = None,
+    decimal: Decimal = None,
+    nominal_speed: NominalSpeed = None,
+    into: Into = None,
+    compression: Compression = None,
+    retraction_only: RetractionOnly = False,
+    as_json: AsJson = False,
+) -> None:
+    """Find work of adhesion and range of attraction from pull-offs at several speeds.
+
+    Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
+    steady viscoelastic crack is fitted to them, with the material taken as exact. What the data
+    cannot tell, and where such an interface does not give the forces, is said in words.
+
+    Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
+    """
+    with wrong_input():
+        check_files({"--plot": plot_file}, as_json=as_json, reads=files)
+        reading = reading_of(
+            format,
+            (force_unit, length_unit, time_unit),
+            (force_column, position_column),
+            decimal,
+            nominal_speed,
         )
+        evaluation = evaluation_of((None, None), (into, compression), retraction_only)
+        from viscotack.identify import identify_rates, pull_offs
+        from viscotack.lab.tack import survey
+        from viscotack.pictures.identify import draw_rate_series
+
+        solid = passport_of(passport).material
+        found = survey(files, reading=reading, evaluation=evaluation)
+        if not found.cycles:
+            raise InputError(nothing(found))
+        series = pull_offs(found.cycles)
+        begins = [float(one.force[one.segments.retract]) for one in found.cycles]
+        fit = identify_rates(
+            series,
+            material=solid,
+            radius=parse(radius, "m"),
+            preload=float(median(begins)) if preload is None else parse(preload, "N"),
+            work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
+            level=level,
+        )
+    write = Writing()
+    write.picture(plot_file, lambda: draw_rate_series(series, fit))
+    for path, why in reasons_of(found):
+        typer.echo(f"refused: {path}: {why}", err=True)
+    if as_json:
+        write.answer(json.dumps(_rates(series, fit), indent=2, allow_nan=False))
+    else:
+        rows = [
+            f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
+            for one, force in zip(series, fit.forces, strict=True)
+        ]
+        write.answer("\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"]))
+    write.end()
+
+
+def _rates(series: Any, fit: Any) -> dict[str, Any]:
+    return {
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "equilibrium_gap_m": fit.equilibrium_gap,
+        "tabor": fit.tabor,
+        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
+        "scatter": fit.scatter,
+        "series": [
+            {
+                "speed_m_s": one.speed,
+                "pull_off_force_N": one.force.value,
+                "pull_off_force_N_uncertainty": one.force.uncertainty,
+                "fitted_N": force,
+            }
+            for one, force in zip(series, fit.forces, strict=True)
+        ],
+        "words": list(fit.words),
+    }
+
+
+def _pair(flag: str, words: tuple[str | None, str | None], unit: str) -> tuple[float, float] | None:
+    """Return a number known from elsewhere and its uncertainty."""
+    value, uncertainty = words
+    if (value is None) != (uncertainty is None):
+        raise InputError(f"{flag} and {flag}-uncertainty go together; say both or neither")
     if value is None or uncertainty is None:
         return None
-    return parse(value, "Pa"), parse(uncertainty, "Pa")
+    return parse(value, unit), parse(uncertainty, unit)
 
 
 def _as_json(fit: Any) -> str:
