@@ -1,6 +1,7 @@
 # The first two commands of the README: `make demo` and `make test`.
 PYTHON ?= python3
 TABLE ?= rows.csv
+TACK ?= tack-files
 VENV := .venv
 BIN := $(VENV)/bin
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile
@@ -31,9 +32,10 @@ demo: $(VENV)/.demo
 test: $(VENV)/.installed
 	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q
 
-# TABLE is the table of detachments that replication/README.md says where to get.
+# TABLE is the table of detachments that replication/README.md says where to get, TACK the folder of
+# public tack tests that docs/tack_tests.md names.
 test-outside: $(VENV)/.installed
-	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)"
+	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)" --tack="$(TACK)"
 
 test-slow: $(VENV)/.installed
 	$(BIN)/python -m pytest -m slow -n 2 -q

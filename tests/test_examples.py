@@ -28,6 +28,7 @@ def test_every_example_is_run_here():
         "fields.py",
         "from_toml",
         "from_dma",  # its commands are run with the pages
+        "from_rig",
         "own",  # test_own.py is all about them
         "hysteresis.py",
         "dwell_time.py",
@@ -110,3 +111,14 @@ def test_a_heavier_load_is_borne_for_a_shorter_time(tmp_path, capsys):
     # seconds; the converged values are 5.2 and 0.74
     assert times == pytest.approx([5.2, 0.74], rel=0.05)
     assert "still in contact" in capsys.readouterr().out
+
+
+def test_the_files_of_the_rig_are_those_that_their_script_makes():
+    spec = importlib.util.spec_from_file_location("make_rig", EXAMPLES / "from_rig" / "make.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    name, speed = "30_um_s", module.SPEEDS["30_um_s"]
+    made = np.stack(module.columns(speed, seed=list(module.SPEEDS).index(name))[:3], axis=1)
+    kept = np.loadtxt(EXAMPLES / "from_rig" / f"lens_{name}.csv", delimiter=",", skiprows=1)
+    scale = np.array([1.0, 1e3, 1e3])
+    assert np.allclose(kept, made * scale, rtol=1e-5, atol=1e-3)

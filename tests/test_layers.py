@@ -28,6 +28,7 @@ ROOMS = (
     "datasets",
     "surrogate",
     "forecast",
+    "identify",
     "pictures",
     "app",
     "__main__",

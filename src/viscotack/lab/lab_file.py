@@ -62,8 +62,15 @@ class LabFile:
         return InputError(f"{self.path}{place}: {what}")
 
 
-def load(path: str | PathLike[str]) -> LabFile:
+def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     """Return a file's bytes and lines.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    raw : tuple of bytes
+        How files begin whose bytes are no text although they are no workbook: without lines.
 
     Raises
     ------
@@ -85,7 +92,7 @@ def load(path: str | PathLike[str]) -> LabFile:
         raise empty.error(f"the file is larger than {LARGEST // 10**6} MB; export the points only")
     if not content.strip():
         raise empty.error("the file is empty")
-    if empty.is_workbook:
+    if empty.is_workbook or content.startswith(raw):
         return empty
     text, encoding = _decoded(empty)
     if "\0" in text:

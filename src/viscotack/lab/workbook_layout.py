@@ -42,22 +42,9 @@ def tables(file: LabFile) -> list[Table]:
     ImportError
         If the library that reads workbooks is not installed.
     """
-    if not file.is_workbook:
-        raise file.error("expected an Excel workbook")
-    old = file.content.startswith(b"\xd0\xcf")
-    try:
-        sheets = dict(_old(file.content) if old else _new(file.content))
-    except ImportError as error:
-        raise ImportError(
-            f"{error.name} reads workbooks and is not installed: pip install viscotack[lab]"
-        ) from None
-    except Exception as error:
-        # A damaged workbook makes the library fail in a dozen ways, none of them its promise.
-        raise file.error(
-            f"the workbook cannot be read, it may be cut or damaged: {error}"
-        ) from None
-    for title in sorted(sheets, key=lambda title: title != _SHEET):
-        rows = sheets[title]
+    found = sheets(file)
+    for title in sorted(found, key=lambda title: title != _SHEET):
+        rows = found[title]
         at = first_headings(rows[:_LOOKED])
         if at is not None:
             below = enumerate(rows[at + 1 :], start=at + 2)
@@ -70,8 +57,34 @@ def tables(file: LabFile) -> list[Table]:
             return [tabulated(file, rows[at], units, data, words=words, temperature=stated)]
     raise file.error(
         f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; "
-        f"the sheets are {', '.join(map(repr, sheets))}"
+        f"the sheets are {', '.join(map(repr, found))}"
     )
+
+
+def sheets(file: LabFile) -> dict[str, Cells]:
+    """Return the rows of every sheet of a workbook, as text.
+
+    Raises
+    ------
+    ValueError
+        If the file is no readable workbook.
+    ImportError
+        If the library that reads workbooks is not installed.
+    """
+    if not file.is_workbook:
+        raise file.error("expected an Excel workbook")
+    old = file.content.startswith(b"\xd0\xcf")
+    try:
+        return dict(_old(file.content) if old else _new(file.content))
+    except ImportError as error:
+        raise ImportError(
+            f"{error.name} reads workbooks and is not installed: pip install viscotack[lab]"
+        ) from None
+    except Exception as error:
+        # A damaged workbook makes the library fail in a dozen ways, none of them its promise.
+        raise file.error(
+            f"the workbook cannot be read, it may be cut or damaged: {error}"
+        ) from None
 
 
 def _old(content: bytes) -> Iterator[tuple[str, Cells]]:

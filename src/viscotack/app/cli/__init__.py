@@ -12,6 +12,8 @@ _COMMANDS = (
     "crack_contact",
     "punch",
     "material",
+    "tack",
+    "identify",
     "campaign",
     "schema",
 )

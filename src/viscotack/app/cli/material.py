@@ -322,7 +322,7 @@ def show_command(passport_file: Known, as_json: AsJson = False) -> None:
     Example: viscotack material show pdms-10-1
     """
     with wrong_input():
-        passport = _passport(passport_file)
+        passport = passport_of(passport_file)
     if as_json:
         typer.echo(_json(passport))
     else:
@@ -383,7 +383,7 @@ def convert_command(
             _refuse(
                 "without --from", also | {"pressure-unit": pressure_unit, "time-unit": time_unit}
             )
-            passport = _passport(source)
+            passport = passport_of(source)
         else:
             passport = _imported(source, code, pressure_unit, time_unit, also)
         if temperature is not None:
@@ -439,7 +439,7 @@ def export_command(
     """
     with wrong_input():
         check_files({"--output": output}, reads=(Path(passport_file),))
-        passport = _passport(passport_file)
+        passport = passport_of(passport_file)
         if temperature is not None:
             passport = passport.moved_to(parse(temperature, "K"))
         form = _series(passport, frequencies, tolerance)
@@ -456,7 +456,7 @@ def export_command(
     write.end()
 
 
-def _passport(name: str) -> Passport:
+def passport_of(name: str) -> Passport:
     """Return the passport in a file, or that of a published material."""
     if name in MATERIALS:
         return published(name)

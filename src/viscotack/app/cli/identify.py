@@ -1,0 +1,342 @@
+"""The commands ``viscotack identify ...``: from measured curves to the interface."""
+
+import json
+from dataclasses import asdict
+from enum import StrEnum
+from statistics import median
+from typing import Annotated, Any
+
+import typer
+from typer import Option
+
+from viscotack.errors import InputError
+from viscotack.units import parse
+
+from .commands import AsJson, PlotFile, application, wrong_input
+from .material import passport_of
+from .tack import (
+    Compliance,
+    ComplianceUncertainty,
+    Compression,
+    Decimal,
+    ForceColumn,
+    ForceUnit,
+    Format,
+    Into,
+    LengthUnit,
+    NominalSpeed,
+    PositionColumn,
+    RetractionOnly,
+    TestFiles,
+    TimeUnit,
+    evaluation_of,
+    nothing,
+    reading_of,
+    reasons_of,
+)
+from .writing import Writing, check_files
+
+identify = typer.Typer(
+    help="From measured curves to the interface: work of adhesion and range of attraction.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+application.add_typer(identify, name="identify")
+
+
+@identify.callback()
+def _identify() -> None:
+    """From measured curves to the interface: work of adhesion and range of attraction."""
+
+
+class Model(StrEnum):
+    """Elastic models of a slow test."""
+
+    JKR = "jkr"
+    DMT = "dmt"
+    MAUGIS = "maugis"
+    CARPICK = "carpick"
+
+
+class Against(StrEnum):
+    """What the force is fitted against."""
+
+    RADIUS = "radius"
+    DEPTH = "depth"
+
+
+@identify.command("slow")
+def slow_command(
+    files: TestFiles,
+    radius: Annotated[
+        str,
+        Option("--radius", metavar="LENGTH", help='Of the sphere, "5.19 mm".', show_default=False),
+    ],
+    cycle: Annotated[
+        int, Option("--cycle", metavar="N", help="Which cycle of the files, from 1 on.")
+    ] = 1,
+    models: Annotated[
+        list[Model] | None,
+        Option("--model", help="Models to compare; else all four.", show_default=False),
+    ] = None,
+    against: Annotated[
+        Against | None,
+        Option(
+            "--against",
+            help="Contact radius or depth; else the radius where the file has one.",
+            show_default=False,
+        ),
+    ] = None,
+    modulus: Annotated[
+        str | None,
+        Option(
+            "--contact-modulus",
+            metavar="PRESSURE",
+            help='E0* of the relaxed solid, known from elsewhere, "1.94 MPa"; else it is fitted.',
+        ),
+    ] = None,
+    modulus_uncertainty: Annotated[
+        str | None,
+        Option(
+            "--contact-modulus-uncertainty",
+            metavar="PRESSURE",
+            help="Standard uncertainty of it; goes with it.",
+        ),
+    ] = None,
+    level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
+    plot_file: PlotFile = None,
+    format: Format = None,
+    force_unit: ForceUnit = None,
+    length_unit: LengthUnit = None,
+    time_unit: TimeUnit = None,
+    force_column: ForceColumn = None,
+    position_column: PositionColumn = None,
+    decimal: Decimal = None,
+    nominal_speed: NominalSpeed = None,
+    compliance: Compliance = None,
+    compliance_uncertainty: ComplianceUncertainty = None,
+    into: Into = None,
+    compression: Compression = None,
+    retraction_only: RetractionOnly = False,
+    as_json: AsJson = False,
+) -> None:
+    """Find work of adhesion and Tabor number from one slow retraction of a sphere.
+
+    JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
+    against depth, and compared by an information criterion; intervals are profile likelihoods.
+    What the data cannot tell is said in words. A test that is not slow reads the range of
+    attraction wrong: docs/tack_tests.md shows by how much.
+
+    Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
+    --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png
+    """
+    with wrong_input():
+        check_files({"--plot": plot_file}, as_json=as_json, reads=files)
+        reading = reading_of(
+            format,
+            (force_unit, length_unit, time_unit),
+            (force_column, position_column),
+            decimal,
+            nominal_speed,
+        )
+        evaluation = evaluation_of(
+            (compliance, compliance_uncertainty), (into, compression), retraction_only
+        )
+        from viscotack.identify import identify_slow, slow_test
+        from viscotack.lab.tack import survey
+        from viscotack.pictures.identify import draw_slow_test
+
+        found = survey(files, reading=reading, evaluation=evaluation)
+        if not found.cycles:
+            raise InputError(nothing(found))
+        if not 1 <= cycle <= len(found.cycles):
+            raise InputError(f"--cycle must be 1 to {len(found.cycles)}, got {cycle}")
+        test = slow_test(
+            found.cycles[cycle - 1],
+            parse(radius, "m"),
+            None if against is None else str(against),
+        )
+        fit = identify_slow(
+            test,
+            models=[str(model) for model in models or Model],
+            contact_modulus=_pair("--contact-modulus", (modulus, modulus_uncertainty), "Pa"),
+            level=level,
+        )
+    write = Writing()
+    write.picture(plot_file, lambda: draw_slow_test(fit))
+    for path, why in reasons_of(found):
+        typer.echo(f"refused: {path}: {why}", err=True)
+    write.answer(_as_json(fit) if as_json else _words(fit))
+    write.end()
+
+
+@identify.command("rates")
+def rates_command(
+    files: TestFiles,
+    passport: Annotated[
+        str,
+        Option(
+            "--material",
+            metavar="PASSPORT",
+            help="A material passport, or the name of a published material.",
+            show_default=False,
+        ),
+    ],
+    radius: Annotated[
+        str,
+        Option("--radius", metavar="LENGTH", help='Of the sphere, "5.19 mm".', show_default=False),
+    ],
+    preload: Annotated[
+        str | None,
+        Option(
+            "--preload",
+            metavar="FORCE",
+            help='Under which the contact relaxed, "1.5 mN"; else the force where retractions '
+            "begin.",
+        ),
+    ] = None,
+    work: Annotated[
+        str | None,
+        Option(
+            "--work-of-adhesion",
+            metavar="ENERGY/AREA",
+            help='Known from a slow test, "152 mJ/m2"; else it is fitted with nothing known of it.',
+        ),
+    ] = None,
+    work_uncertainty: Annotated[
+        str | None,
+        Option(
+            "--work-of-adhesion-uncertainty",
+            metavar="ENERGY/AREA",
+            help="Standard uncertainty of it; goes with it.",
+        ),
+    ] = None,
+    level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
+    plot_file: PlotFile = None,
+    format: Format = None,
+    force_unit: ForceUnit = None,
+    length_unit: LengthUnit = None,
+    time_unit: TimeUnit = None,
+    force_column: ForceColumn = None,
+    position_column: PositionColumn = None,
+    decimal: Decimal = None,
+    nominal_speed: NominalSpeed = None,
+    into: Into = None,
+    compression: Compression = None,
+    retraction_only: RetractionOnly = False,
+    as_json: AsJson = False,
+) -> None:
+    """Find work of adhesion and range of attraction from pull-offs at several speeds.
+
+    Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
+    steady viscoelastic crack is fitted to them, with the material taken as exact. What the data
+    cannot tell, and where such an interface does not give the forces, is said in words.
+
+    Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
+    """
+    with wrong_input():
+        check_files({"--plot": plot_file}, as_json=as_json, reads=files)
+        reading = reading_of(
+            format,
+            (force_unit, length_unit, time_unit),
+            (force_column, position_column),
+            decimal,
+            nominal_speed,
+        )
+        evaluation = evaluation_of((None, None), (into, compression), retraction_only)
+        from viscotack.identify import identify_rates, pull_offs
+        from viscotack.lab.tack import survey
+        from viscotack.pictures.identify import draw_rate_series
+
+        solid = passport_of(passport).material
+        found = survey(files, reading=reading, evaluation=evaluation)
+        if not found.cycles:
+            raise InputError(nothing(found))
+        series = pull_offs(found.cycles)
+        begins = [float(one.force[one.segments.retract]) for one in found.cycles]
+        fit = identify_rates(
+            series,
+            material=solid,
+            radius=parse(radius, "m"),
+            preload=float(median(begins)) if preload is None else parse(preload, "N"),
+            work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
+            level=level,
+        )
+    write = Writing()
+    write.picture(plot_file, lambda: draw_rate_series(series, fit))
+    for path, why in reasons_of(found):
+        typer.echo(f"refused: {path}: {why}", err=True)
+    if as_json:
+        write.answer(json.dumps(_rates(series, fit), indent=2, allow_nan=False))
+    else:
+        rows = [
+            f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
+            for one, force in zip(series, fit.forces, strict=True)
+        ]
+        write.answer("\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"]))
+    write.end()
+
+
+def _rates(series: Any, fit: Any) -> dict[str, Any]:
+    return {
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "equilibrium_gap_m": fit.equilibrium_gap,
+        "tabor": fit.tabor,
+        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
+        "scatter": fit.scatter,
+        "series": [
+            {
+                "speed_m_s": one.speed,
+                "pull_off_force_N": one.force.value,
+                "pull_off_force_N_uncertainty": one.force.uncertainty,
+                "fitted_N": force,
+            }
+            for one, force in zip(series, fit.forces, strict=True)
+        ],
+        "words": list(fit.words),
+    }
+
+
+def _pair(flag: str, words: tuple[str | None, str | None], unit: str) -> tuple[float, float] | None:
+    """Return a number known from elsewhere and its uncertainty."""
+    value, uncertainty = words
+    if (value is None) != (uncertainty is None):
+        raise InputError(f"{flag} and {flag}-uncertainty go together; say both or neither")
+    if value is None or uncertainty is None:
+        return None
+    return parse(value, unit), parse(uncertainty, unit)
+
+
+def _as_json(fit: Any) -> str:
+    fits = [
+        {
+            "model": one.model,
+            "work_of_adhesion_J_m2": one.work_of_adhesion,
+            "contact_modulus_Pa": one.contact_modulus,
+            "tabor": one.tabor,
+            "scatter_N": one.scatter,
+            "criterion": one.criterion,
+            "intervals": {name: asdict(interval) for name, interval in one.intervals.items()},
+        }
+        for one in fit.fits
+    ]
+    answer = {
+        "against": fit.test.against,
+        "points": int(fit.test.force.size),
+        "level": fit.level,
+        "evidence": fit.evidence,
+        "fits": fits,
+        "words": list(fit.words),
+    }
+    return json.dumps(answer, indent=2, allow_nan=False)
+
+
+def _words(fit: Any) -> str:
+    lines = [f"Force against {fit.test.against}, {fit.test.force.size} points"]
+    for one in fit.fits:
+        tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
+        lines.append(
+            f"  {one.model:8} {one.work_of_adhesion:.4g} J/m2, E0* {one.contact_modulus:.4g} Pa"
+            f"{tabor}; scatter {one.scatter:.2g} N, criterion {one.criterion:.1f}"
+        )
+    return "\n".join([*lines, *fit.words, f"Chosen by: {fit.evidence}"])

@@ -1,0 +1,193 @@
+"""Where a measured curve, a model and a prior meet: one objective for every way of asking it.
+
+The curve knows nothing of the model, the model nothing of the data. Least squares, profile
+likelihood and sampling all ask this object, and so agree on what is likely.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+from scipy.stats import chi2
+
+from viscotack.errors import InputError
+
+Array = npt.NDArray[np.float64]
+Residuals = Callable[[Mapping[str, float]], Array]
+
+_STEPS = 12  # of a profile on either side
+_BEYOND = 1e-9
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One unknown, searched between bounds; in its logarithm where it is positive.
+
+    Parameters
+    ----------
+    name : str
+        As the model has it.
+    low, high : float
+        Bounds, beyond which nothing is looked for.
+    start : float
+        Where the search begins.
+    logarithmic : bool
+        Whether the search is one of the logarithm.
+    prior : (float, float), optional
+        Value and standard uncertainty known from elsewhere: a normal law of the number, or of its
+        logarithm where that is searched (the uncertainty then is relative).
+    """
+
+    name: str
+    low: float
+    high: float
+    start: float
+    logarithmic: bool = True
+    prior: tuple[float, float] | None = None
+
+    def __post_init__(self):
+        if not self.low < self.start < self.high or (self.logarithmic and self.low <= 0):
+            raise InputError(
+                f"{self.name}: the start {self.start:g} must lie between {self.low:g} and "
+                f"{self.high:g}"
+            )
+
+    def inner(self, value: float) -> float:
+        """Return the number that is searched."""
+        return float(np.log(value)) if self.logarithmic else value
+
+    def outer(self, inner: float) -> float:
+        """Return the parameter."""
+        return float(np.exp(inner)) if self.logarithmic else float(inner)
+
+
+@dataclass(frozen=True)
+class Best:
+    """The most likely parameters, and how likely they are.
+
+    Parameters
+    ----------
+    values : mapping
+        Parameter -> value.
+    misfit : float
+        Sum of squares of residuals and priors, in standard deviations.
+    points : int
+        Residuals.
+    """
+
+    values: Mapping[str, float]
+    misfit: float
+    points: int
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Between which a parameter lies, and whether the data say so on either side.
+
+    Parameters
+    ----------
+    low, high : float
+        Ends of the interval; the bound of the search where the data do not end it.
+    closed_below, closed_above : bool
+        Whether the data end it there.
+    """
+
+    low: float
+    high: float
+    closed_below: bool
+    closed_above: bool
+
+    @property
+    def told(self) -> bool:
+        """Whether the data end the interval on both sides."""
+        return self.closed_below and self.closed_above
+
+
+@dataclass(frozen=True)
+class Objective:
+    """Residuals in standard deviations, of a model with these parameters."""
+
+    residuals: Residuals
+    parameters: tuple[Parameter, ...]
+
+    def log_density(self, inner: Array) -> float:
+        """Return the logarithm of likelihood and prior, up to a constant; for a sampler."""
+        for parameter, x in zip(self.parameters, inner, strict=True):
+            if not parameter.inner(parameter.low) <= x <= parameter.inner(parameter.high):
+                return -np.inf
+        rest = self._rest(inner, self.parameters, {})
+        return -0.5 * float(rest @ rest)
+
+    def best(self, held: Mapping[str, float] | None = None, near: Best | None = None) -> Best:
+        """Return the least sum of squares, with some of the parameters held."""
+        held = held or {}
+        free = tuple(p for p in self.parameters if p.name not in held)
+        if not free:
+            rest = self._rest(np.zeros(0), free, held)
+            return Best(dict(held), float(rest @ rest), rest.size)
+        start = [p.inner(p.start if near is None else near.values[p.name]) for p in free]
+        low = np.array([p.inner(p.low) for p in free])
+        high = np.array([p.inner(p.high) for p in free])
+        margin = _BEYOND * (high - low)
+        found = least_squares(
+            self._rest,
+            np.clip(start, low + margin, high - margin),
+            bounds=(low, high),
+            args=(free, held),
+            x_scale=np.array([1.0 if p.logarithmic else (p.high - p.low) / 10 for p in free]),
+            diff_step=1e-5,
+        )
+        values = {p.name: p.outer(x) for p, x in zip(free, found.x, strict=True)}
+        return Best(values | dict(held), 2 * float(found.cost), found.fun.size)
+
+    def interval(self, name: str, best: Best, level: float = 0.9) -> Interval:
+        """Return the profile likelihood interval of one parameter.
+
+        All other parameters are fitted again at each value tried.
+        """
+        (parameter,) = (p for p in self.parameters if p.name == name)
+        limit = best.misfit + float(chi2.ppf(level, 1))
+        middle = parameter.inner(best.values[name])
+        ends = []
+        for bound in (parameter.low, parameter.high):
+            ends.append(self._end(parameter, middle, parameter.inner(bound), limit, best))
+        (low, below), (high, above) = ends
+        return Interval(parameter.outer(low), parameter.outer(high), below, above)
+
+    def _end(
+        self, parameter: Parameter, middle: float, bound: float, limit: float, best: Best
+    ) -> tuple[float, bool]:
+        """Return where the misfit passes its limit between the best value and a bound."""
+
+        def misfit(inner: float, near: Best) -> Best:
+            return self.best({parameter.name: parameter.outer(inner)}, near)
+
+        inside, near = middle, best
+        # steps that grow, from a small part of the way: an interval may be as narrow or as wide
+        for part in np.geomspace(2e-3, 1.0, _STEPS):
+            outside = middle + part * (bound - middle)
+            found = misfit(outside, near)
+            if found.misfit > limit:
+                break
+            inside, near = outside, found
+        else:
+            return bound, False
+        for _ in range(8):
+            half = (inside + outside) / 2
+            found = misfit(half, near)
+            if found.misfit > limit:
+                outside = half
+            else:
+                inside, near = half, found
+        return (inside + outside) / 2, True
+
+    def _rest(self, inner: Array, free: tuple[Parameter, ...], held: Mapping[str, float]) -> Array:
+        values = {p.name: p.outer(x) for p, x in zip(free, inner, strict=True)} | dict(held)
+        priors = [
+            (p.inner(values[p.name]) - p.inner(p.prior[0])) / p.prior[1]
+            for p in self.parameters
+            if p.prior is not None
+        ]
+        return np.concatenate([self.residuals(values), priors])

@@ -1,0 +1,419 @@
+r"""The interface from a slow test: which elastic model, with which work of adhesion and range.
+
+A slow test is one in which the solid is relaxed everywhere, the edge of the contact included.
+Every model is fitted to the same points; the Bayesian information criterion
+:math:`\chi^2 + k \ln n` is the evidence (twice the logarithm of a Bayes factor where each parameter
+has a wide prior), with the scatter of the best model for all. Intervals are profile likelihoods.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.lab.tack import Cycle
+from viscotack.theory import maugis, transition
+
+from .contacts import MODELS, ElasticModel
+from .objective import Best, Interval, Objective, Parameter
+
+Array = npt.NDArray[np.float64]
+
+_FEWEST = 12  # points
+_MOST = 300
+_DIFFERENT = 6.0  # of the criterion: strong evidence
+_HOPELESS = 20.0  # of the criterion: no intervals are looked for
+_LOUD = 2.0  # residuals over the noise: no elastic law holds
+_LAMBDA = (0.02, 60.0)  # Maugis parameters that are looked at
+_TRANSITION = (1e-3, 0.979)
+
+
+@dataclass(frozen=True, eq=False)
+class SlowTest:
+    """Points of a slow retraction, up to the pull-off.
+
+    Parameters
+    ----------
+    force : array_like, shape (N,)
+        Compression positive [N].
+    at : array_like, shape (N,)
+        Contact radius or depth [m].
+    against : {"radius", "depth"}
+        Which of them it is. A depth has an unknown zero, which is fitted.
+    radius : float
+        Of the sphere [m].
+    force_noise : float
+        Standard deviation of single forces [N].
+    at_noise : float
+        Of single radii or depths [m].
+    """
+
+    force: Array
+    at: Array
+    against: str
+    radius: float
+    force_noise: float
+    at_noise: float = 0.0
+
+    def __post_init__(self):
+        for name in ("force", "at"):
+            row = np.array(getattr(self, name), dtype=float)
+            row.flags.writeable = False
+            object.__setattr__(self, name, row)
+        if self.against not in ("radius", "depth"):
+            raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
+        if self.force.shape != self.at.shape or self.force.ndim != 1:
+            raise InputError("force and radius or depth must be rows of one length")
+        if self.force.size < _FEWEST:
+            raise InputError(f"{self.force.size} points; a fit needs {_FEWEST}")
+        if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):
+            raise InputError("forces and radii or depths must be finite")
+        if not (0 < self.radius < np.inf and 0 < self.force_noise < np.inf):
+            raise InputError(
+                f"radius and force_noise must be positive, got {self.radius} m and "
+                f"{self.force_noise} N"
+            )
+        if self.against == "radius" and np.any(self.at <= 0):
+            raise InputError(f"contact radii must be positive, got {self.at.min():g} m")
+        if not self.force.min() < 0:
+            raise InputError("no force is tensile: without a pull nothing is known of adhesion")
+
+
+def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTest:
+    """Return the retraction of a cycle up to its pull-off, for a fit.
+
+    `against` is "radius" where a camera gave contact radii, else "depth".
+    """
+    points = np.arange(cycle.segments.retract, cycle.pull_off_at + 1)
+    size = cycle.contact_radius
+    if against is None:
+        against = "depth" if size is None else "radius"
+    if against == "radius" and size is None:
+        raise InputError("the test has no contact radius; fit against the depth")
+    at = cycle.depth if against == "depth" or size is None else size
+    points = points[np.isfinite(at[points]) & ((against == "depth") | (at[points] > 0))]
+    if points.size < _FEWEST:
+        raise InputError(f"{points.size} points up to the pull-off; a fit needs {_FEWEST}")
+    chosen = points[np.unique(np.linspace(0, points.size - 1, _MOST, dtype=int))]
+    noise = max(cycle.noise, 1e-6 * cycle.pull_off_force.value)
+    return SlowTest(cycle.force[chosen], at[chosen], against, radius, noise)
+
+
+@dataclass(frozen=True)
+class ModelFit:
+    """One model fitted to a slow test.
+
+    Parameters
+    ----------
+    model : str
+        "jkr", "dmt", "maugis" or "carpick".
+    work_of_adhesion, contact_modulus : float
+        [J/m2] and [Pa].
+    tabor : float or None
+        Tabor number of a Lennard-Jones contact with the same work and strength; None for the
+        limits, which have none.
+    intervals : dict of str to Interval
+        Of the same names, by profile likelihood; empty where another model is far more likely.
+    scatter : float
+        Standard deviation of the residuals [N].
+    criterion : float
+        Bayesian information criterion; smaller is better.
+    values : mapping
+        All that was fitted, by the names of the model.
+    """
+
+    model: str
+    work_of_adhesion: float
+    contact_modulus: float
+    tabor: float | None
+    intervals: dict[str, Interval]
+    scatter: float
+    criterion: float
+    values: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class SlowTestFit:
+    """What a slow test says of the interface.
+
+    Parameters
+    ----------
+    test : SlowTest
+        What was fitted.
+    fits : tuple of ModelFit
+        Best first.
+    level : float
+        Confidence level of the intervals.
+    evidence : str
+        By what the model was chosen.
+    words : tuple of str
+        What the data say and what they cannot tell.
+    """
+
+    test: SlowTest
+    fits: tuple[ModelFit, ...]
+    level: float
+    evidence: str
+    words: tuple[str, ...]
+
+    @property
+    def best(self) -> ModelFit:
+        """The model that the evidence prefers."""
+        return self.fits[0]
+
+
+def identify_slow(
+    test: SlowTest,
+    *,
+    models: Sequence[str] = tuple(MODELS),
+    contact_modulus: tuple[float, float] | None = None,
+    level: float = 0.9,
+) -> SlowTestFit:
+    """Return the elastic models fitted to a slow test, chosen by evidence.
+
+    Parameters
+    ----------
+    test : SlowTest
+        Forces against contact radii or depths.
+    models : sequence of str
+        Names out of "jkr", "dmt", "maugis" and "carpick".
+    contact_modulus : (float, float), optional
+        E0* of the relaxed solid [Pa] and its standard uncertainty [Pa], from a material passport.
+        Otherwise it is fitted with nothing known of it.
+    level : float
+        Confidence level of the intervals.
+
+    Raises
+    ------
+    ValueError
+        If a model is not known, or has no depth where the test is one of depths.
+
+    Notes
+    -----
+    A test at a speed at which the edge is a viscoelastic crack is NOT slow: its energy at the edge
+    changes along the curve, and an elastic fit takes that for a range of attraction. The words
+    tell of residuals beyond the noise; docs/tack_tests.md shows the error.
+
+    Examples
+    --------
+    >>> sphere = dict(radius=5e-3, contact_modulus=1e6, work_of_adhesion=0.15)
+    >>> a = np.linspace(1.6e-4, 4e-4, 40)
+    >>> force = jkr.force(a, **sphere) + 1e-6 * np.cos(np.arange(40) ** 2)
+    >>> fit = identify_slow(SlowTest(force, a, "radius", 5e-3, 1e-6), models=["jkr", "dmt"])
+    >>> fit.best.model, f"{fit.best.work_of_adhesion:.3f} J/m2"
+    ('jkr', '0.150 J/m2')
+    """
+    if not 0 < level < 1:
+        raise InputError(f"level must lie between 0 and 1, got {level!r}")
+    if contact_modulus is not None and not (0 < contact_modulus[1] < contact_modulus[0] < np.inf):
+        raise InputError(
+            "contact_modulus must be a value and a smaller uncertainty [Pa], got "
+            f"{contact_modulus!r}"
+        )
+    chosen = [_known(name, test) for name in dict.fromkeys(models)]
+    chosen = [model for model in chosen if test.against == "radius" or model.by_depth is not None]
+    if not chosen:
+        raise InputError("Carpick's equation has no depth: fit another model, or against radii")
+    sigma = _sigma(test)
+    first = [_objective(model, test, sigma, contact_modulus) for model in chosen]
+    bests = [_found(objective) for objective in first]
+    # the scatter of the best model is that of the data, if it is more than the noise
+    least = min(bests, key=lambda best: best.misfit)
+    size = max(np.sqrt(least.misfit / max(test.force.size - 3, 1)), 1e-6)
+    fits = []
+    for model, best in zip(chosen, bests, strict=True):
+        objective = _objective(model, test, size * sigma, contact_modulus)
+        refined = objective.best(near=best)
+        fits.append((_criterion(refined, objective, test), model, objective, refined))
+    fits.sort(key=lambda fit: fit[0])
+    fits = [
+        _model_fit(*rest, criterion, test, level, size)
+        if criterion < fits[0][0] + _HOPELESS
+        else _model_fit(*rest, criterion, test, None, size)
+        for criterion, *rest in fits
+    ]
+    return SlowTestFit(
+        test,
+        tuple(fits),
+        level,
+        "Bayesian information criterion, chi2 + k ln n, with the scatter of the best model",
+        tuple(_words(test, fits, size, level)),
+    )
+
+
+def _known(name: str, test: SlowTest) -> ElasticModel:
+    if name not in MODELS:
+        raise InputError(f"models are {', '.join(MODELS)}; got {name!r}")
+    return MODELS[name]
+
+
+def _sigma(test: SlowTest) -> Array:
+    """Return the uncertainty of each force, that of its radius or depth included [N]."""
+    if not test.at_noise:
+        return np.full(test.force.size, test.force_noise)
+    order = np.argsort(test.at)
+    smooth = np.polynomial.Polynomial.fit(test.at[order], test.force[order], 4)
+    return np.hypot(test.force_noise, test.at_noise * smooth.deriv()(test.at))
+
+
+def _objective(
+    model: ElasticModel, test: SlowTest, sigma: Array, modulus: tuple[float, float] | None
+) -> Objective:
+    w, E = _start(test, None if modulus is None else modulus[0])
+    prior = None if modulus is None else (modulus[0], modulus[1] / modulus[0])
+    parameters = [
+        Parameter("work_of_adhesion", 1e-3 * w, 1e3 * w, w),
+        Parameter("contact_modulus", 1e-3 * E, 1e3 * E, E, prior=prior),
+    ]
+    if model.range_parameter == "maugis_parameter":
+        parameters.append(Parameter("maugis_parameter", *_LAMBDA, 1.0))
+    if model.range_parameter == "transition":
+        parameters.append(Parameter("transition", *_TRANSITION, 0.6, logarithmic=False))
+    if test.against == "depth":
+        scale = float(np.ptp(test.at)) + (test.radius * w**2 / E**2) ** (1 / 3)
+        parameters.append(Parameter("zero", -scale, scale, 0.01 * scale, logarithmic=False))
+    return Objective(partial(_residuals, model, test, sigma), tuple(parameters))
+
+
+def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
+    """Return the forces of a fitted model at the radii or depths of a test [N]."""
+    return _force(MODELS[fit.model], test, fit.values)
+
+
+def _force(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
+    if test.against == "radius":
+        return model.by_radius(test.at, values, test.radius)
+    assert model.by_depth is not None, "models without a depth were left out"
+    return model.by_depth(test.at - values["zero"], values, test.radius)
+
+
+def _residuals(
+    model: ElasticModel, test: SlowTest, sigma: Array, values: Mapping[str, float]
+) -> Array:
+    return (_force(model, test, values) - test.force) / sigma
+
+
+def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
+    """Return a work of adhesion and a contact modulus to begin with."""
+    R, pull = test.radius, -float(test.force.min())
+    w = pull / (1.5 * np.pi * R)
+    if modulus is not None:
+        return w, modulus
+    top = int(np.argmax(test.at))
+    if test.against == "radius":
+        # JKR at the largest radius, solved for the root of the modulus
+        a, P = float(test.at[top]), float(test.force[top])
+        b, c = np.sqrt(8 * np.pi * a**3 * w), 4 * a**3 / (3 * R)
+        return w, float(((b + np.sqrt(max(b**2 + 4 * c * P, 0.0))) / (2 * c)) ** 2)
+    span = float(np.ptp(test.at))
+    return w, float(0.75 * np.ptp(test.force) / np.sqrt(R) / max(span, 1e-12) ** 1.5)
+
+
+def _found(objective: Objective) -> Best:
+    """Return the best of several starts: the range of attraction has more than one valley."""
+    starts = [objective.best()]
+    for parameter in objective.parameters:
+        if parameter.name in ("maugis_parameter", "transition"):
+            low, high = parameter.inner(parameter.low), parameter.inner(parameter.high)
+            for part in (0.15, 0.4, 0.65, 0.9):
+                held = {parameter.name: parameter.outer(low + part * (high - low))}
+                starts.append(objective.best(near=objective.best(held)))
+    return min(starts, key=lambda best: best.misfit)
+
+
+def _criterion(best: Best, objective: Objective, test: SlowTest) -> float:
+    return best.misfit + len(objective.parameters) * float(np.log(test.force.size))
+
+
+def _model_fit(
+    model: ElasticModel,
+    objective: Objective,
+    best: Best,
+    criterion: float,
+    test: SlowTest,
+    level: float | None,
+    size: float,
+) -> ModelFit:
+    """Return a fit; without a level no intervals are looked for."""
+    intervals = {}
+    if level is not None:
+        names = ["work_of_adhesion", "contact_modulus"]
+        intervals = {name: objective.interval(name, best, level) for name in names}
+    tabor = None
+    if (name := model.range_parameter) is not None:
+        tabor = _tabor(name, best.values[name])
+        if level is not None:
+            ends = objective.interval(name, best, level)
+            intervals["tabor"] = Interval(
+                _tabor(name, ends.low), _tabor(name, ends.high), ends.closed_below,
+                ends.closed_above,
+            )  # fmt: skip
+    rest = objective.residuals(best.values)
+    return ModelFit(
+        model.name,
+        best.values["work_of_adhesion"],
+        best.values["contact_modulus"],
+        tabor,
+        intervals,
+        float(np.sqrt(np.mean(rest**2))) * size * test.force_noise,
+        criterion,
+        best.values,
+    )
+
+
+def _tabor(name: str, value: float) -> float:
+    """Return the Tabor number of a Lennard-Jones contact of the same work and strength."""
+    lam = value if name == "maugis_parameter" else float(transition.maugis_parameter(value))
+    return lam / float(maugis.parameter_from_tabor(1.0))
+
+
+def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> list[str]:
+    best = fits[0]
+    said = []
+    w, ends = best.work_of_adhesion, best.intervals["work_of_adhesion"]
+    said.append(
+        f"work of adhesion {w:.4g} J/m2 ({ends.low:.4g} to {ends.high:.4g}, {level:.0%}) by "
+        f"{best.model.upper()}"
+    )
+    alike = [fit.model.upper() for fit in fits[1:] if fit.criterion - best.criterion < _DIFFERENT]
+    if alike:
+        said.append(
+            f"the data do not tell {best.model.upper()} from {' and '.join(alike)} (criteria "
+            f"within {_DIFFERENT:g})"
+        )
+    ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
+    if ranged is not None:
+        said.append(_of_range(ranged, level))
+    if size > _LOUD:
+        said.append(
+            f"residuals are {size:.2g} times the noise: no elastic law holds here. Was the test "
+            "slow? Energy lost at a viscoelastic edge looks like a longer range, and the Tabor "
+            "number above is then too small; take a slower test, or fit a rate series"
+        )
+    if test.against == "depth":
+        said.append("the zero of depth was fitted too: without a camera the range is told weakly")
+    return said
+
+
+def _of_range(fit: ModelFit, level: float) -> str:
+    ends = fit.intervals["tabor"]
+    name = fit.model.upper()
+    if ends.told:
+        return (
+            f"Tabor number {fit.tabor:.3g} ({ends.low:.3g} to {ends.high:.3g}, {level:.0%}) by "
+            f"{name}"
+        )
+    if ends.closed_below:
+        return (
+            f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); how far above, and "
+            "so the range of attraction, these data cannot tell: it is JKR for them"
+        )
+    if ends.closed_above:
+        return (
+            f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); how far below these "
+            "data cannot tell: it is DMT for them"
+        )
+    return f"these data cannot tell the range of attraction at all ({name})"

@@ -1,0 +1,382 @@
+"""From a record to its cycles: zero, tilt, drift and compliance taken off, bad curves refused.
+
+What a curve must show: a retraction that ends free of contact, a pull-off above the noise, more
+than one point at it, no force at the end of its range, a zero that is known better than the
+pull-off. Each refusal says which of them fails, with numbers.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+
+from .baseline import Baseline, baseline, free_after, free_before
+from .cycle import Cycle, Measured
+from .record import TackRecord
+from .segments import Segments, depth_of, force_sign, segments
+
+Array = npt.NDArray[np.float64]
+
+_POINTS = 20  # of a retraction
+_FREE = 8  # points out of contact at its end
+_FAR = 0.05  # of the way of the retraction: an approach that comes from outside
+_ABOVE = 5.0  # standard deviations of the noise: a pull-off that is seen
+_ZERO = 0.25  # of the pull-off: a zero no better known than this is none
+_LONE = 0.5  # of the pull-off: one point that far beyond both neighbours is none
+_CLIPPED = 8  # equal extreme values in a row while the drive moves ...
+_MOVED = 0.002  # ... by more than this part of its way
+_SLIDING = 0.1  # of the drive's way by which a corrected depth may turn back
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why a cycle of a record gives no numbers."""
+
+    number: int
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """The cycles of one record, and those that were refused."""
+
+    record: TackRecord
+    cycles: tuple[Cycle, ...]
+    refused: tuple[Refusal, ...]
+
+
+def evaluate(
+    record: TackRecord,
+    *,
+    compliance: float | None = None,
+    compliance_uncertainty: float = 0.0,
+    into: int = 0,
+    compression: int = 0,
+    retraction_only: bool = False,
+) -> Evaluation:
+    """Return the cycles of a record with their numbers.
+
+    Parameters
+    ----------
+    record : TackRecord
+        What :func:`viscotack.lab.tack.read` gives.
+    compliance : float, optional
+        Of frame, load cell and holder [m/N]: how far the drive moves for each newton while a
+        rigid contact would not. Otherwise that which the file names, or 0.
+    compliance_uncertainty : float
+        Standard uncertainty of it [m/N].
+    into : {1, -1, 0}
+        Whether larger positions are deeper; 0 lets heading or signal say.
+    compression : {1, -1, 0}
+        Sign of a compression in the file; 0 lets the signal say.
+    retraction_only : bool
+        Take cycles without an approach that begins free of contact: their zero of force is known
+        from after the pull-off only, and depth is zero where the force of the retraction is.
+
+    Returns
+    -------
+    Evaluation
+
+    Raises
+    ------
+    ValueError
+        If there is no retraction, or a sign cannot be told.
+    """
+    if compliance is not None and not 0 <= compliance < np.inf:
+        raise InputError(f"compliance must not be negative, got {compliance!r} m/N")
+    if not 0 <= compliance_uncertainty < np.inf:
+        raise InputError(
+            "the uncertainty of the compliance must not be negative, got "
+            f"{compliance_uncertainty!r} m/N"
+        )
+    try:
+        if len(record) < _POINTS:
+            raise InputError(f"{len(record)} points; a test needs {_POINTS} and more")
+        drive = depth_of(record, into)
+        found = segments(record.time, drive)
+        sign = force_sign(record.force, found)
+    except InputError as error:
+        raise _named(record, error) from None
+    if compression and compression != sign:
+        raise _named(
+            record,
+            InputError(
+                "a compression is said to be "
+                f"{'positive' if compression > 0 else 'negative'}, but the force falls from the "
+                "other side when the drive retracts"
+            ),
+        )
+    machine = record.compliance if compliance is None else compliance
+    cycles, refused = [], []
+    for number, part in enumerate(found, start=1):
+        try:
+            cycles.append(
+                _cycle(
+                    record,
+                    part,
+                    number,
+                    drive,
+                    sign,
+                    (machine, compliance_uncertainty),
+                    retraction_only,
+                )
+            )
+        except InputError as error:
+            refused.append(Refusal(number, str(error)))
+    return Evaluation(record, tuple(cycles), tuple(refused))
+
+
+def _named(record: TackRecord, error: InputError) -> InputError:
+    return InputError(f"{record.source.path}: {error}" if record.source.path else str(error))
+
+
+def _cycle(
+    record: TackRecord,
+    part: Segments,
+    number: int,
+    drive: Array,
+    sign: int,
+    machine: tuple[float, float],
+    retraction_only: bool,
+) -> Cycle:
+    """Return the numbers of one cycle."""
+    compliance, compliance_uncertainty = machine
+    span = slice(part.begin, part.end)
+    own = Segments(0, part.dwell - part.begin, part.retract - part.begin, part.end - part.begin)
+    time, way, raw = record.time[span], drive[span], sign * record.force[span]
+    back = slice(own.retract, own.end)
+    if own.end - own.retract < _POINTS:
+        raise InputError(
+            f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
+            "faster"
+        )
+    law, before, after = _zero(time, way, raw, own)
+    if not (before or retraction_only):
+        raise InputError(
+            "no approach that begins free of contact stands before the retraction: give the whole "
+            "test, or say --retraction-only"
+        )
+    force = raw - law.at(way, time)
+    _refuse_clipped(raw[back], force[back], way[back], law.noise)
+    at = own.retract + int(np.argmin(force[back]))
+    zero = law.uncertainty(float(way[at]), float(time[at]))
+    pull_off = _pull_off(force, at, own, law.noise, zero, after)
+    depth = way - compliance * force
+    _refuse_compliance(depth[back], way[back], compliance)
+    notes = [_words(law)]
+    touch, spread, how = _touch(depth, force, own, before, law.noise)
+    depth = depth - touch
+    notes.append(how)
+    if compliance:
+        notes.append(f"machine compliance {compliance:.4g} m/N taken off the depth")
+    crossing = _crossing(force, own.retract, at)
+    flat = _flat(depth, force, own, at, law.noise)
+    place = float(np.hypot(np.hypot(spread, flat), compliance_uncertainty * abs(force[at])))
+    deepest = force[: own.retract + 1]
+    top = int(np.argmax(deepest))
+    noise = float(np.hypot(law.noise, zero))
+    level, unsure = (
+        float(depth[own.retract]),
+        float(np.hypot(spread, compliance_uncertainty * abs(force[own.retract]))),
+    )
+    size = record.contact_radius
+    return Cycle(
+        number=number,
+        time=time,
+        force=force,
+        depth=depth,
+        contact_radius=None if size is None else size[span],
+        segments=own,
+        pull_off_force=pull_off,
+        pull_off_raw=-float(raw[at]),
+        pull_off_at=at,
+        pull_off_depth=Measured(float(depth[at]), place),
+        work_to_pull_off=_work(
+            depth, force, (crossing, at), law.noise, zero, compliance_uncertainty, flat
+        ),
+        work_of_separation=_work(
+            depth, force, (crossing, own.end - after), law.noise, zero, compliance_uncertainty
+        ),
+        preload=Measured(float(deepest[top]), noise),
+        preload_depth=Measured(level, unsure),
+        dwell_time=float(time[own.retract] - time[own.dwell]),
+        speed=_speed(time, way, crossing, at),
+        mean_speed=_speed(time, way, own.retract, own.end - 1),
+        approach_speed=_approach_speed(time, way, own),
+        noise=law.noise,
+        source=record.source.noted(*notes),
+    )
+
+
+def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
+    """Refuse a force that stands still at its extreme, away from zero, while the drive moves."""
+    for word, value in (("tension", raw.min()), ("compression", raw.max())):
+        equal = np.flatnonzero(raw == value)
+        runs = np.split(equal, np.flatnonzero(np.diff(equal) > 1) + 1)
+        longest = max(runs, key=len)
+        moved = abs(way[longest[-1]] - way[longest[0]])
+        away = abs(force[longest[0]]) > _ABOVE * noise
+        if len(longest) >= _CLIPPED and moved > _MOVED * np.ptp(way) and away:
+            raise InputError(
+                f"the force stays at {value:.6g} N, its largest {word}, for {len(longest)} points "
+                "while the drive moves: the sensor or its amplifier is at the end of its range"
+            )
+
+
+def _zero(time: Array, way: Array, raw: Array, own: Segments) -> tuple[Baseline, int, int]:
+    """Return the law of the force out of contact, and how long it is free before and after."""
+    back = raw[own.retract : own.end]
+    after = min(free_after(back), back.size - int(np.argmin(back)) - 1)
+    if after < _FREE:
+        raise InputError(
+            f"the force does not come to rest after the pull-off ({max(after, 0)} free points): "
+            "retract further, or the contact still holds at the end"
+        )
+    before = free_before(raw[: own.retract]) if own.dwell else 0
+    far = abs(way[before - 1] - way[0]) >= _FAR * np.ptp(way[own.retract : own.end])
+    before = before if far and 2 * _FREE <= before < own.retract else 0
+    first = slice(0, int(0.9 * before)) if before else None
+    # right after the contact the rig may still swing
+    last = slice(own.end - max(int(0.9 * after), _FREE), own.end)
+    return baseline(raw, way, time, first, last), before, after
+
+
+def _pull_off(
+    force: Array, at: int, own: Segments, noise: float, zero: float, after: int
+) -> Measured:
+    value = -float(force[at])
+    if value <= _ABOVE * noise:
+        raise InputError(
+            f"no pull-off above the noise: the largest tension is {value:.3g} N, the noise "
+            f"{noise:.3g} N"
+        )
+    if at <= own.retract + 1:
+        raise InputError("the force is least where the retraction begins: nothing was pulled off")
+    if zero > _ZERO * value:
+        raise InputError(
+            f"the zero of the force is known within {zero:.3g} N only, the pull-off is {value:.3g} "
+            "N: a tilt or drift too large for the free parts of the curve"
+        )
+    before, behind = -float(force[at - 1]), -float(force[at + 1])
+    if max(before, behind) < (1 - _LONE) * value:
+        raise InputError(
+            f"the pull-off of {value:.3g} N is a single point, its neighbours are at {before:.3g} "
+            f"and {behind:.3g} N: a spike, or recorded too slowly"
+        )
+    between = max(abs(value - before), 0.0) / 2
+    found = Measured(value, float(np.sqrt(noise**2 + zero**2 + between**2)))
+    if found.uncertainty > _ZERO * value:
+        raise InputError(
+            f"the pull-off of {value:.3g} N is known within {found.uncertainty:.3g} N only: too "
+            "few points at it for the noise and the speed"
+        )
+    return found
+
+
+def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
+    """Refuse a compliance that makes the contact deeper while the drive goes back."""
+    if not compliance:
+        return
+    back = np.diff(depth)
+    if np.sum(back[back > 0]) > _SLIDING * np.ptp(way) + np.ptp(way) * 0.5:
+        raise InputError(
+            f"with a compliance of {compliance:.4g} m/N the depth grows while the drive retracts: "
+            "that is more than rig and sample have together"
+        )
+
+
+def _touch(
+    depth: Array, force: Array, own: Segments, before: int, noise: float
+) -> tuple[float, float, str]:
+    """Return the depth of first touch, its uncertainty, and how it was found."""
+    if before:
+        # the last point outside: what follows may have jumped into contact and bent the rig
+        at = before - 1
+        step = abs(float(depth[at] - depth[at - 1]))
+        return float(depth[at]), step, "depth is zero where the approach first feels a force"
+    back = slice(own.retract, own.end)
+    at = own.retract + int(np.argmax(force[back] < 0))
+    slope = abs(float(force[at] - force[max(at - 5, 0)]))
+    step = abs(float(depth[at] - depth[max(at - 5, 0)]))
+    spread = step * min(noise / slope, 1.0) if slope else step
+    return (
+        float(depth[at]),
+        spread + step / 5,
+        "no approach before contact: depth is zero where the force of the retraction is",
+    )
+
+
+def _crossing(force: Array, begin: int, at: int) -> int:
+    """Return the last point in compression before the pull-off, else where retraction begins."""
+    pressed = np.flatnonzero(force[begin:at] >= 0)
+    return begin + int(pressed[-1]) if pressed.size else begin
+
+
+def _flat(depth: Array, force: Array, own: Segments, at: int, noise: float) -> float:
+    """Return within which depth the force is least: a minimum is flat, and noise decides [m]."""
+    back = slice(own.retract, own.end)
+    alike = depth[back][force[back] <= force[at] + 2 * noise]
+    return float(np.ptp(alike) / np.sqrt(12) + abs(depth[at] - depth[at - 1]) / 2)
+
+
+def _work(
+    depth: Array,
+    force: Array,
+    ends: tuple[int, int],
+    noise: float,
+    zero: float,
+    compliance_uncertainty: float,
+    flat: float = 0.0,
+) -> Measured:
+    """Return the integral of -force d(depth) between two points [J]."""
+    d, F = depth[ends[0] : ends[1] + 1], force[ends[0] : ends[1] + 1]
+    steps = np.diff(d)
+    parts = (
+        noise * float(np.sqrt(np.sum(steps**2))),
+        zero * float(abs(d[-1] - d[0])),
+        # a compliance c adds c F dF, which is integrated at once
+        compliance_uncertainty * float(abs(F[-1] ** 2 - F[0] ** 2)) / 2,
+        # where the work ends
+        flat * float(abs(F[-1])),
+    )
+    value = float(np.sum((F[1:] + F[:-1]) / 2 * steps))
+    return Measured(value, float(np.sqrt(sum(part**2 for part in parts))))
+
+
+def _speed(time: Array, way: Array, begin: int, end: int) -> Measured:
+    """Return the slope of the line through depth against time [m/s], and how uneven it is."""
+    # a short way is made longer on both sides, to be more than the steps of the drive
+    while end - begin < 6 and (begin > 0 or end < time.size - 1):
+        begin, end = max(begin - 1, 0), min(end + 1, time.size - 1)
+    t, x = time[begin : end + 1], -way[begin : end + 1]
+    if np.ptp(t) <= 0:
+        raise InputError("time stands still in the retraction, so that the speed is not known")
+    whole = _slope(t, x)
+    middle = t.size // 2
+    halves = [_slope(t[part], x[part]) for part in (slice(0, middle + 1), slice(middle, None))]
+    rest = x - (x.mean() + whole * (t - t.mean()))
+    by_line = float(np.sqrt(np.mean(rest**2) / max(t.size - 2, 1)) / max(np.std(t), 1e-300))
+    return Measured(whole, float(np.hypot(by_line, abs(halves[1] - halves[0]) / np.sqrt(12))))
+
+
+def _slope(t: Array, x: Array) -> float:
+    u = t - t.mean()
+    return float(u @ x / max(u @ u, 1e-300))
+
+
+def _approach_speed(time: Array, way: Array, own: Segments) -> float | None:
+    if own.dwell < 4:
+        return None
+    quarter = slice(own.dwell // 4, 3 * own.dwell // 4 + 1)
+    return _slope(time[quarter], way[quarter])
+
+
+def _words(law: Baseline) -> str:
+    units = {"zero": "N", "tilt": "N/m", "drift": "N/s"}
+    said = ", ".join(
+        f"{term} {value:.4g} {units[term]}"
+        for term, value in zip(law.terms, law.coefficients, strict=True)
+    )
+    return f"taken off the force: {said}"

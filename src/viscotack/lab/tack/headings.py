@@ -1,0 +1,111 @@
+"""Headings of tack tests: force, travel, time and contact radius, as rigs name them.
+
+A heading is recognised or it is not; whether a column is the one that is meant its unit decides
+too, for instruments write the same word over volts. Texture analysers give forces in grams.
+"""
+
+import re
+import unicodedata
+from dataclasses import dataclass
+
+from viscotack.errors import InputError
+from viscotack.lab.quantities import bare, no_unit, scale
+
+# quantity -> words, in small letters without spaces, marks and accents
+_WORDS = {
+    "force": "force load normalforce kraft normalkraft standardkraft standardforce prufkraft last "
+    "axialforce fn forcenormale effort charge fuerza carga verticalforce contactforce tipforce",
+    "gap": "gap spalt spaltbreite messspalt measuringgap separation tipsampleseparation entrefer "
+    "plategap",
+    "depth": "depth indentation indentationdepth penetration penetrationdepth eindringtiefe "
+    "profondeur profundidad",
+    "travel": "travel extension displacement distance position crosshead crossheadtravel "
+    "crossheadposition traverse traversenweg weg standardweg standardtravel verschiebung "
+    "compressiveextension height zposition zheight deplacement desplazamiento stroke hub",
+    "time": "time zeit testtime testzeit prufzeit elapsedtime totaltime temps tiempo t",
+    "contact_radius": "contactradius kontaktradius rayondecontact",
+    "contact_diameter": "contactdiameter kontaktdurchmesser",
+    "contact_area": "contactarea kontaktflache airedecontact",
+}  # fmt: skip
+_BY_WORD = {word: name for name, words in _WORDS.items() for word in words.split()}
+POSITIONS = ("gap", "depth", "travel")
+SIZES = ("contact_radius", "contact_diameter", "contact_area")
+_SI = {
+    "force": "N",
+    "gap": "m",
+    "depth": "m",
+    "travel": "m",
+    "time": "s",
+    "contact_radius": "m",
+    "contact_diameter": "m",
+    "contact_area": "m^2",
+}
+STANDARD_GRAVITY = 9.80665  # m/s2: what a gram of force weighs
+_GRAMS = {"g": 1e-3, "gf": 1e-3, "kg": 1.0, "kgf": 1.0, "gram": 1e-3, "grams": 1e-3}
+_SECONDS = {"sec": "s", "secs": "s", "sek": "s", "seconds": "s", "Sec": "s"}
+_BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
+_COMMA = re.compile(r"(.*\S)\s*,\s*(\S+)")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What a heading means: the quantity, and its unit where the heading has it."""
+
+    quantity: str
+    unit: str
+
+
+def recognise(text: str) -> Heading | None:
+    """Return what a heading means, or None for a column that is not needed.
+
+    Examples
+    --------
+    >>> recognise("Normal Force [N]"), recognise("Standardweg")
+    (Heading(quantity='force', unit='N'), Heading(quantity='travel', unit=''))
+    >>> recognise("force_mN"), recognise("Load (V)") is None, recognise("Tensile strain") is None
+    (Heading(quantity='force', unit='mN'), True, True)
+    """
+    text = text.strip().strip('"').strip()
+    if (whole := _BY_WORD.get(_plain(text))) is not None:
+        return Heading(whole, "")
+    for pattern in (_BRACKET, _COMMA):
+        match = pattern.fullmatch(text)
+        name = _BY_WORD.get(_plain(match[1])) if match else None
+        if match and name:
+            return Heading(name, bare(match[2])) if measures(match[2], name) else None
+    for place in re.finditer("_", text):
+        name, unit = _BY_WORD.get(_plain(text[: place.start()])), text[place.end() :]
+        if name is not None and not no_unit(unit) and measures(unit, name):
+            return Heading(name, unit)
+    return None
+
+
+def factor(unit: str, quantity: str) -> float:
+    """Return the factor that takes numbers in a unit to SI; grams of force are weighed.
+
+    Examples
+    --------
+    >>> factor("mm", "gap"), round(factor("g", "force"), 6)
+    (0.001, 0.009807)
+    """
+    plain = bare(unit)
+    if quantity == "force" and plain in _GRAMS:
+        return _GRAMS[plain] * STANDARD_GRAVITY
+    return scale(_SECONDS.get(plain, plain), _SI[quantity])
+
+
+def measures(unit: str, quantity: str) -> bool:
+    """Return whether numbers of a quantity can be in this unit; no unit may be any."""
+    if no_unit(unit):
+        return True
+    try:
+        factor(unit, quantity)
+    except InputError:
+        return False
+    return True
+
+
+def _plain(text: str) -> str:
+    """Return a heading in small letters without spaces, hyphens, dots, underscores and accents."""
+    text = unicodedata.normalize("NFKD", text).casefold().replace("ß", "ss")
+    return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")

@@ -1,0 +1,109 @@
+"""Layout of Igor binary waves (.ibw, version 5) as Asylum Research microscopes save force curves.
+
+A header of fixed places, columns of numbers, a note in text with the spring constant and the rate
+of recording, and the names of the columns: deflection and height of the sensor, in metres.
+"""
+
+import re
+import struct
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LabFile
+from viscotack.lab.sweeps import Source
+
+from .record import TackRecord
+
+Array = npt.NDArray[np.float64]
+
+START = b"\x05\x00"  # version 5, written by a processor of the usual order of bytes
+_HEAD = struct.Struct("<hHiiii4i4iiii")
+_DATA = 384  # bytes of both headers
+_TYPES = {2: "<f4", 4: "<f8"}
+_LABEL = 32  # bytes
+_MOST = 5_000_000
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is another one."""
+    known = file.content.startswith(START) and not file.lines and len(file.content) > _DATA
+    return "ibw" if known else None
+
+
+def records(file: LabFile) -> list[TackRecord]:
+    """Return the force curve of a wave.
+
+    Raises
+    ------
+    ValueError
+        If the wave is cut, of another kind, or was not calibrated.
+    """
+    columns, note = _wave(file)
+    for needed in ("Defl", "ZSnsr"):
+        if needed not in columns:
+            raise file.error(
+                f"no column is called {needed}; the columns are {', '.join(columns) or 'not named'}"
+            )
+    stiffness, rate = _noted(file, note, "SpringConstant"), _noted(file, note, "NumPtsPerSec")
+    deflection, height = columns["Defl"], columns["ZSnsr"]
+    keep = np.isfinite(deflection) & np.isfinite(height)
+    time = np.arange(1, height.size + 1) / rate
+    notes = (f"cantilever of {stiffness:.4g} N/m, whose bending is taken off the height",)
+    try:
+        return [
+            TackRecord(
+                time[keep],
+                stiffness * deflection[keep],
+                height[keep],
+                # the sensor's number grows when the tip is lowered
+                into=1,
+                compliance=1 / stiffness,
+                source=Source(file.path, file.sha256, "ibw", (*file.notes, *notes)),
+            )
+        ]
+    except InputError as error:
+        raise file.error(str(error)) from None
+
+
+def _wave(file: LabFile) -> tuple[dict[str, Array], str]:
+    """Return the named columns of a wave, and its note."""
+    content = file.content
+    if len(content) <= _DATA or not content.startswith(START):
+        raise file.error("expected an Igor binary wave of version 5")
+    head = _HEAD.unpack_from(content)
+    size, formula, note, units, dimension_units = head[2], head[3], head[4], head[5], head[6:10]
+    labels = head[10:14]
+    points, kind = struct.unpack_from("<ih", content, 64 + 12)
+    rows, wide, deep, _ = struct.unpack_from("<4i", content, 64 + 68)
+    if kind not in _TYPES:
+        raise file.error(f"the wave holds numbers of type {kind}, which is not read")
+    width = np.dtype(_TYPES[kind]).itemsize
+    sizes = (size, formula, note, units, *dimension_units, *labels)
+    if min(sizes) < 0 or not 0 < points <= _MOST or deep or rows * wide != points:
+        raise file.error("the header of the wave contradicts itself, or it is no force curve")
+    end = _DATA + points * width
+    behind = end + formula + note + units + sum(dimension_units)
+    if len(content) < behind + labels[0] + labels[1]:
+        raise file.error("the wave is shorter than its header says: the file is cut")
+    values = np.frombuffer(content[_DATA:end], dtype=_TYPES[kind]).astype(float)
+    names = content[behind + labels[0] : behind + labels[0] + labels[1]]
+    found = [
+        names[i : i + _LABEL].split(b"\0")[0].decode("latin-1")
+        for i in range(_LABEL, len(names), _LABEL)
+    ]
+    table = values.reshape((rows, wide), order="F")
+    columns = {word: table[:, i] for i, word in enumerate(found[:wide]) if word}
+    return columns, content[end + formula : end + formula + note].decode("latin-1")
+
+
+def _noted(file: LabFile, note: str, key: str) -> float:
+    match = re.search(rf"(?:^|[\r\n]){key}:\s*([0-9.eE+-]+)", note)
+    try:
+        value = float(match[1]) if match else np.nan
+    except ValueError:
+        value = np.nan
+    if not 0 < value < np.inf:
+        raise file.error(f"its note gives no {key}; calibrate the cantilever, and save it again")
+    return value

@@ -1,0 +1,217 @@
+"""Layout of JPK's .jpk-force: an archive of segments, each with headers in text and raw numbers.
+
+A channel is whole numbers, its encoder makes volts or metres of them, and conversions, each based
+on another one, make metres and newtons. Newer files keep encoders and conversions in one shared
+header.
+"""
+
+import io
+import re
+import zipfile
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LARGEST, LabFile
+from viscotack.lab.sweeps import Source
+
+from .record import TackRecord
+
+Array = npt.NDArray[np.float64]
+Words = dict[str, str]
+
+_TYPES = {
+    "signedshort": ">i2",
+    "unsignedshort": ">u2",
+    "signedinteger": ">i4",
+    "unsignedinteger": ">u4",
+    "signedlong": ">i8",
+}
+_PLAIN = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": ">f8"}
+# where the tip's carrier is, measured before commanded
+_HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
+_SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
+_MOST = 64  # segments
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is another one."""
+    packed = file.content.startswith(b"PK\x03\x04") and b"segments/0" in file.content
+    return "jpk-force" if packed else None
+
+
+def records(file: LabFile) -> list[TackRecord]:
+    """Return the segments of a force curve, one after the other, as one record.
+
+    Raises
+    ------
+    ValueError
+        If the archive is damaged, or deflections were not calibrated to newtons.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
+            if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
+                raise file.error("it unpacks to more than 200 MB")
+            files = {part: parts.read(part) for part in parts.namelist()}
+    except InputError:
+        raise
+    except Exception as error:
+        # A damaged archive makes the library fail in a dozen ways, none of them its promise.
+        raise file.error(f"the archive cannot be read, it may be cut or damaged: {error}") from None
+    numbers = sorted(int(match[1]) for part in files if (match := _SEGMENT.fullmatch(part)))
+    if not numbers or len(numbers) > _MOST:
+        raise file.error(f"expected 1 to {_MOST} segments of one force curve, got {len(numbers)}")
+    if "data-image.jpk-qi-image" in files or any(part.startswith("index/") for part in files):
+        raise file.error("it is a map of many curves; export one curve in each file")
+    shared = _properties(files.get("shared-data/header.properties", b""))
+    columns: list[list[Array]] = [[], [], []]
+    clock, used, stiffness = 0.0, "", 0.0
+    for number in numbers:
+        folder = f"segments/{number}/"
+        own = _properties(files[folder + "segment-header.properties"])
+        points = _whole(file, own, "force-segment-header.num-points")
+        if points == 0:
+            continue
+        deflection, stiffness = _deflection(file, files, folder, own, shared)
+        used = used or _height(file, own)
+        height = _channel(file, files, folder, own, shared, used, "m")
+        if not deflection.size == height.size == points:
+            raise file.error(f"segment {number} says {points} points and has {deflection.size}")
+        duration = _real(file, own, "force-segment-header.duration")
+        if not duration > 0:
+            raise file.error(f"segment {number} lasts {duration:g} s")
+        columns[0].append(clock + duration * np.arange(1, points + 1) / points)
+        columns[1].append(deflection)
+        columns[2].append(height)
+        clock += duration
+    if not columns[0]:
+        raise file.error("no segment has points")
+    notes = (f"height from the channel {used}",)
+    if stiffness:
+        notes += (f"cantilever of {stiffness:.4g} N/m, whose bending is taken off the height",)
+    time, force, position = map(np.concatenate, columns)
+    try:
+        return [
+            TackRecord(
+                time,
+                force,
+                position,
+                # heights grow away from the sample
+                into=-1,
+                compliance=1 / stiffness if stiffness else 0.0,
+                source=Source(file.path, file.sha256, "jpk-force", (*file.notes, *notes)),
+            )
+        ]
+    except InputError as error:
+        raise file.error(str(error)) from None
+
+
+def _deflection(
+    file: LabFile, files: dict[str, bytes], folder: str, own: Words, shared: Words
+) -> tuple[Array, float]:
+    """Return the force [N] and the stiffness of the cantilever [N/m], 0 where it is not said."""
+    force = _channel(file, files, folder, own, shared, "vDeflection", "N")
+    words = _of_channel(file, own, shared, "vDeflection")
+    key = "conversion-set.conversion.force."
+    based = words.get(key + "base-calibration-slot") == "distance"
+    stiffness = abs(_real(file, words, key + "scaling.multiplier")) if based else 0.0
+    return force, stiffness
+
+
+def _height(file: LabFile, own: Words) -> str:
+    present = own.get("channels.list", "").split()
+    for channel in _HEIGHTS:
+        if channel in present:
+            return channel
+    raise file.error(f"no channel is a height; the channels are {', '.join(present) or 'none'}")
+
+
+def _of_channel(file: LabFile, own: Words, shared: Words, channel: str) -> Words:
+    """Return what the headers say of one channel, without what stands before each word."""
+    slot = own.get(f"channel.{channel}.lcd-info.*")
+    before = f"channel.{channel}." if slot is None else f"lcd-info.{slot}."
+    words = own if slot is None else shared
+    found = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
+    # older headers keep the encoder below "data"
+    found |= {k.removeprefix("data."): v for k, v in found.items() if k.startswith("data.encoder")}
+    if not found:
+        raise file.error(f"the headers say nothing of the channel {channel}")
+    return found
+
+
+def _channel(
+    file: LabFile,
+    files: dict[str, bytes],
+    folder: str,
+    own: Words,
+    shared: Words,
+    channel: str,
+    unit: str,
+) -> Array:
+    """Return one channel of one segment in metres or newtons."""
+    content = files.get(f"{folder}channels/{channel}.dat")
+    if content is None:
+        raise file.error(f"{folder} has no channel {channel}")
+    words = _of_channel(file, own, shared, channel)
+    kind = words.get("encoder.type", "")
+    dtype = _TYPES.get(kind) or _PLAIN.get(words.get("type", words.get("data.type", "")))
+    if dtype is None:
+        raise file.error(f"{channel} is encoded as {kind[:30]!r}, which is not read")
+    if len(content) % np.dtype(dtype).itemsize:
+        raise file.error(f"{folder}channels/{channel}.dat is cut in the middle of a number")
+    values = np.frombuffer(content, dtype=dtype).astype(float)
+    if kind in _TYPES:
+        values = _scaled(file, words, "encoder.", values)
+    slot = "force" if unit == "N" else words.get("conversion-set.conversions.default", "")
+    base = words.get("conversion-set.conversions.base", "")
+    chain: list[str] = []
+    while slot != base:
+        key = f"conversion-set.conversion.{slot}."
+        if words.get(key + "defined") != "true" or slot in chain:
+            raise file.error(
+                f"{channel} was not calibrated to {unit} (no conversion {slot!r}); calibrate the "
+                "cantilever, and save the curve again"
+            )
+        chain.append(slot)
+        slot = words.get(key + "base-calibration-slot", "")
+    for slot in reversed(chain):
+        values = _scaled(file, words, f"conversion-set.conversion.{slot}.", values)
+    ends_in = f"conversion-set.conversion.{chain[0]}." if chain else "encoder."
+    said = words.get(ends_in + "scaling.unit.unit", "")
+    if said != unit:
+        raise file.error(f"{channel} is in {said[:20]!r}; expected {unit}")
+    return values
+
+
+def _scaled(file: LabFile, words: Words, key: str, values: Array) -> Array:
+    if words.get(key + "scaling.style", "offsetmultiplier") != "offsetmultiplier":
+        raise file.error(f"{key}scaling.style is not offsetmultiplier")
+    offset = _real(file, words, key + "scaling.offset")
+    return offset + _real(file, words, key + "scaling.multiplier") * values
+
+
+def _properties(content: bytes) -> Words:
+    found: Words = {}
+    for line in content.decode("latin-1").splitlines():
+        if not line.startswith("#") and "=" in line:
+            key, _, value = line.partition("=")
+            found[key.strip()] = value.strip()
+    return found
+
+
+def _whole(file: LabFile, words: Words, key: str) -> int:
+    value = words.get(key, "")
+    if re.fullmatch(r"[0-9]{1,8}", value) is None:
+        raise file.error(f"{key} must be a whole number, got {value[:20]!r}")
+    return int(value)
+
+
+def _real(file: LabFile, words: Words, key: str) -> float:
+    try:
+        value = float(words.get(key, ""))
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise file.error(f"{key} must be a number, got {words.get(key, '')[:20]!r}")
+    return value

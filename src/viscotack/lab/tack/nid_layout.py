@@ -1,0 +1,165 @@
+"""Layout of Nanosurf's .nid: a header in text, then curves of whole numbers, group after group.
+
+The header says of each curve how many points it has and what range their numbers span; points are
+equally far apart in time and, forward and backward, take the time of modulation for all that were
+planned.
+"""
+
+import re
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LabFile
+from viscotack.lab.sweeps import Source
+
+from .record import TackRecord
+
+Array = npt.NDArray[np.float64]
+Section = dict[str, str]
+
+_END = b"#!"
+_MARK = b"[DataSet]"
+_CURVE = re.compile(r"DataSet-(\d+):(\d+)")
+_MOST = 5_000_000  # points of one file
+_TIME = re.compile(r"\s*([0-9.]+)\s*(s|ms|us)\s*")
+_PARTS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is another one."""
+    return "nid" if file.content.startswith(_MARK) else None
+
+
+def records(file: LabFile) -> list[TackRecord]:
+    """Return the forward, held and backward curves as one record.
+
+    Raises
+    ------
+    ValueError
+        If the header is not whole, a curve is cut off, or there is no force.
+    """
+    end = file.content.find(_END)
+    if not file.content.startswith(_MARK) or end < 0:
+        raise file.error("the header has no end: the file is cut, or no .nid")
+    sections = _sections(file.content[:end].decode("latin-1"))
+    curves = _curves(file, sections, file.content[end + len(_END) :])
+    force, position, time = [], [], []
+    clock = 0.0
+    step, notes = _step(file, sections)
+    for frame in ("Spec forward", "Spec fwd pause", "Spec backward", "Spec bwd pause"):
+        one = {channel: values for (where, channel), values in curves.items() if where == frame}
+        if not one:
+            continue
+        if "Deflection" not in one:
+            raise file.error(f'the part "{frame}" has no deflection in newtons')
+        height = one.get("Z-Axis Sensor", one.get("Z-Axis"))
+        if height is None:
+            raise file.error(f'the part "{frame}" has no height')
+        deflection = one["Deflection"]
+        if height.size != deflection.size:
+            raise file.error(f'in "{frame}" height and deflection differ in length')
+        if frame == "Spec backward":
+            # saved from the same end as the forward part, as the lines of an image are
+            deflection, height = deflection[::-1], height[::-1]
+        force.append(deflection)
+        position.append(height)
+        time.append(clock + step * np.arange(1, height.size + 1))
+        clock = float(time[-1][-1]) if height.size else clock
+    if not force:
+        raise file.error("there is no part called Spec forward or Spec backward: an image?")
+    source = Source(file.path, file.sha256, "nid", (*file.notes, *notes))
+    # not told apart: the numbers grow when the head is lowered on some heads and fall on others
+    try:
+        return [
+            TackRecord(
+                np.concatenate(time), np.concatenate(force), np.concatenate(position), source=source
+            )
+        ]
+    except InputError as error:
+        raise file.error(str(error)) from None
+
+
+def _sections(text: str) -> dict[str, Section]:
+    found: dict[str, Section] = {}
+    current: Section = {}
+    for line in text.splitlines():
+        if line.startswith("[") and line.rstrip().endswith("]"):
+            current = found.setdefault(line.strip()[1:-1], {})
+        elif "=" in line:
+            key, _, value = line.partition("=")
+            current[key.strip()] = value.strip()
+    return found
+
+
+def _curves(
+    file: LabFile, sections: dict[str, Section], content: bytes
+) -> dict[tuple[str, str], Array]:
+    """Return the curves of spectroscopy by their part and channel, in SI."""
+    order = [
+        match[0]
+        for value in sections.get("DataSet", {}).values()
+        if (match := _CURVE.fullmatch(value))
+    ]
+    found: dict[tuple[str, str], Array] = {}
+    at = 0
+    for title in order:
+        head = sections.get(title)
+        if head is None:
+            raise file.error(f"the header has no section [{title}]")
+        points, lines = _whole(file, head, "Points", title), _whole(file, head, "Lines", title)
+        bits = _whole(file, head, "SaveBits", title)
+        if bits not in (8, 16, 32) or head.get("SaveOrder", "Intel") != "Intel":
+            raise file.error(f"[{title}] is saved in a way that is not read ({bits} bits)")
+        if head.get("SaveSign", "Signed") != "Signed" or points * lines > _MOST:
+            raise file.error(f"[{title}] is saved without signs, or is too long")
+        size = points * lines * bits // 8
+        piece = content[at : at + size]
+        if len(piece) < size:
+            raise file.error(f"[{title}] ends after {len(piece)} of {size} bytes: the file is cut")
+        at += size
+        frame, channel = head.get("Frame", ""), head.get("Dim2Name", "")
+        if not frame.startswith("Spec") or not size:
+            continue
+        wanted = {"Deflection": "N", "Z-Axis Sensor": "m", "Z-Axis": "m"}.get(channel)
+        if wanted is None or head.get("Dim2Unit") != wanted:
+            continue
+        if lines > 1:
+            raise file.error(f"[{title}] holds {lines} curves; export one curve in each file")
+        low, span = _real(file, head, "Dim2Min", title), _real(file, head, "Dim2Range", title)
+        whole = np.frombuffer(piece, dtype=f"<i{bits // 8}").astype(float)
+        found[frame, channel] = low + span * (whole / 2.0**bits + 0.5)
+    return found
+
+
+def _step(file: LabFile, sections: dict[str, Section]) -> tuple[float, tuple[str, ...]]:
+    """Return the time between points [s]."""
+    for key, section in sections.items():
+        if not key.endswith("Spec") or "Modulation time" not in section:
+            continue
+        match = _TIME.fullmatch(section["Modulation time"])
+        planned = _whole(file, section, "Data points", key)
+        if match is None or planned < 2 or not float(match[1]):
+            break
+        return float(match[1]) * _PARTS[match[2]] / planned, (
+            f"{planned} points were planned in {section['Modulation time']}, equally far apart",
+        )
+    raise file.error("the header does not say the modulation time and the number of points")
+
+
+def _whole(file: LabFile, section: Section, key: str, title: str) -> int:
+    value = section.get(key, "")
+    if re.fullmatch(r"[0-9]{1,7}", value) is None:
+        raise file.error(f"[{title}]: {key} must be a whole number, got {value[:20]!r}")
+    return int(value)
+
+
+def _real(file: LabFile, section: Section, key: str, title: str) -> float:
+    try:
+        value = float(section.get(key, ""))
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise file.error(f"[{title}]: {key} must be a number, got {section.get(key, '')[:20]!r}")
+    return value

@@ -1,0 +1,218 @@
+"""Read the files of a tack test: find out the layout, join intervals, return records in SI.
+
+What a file does not say is asked for by the name of the flag of ``viscotack test read``; the
+parameters here have the same names, ``--force-unit`` is `force_unit`.
+"""
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from os import PathLike
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.lab.lab_file import LabFile, load
+
+from . import book_layout, ibw_layout, jpk_layout, nid_layout, text_layout
+from .grid import Given, record
+from .headings import factor
+from .record import TackRecord
+
+AnyPath = str | PathLike[str]
+
+# format -> the module that knows its layout, in the order in which they are tried
+FORMATS: dict[str, ModuleType] = {
+    "jpk-force": jpk_layout,
+    "nid": nid_layout,
+    "ibw": ibw_layout,
+    "workbook": book_layout,
+    "text": text_layout,
+}
+_INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
+# how files begin that are neither text nor workbooks
+_RAW = (b"[DataSet]", ibw_layout.START)
+
+
+def read(
+    paths: AnyPath | Sequence[AnyPath],
+    *,
+    format: str | None = None,
+    force_unit: str | None = None,
+    length_unit: str | None = None,
+    time_unit: str | None = None,
+    force_column: str | None = None,
+    position_column: str | None = None,
+    decimal: str | None = None,
+    nominal_speed: float | None = None,
+) -> list[TackRecord]:
+    r"""Return the records in files of tack tests, one for each continuous stretch of time.
+
+    Parameters
+    ----------
+    paths : path-like, or sequence of them
+        A text file (CSV, Anton Paar, Bluehill, testXpert, texture analyser, nanoindenter), a
+        workbook (testXpert; extra ``lab``), a force curve of a microscope (Nanosurf .nid, JPK
+        .jpk-force, Asylum .ibw). Files named
+        ``..._Interval_7.csv`` are intervals of one test and are joined in the order of their
+        numbers.
+    format : str, optional
+        One of :data:`FORMATS`; otherwise it is found out from the content.
+    force_unit, length_unit, time_unit : str, optional
+        Such as ``"mN"``, ``"um"`` and ``"s"``, where a heading has none. Grams are weighed.
+    force_column, position_column : str, optional
+        Heading of the column to take, where there are several or none is recognised.
+    decimal : {".", ","}, optional
+        Decimal mark, where numbers such as ``1,234`` leave it open.
+    nominal_speed : float, optional
+        The speed that was set [m/s], where a file has no column of time.
+
+    Raises
+    ------
+    ValueError
+        If a file cannot be understood: it names the file, the line and what was expected.
+    OSError
+        If a file cannot be opened.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> lines = [f"{t},{abs(t - 20) / 10 + 1},{max(20 - t, 0)}" for t in range(41)]
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "probe.csv")
+    ...     _ = file.write_text("\n".join(["Time [s],Gap [mm],Force [mN]", *lines, ""]))
+    ...     (found,) = read(file)
+    >>> len(found), found.force.max().item(), found.into
+    (41, 0.02, -1)
+    """
+    given = Given(
+        force_unit, length_unit, time_unit, force_column, position_column, decimal, nominal_speed
+    )
+    _check(format, given)
+    chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)
+    if not chosen:
+        raise InputError("there is no file to read")
+    found: list[TackRecord] = []
+    for group in _groups(chosen):
+        if len(group) == 1:
+            found += _records(group[0][1], format, given)
+        else:
+            found += _joined(group, format, given)
+    return found
+
+
+def _check(format: str | None, given: Given) -> None:
+    """Refuse what a caller says wrongly before the file is blamed for it."""
+    if format is not None and format not in FORMATS:
+        raise InputError(f"--format must be one of {', '.join(FORMATS)}, got {format!r}")
+    if given.decimal not in (None, ".", ","):
+        raise InputError(f"--decimal must be . or , got {given.decimal!r}")
+    for unit, quantity in (
+        (given.force_unit, "force"),
+        (given.length_unit, "travel"),
+        (given.time_unit, "time"),
+    ):
+        if unit is not None:
+            factor(unit, quantity)
+
+
+def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
+    """Return files by the test they belong to, intervals in the order of their numbers."""
+    return [[path for _, path in group] for group in _groups(paths)]
+
+
+def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
+    groups: dict[tuple[str, str], list[tuple[int, AnyPath]]] = {}
+    for count, path in enumerate(paths):
+        match = _INTERVAL.fullmatch(Path(path).stem)
+        if match:
+            key, place = (str(Path(path).parent), match[1]), int(match[2])
+        else:
+            key, place = (str(path), f"\0{count}"), 0
+        groups.setdefault(key, []).append((place, path))
+    return [sorted(group, key=lambda item: item[0]) for group in groups.values()]
+
+
+def _joined(group: list[tuple[int, AnyPath]], format: str | None, given: Given) -> list[TackRecord]:
+    """Return intervals of one test joined where their numbers follow each other."""
+    stretches: list[list[TackRecord]] = []
+    before = None
+    skipped: list[str] = []
+    for number, path in group:
+        if not Path(path).stat().st_size:
+            # an interval in which nothing was recorded
+            skipped.append(f"interval {number} is empty")
+            continue
+        (one,) = _single(_records(path, format, given, few=True), path)
+        if before is None or number != before + 1:
+            stretches.append([])
+        stretches[-1].append(one)
+        before = number
+    return [_join(parts, tuple(skipped)) for parts in stretches]
+
+
+def _single(records: list[TackRecord], path: AnyPath) -> list[TackRecord]:
+    if len(records) != 1:
+        raise InputError(f"{path}: an interval with {len(records)} tables; expected one")
+    return records
+
+
+def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
+    first = parts[0]
+    for one, other in zip(parts, parts[1:], strict=False):
+        if one.into != other.into:
+            raise InputError(f"{other.source.path}: its position is another quantity than before")
+        if other.time[0] < one.time[-1]:
+            raise InputError(
+                f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
+                f"interval before it, {one.time[-1]:g} s; intervals need the time of the whole test"
+            )
+    sizes = [part.contact_radius for part in parts]
+    said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
+    size = None
+    if any(x is not None for x in sizes):
+        size = np.concatenate(
+            [
+                np.full(len(part), np.nan) if x is None else x
+                for part, x in zip(parts, sizes, strict=True)
+            ]
+        )
+    return replace(
+        first,
+        time=np.concatenate([part.time for part in parts]),
+        force=np.concatenate([part.force for part in parts]),
+        position=np.concatenate([part.position for part in parts]),
+        contact_radius=size,
+        source=first.source.noted(*said, *notes),
+    )
+
+
+def _records(
+    path: AnyPath, format: str | None, given: Given, few: bool = False
+) -> list[TackRecord]:
+    file = load(path, raw=_RAW)
+    found = format or _sniffed(file)
+    layout = FORMATS[found]
+    # a damaged number may be beyond all floats; the record refuses it by name
+    with np.errstate(all="ignore"):
+        return _of_layout(file, layout, found, given, few)
+
+
+def _of_layout(
+    file: LabFile, layout: ModuleType, found: str, given: Given, few: bool
+) -> list[TackRecord]:
+    if layout in (text_layout, book_layout):
+        if not file.lines and not file.is_workbook:
+            raise file.error("the file is neither text nor an Excel workbook; export it as text")
+        file = replace(file, notes=(*file.notes, *file.left_out))
+        return [record(file, table, given, found, few) for table in layout.grids(file, given.names)]
+    return layout.records(file)
+
+
+def _sniffed(file: LabFile) -> str:
+    for name, layout in FORMATS.items():
+        if layout.name(file) is not None:
+            return name
+    return "text"  # whose reader says what it expected

@@ -1,0 +1,83 @@
+"""Pictures of tack tests: the retractions, and what they say over their speed."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.lab.tack import Cycle
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+_MOST = 40  # curves that can still be told apart
+_POINTS = 2000  # of one curve
+_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"))
+
+
+def draw_tests(cycles: Sequence[Cycle]) -> "Figure":
+    """Return force against depth of every retraction, and pull-off against true speed.
+
+    Dots are pull-offs; bars are standard uncertainties. Of more than 40 cycles the curves of 40,
+    evenly chosen, are drawn, and the pull-offs of all.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(11.0, 5.0), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        _curves(left, cycles)
+        _pull_offs(right, cycles)
+    return figure
+
+
+def _unit(value: float, unit: str) -> tuple[float, str]:
+    """Return the scale and the name of the unit in which a number is easily read."""
+    for scale, prefix in _PREFIXES:
+        if abs(value) >= scale:
+            return scale, prefix + unit
+    return _PREFIXES[-1][0], _PREFIXES[-1][1] + unit
+
+
+def _curves(axes: "Axes", cycles: Sequence[Cycle]) -> None:
+    chosen = [cycles[i] for i in np.unique(np.linspace(0, len(cycles) - 1, _MOST, dtype=int))]
+    forces, force_unit = _unit(max(c.pull_off_force.value for c in chosen), "N")
+    depths, depth_unit = _unit(max(float(np.ptp(c.depth[c.retraction])) for c in chosen), "m")
+    for cycle in chosen:
+        back = cycle.retraction
+        every = max((back.stop - back.start) // _POINTS, 1)
+        (line,) = axes.plot(
+            cycle.depth[back][::every] / depths, cycle.force[back][::every] / forces, lw=1.0
+        )
+        axes.plot(
+            cycle.pull_off_depth.value / depths,
+            -cycle.pull_off_force.value / forces,
+            "o",
+            ms=4,
+            color=line.get_color(),
+        )
+    axes.axhline(0.0, color="0.6", lw=0.8)
+    axes.set_xlabel(f"depth [{depth_unit}]")
+    axes.set_ylabel(f"force, compression positive [{force_unit}]")
+
+
+def _pull_offs(axes: "Axes", cycles: Sequence[Cycle]) -> None:
+    force, unit = _unit(max(cycle.pull_off_force.value for cycle in cycles), "N")
+    axes.errorbar(
+        [1e6 * cycle.speed.value for cycle in cycles],
+        [cycle.pull_off_force.value / force for cycle in cycles],
+        xerr=[1e6 * cycle.speed.uncertainty for cycle in cycles],
+        yerr=[cycle.pull_off_force.uncertainty / force for cycle in cycles],
+        fmt="o",
+        ms=4,
+        lw=1.0,
+    )
+    if all(cycle.speed.value > 0 for cycle in cycles):
+        axes.set_xscale("log")
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("true speed of retraction [um/s]")
+    axes.set_ylabel(f"pull-off force [{unit}]")

@@ -1,0 +1,143 @@
+"""The interface from a rate series: the truth found, its intervals honest, limits said."""
+
+import json
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from viscotack.errors import InputError
+from viscotack.identify import PullOff, identify_rates
+from viscotack.lab.tack import Measured
+from viscotack.materials.library import published
+
+RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
+PDMS = published("pdms-10-1").material
+SPEEDS = np.geomspace(1e-6, 1e-3, 6)
+CASE = {"material": PDMS, "radius": RADIUS, "preload": PRELOAD}
+
+
+def answer(speed, gap):
+    problem = vt.Problem(
+        material=PDMS,
+        traction=vt.LennardJones(work_of_adhesion=WORK, equilibrium_gap=gap),
+        geometry=vt.Sphere(radius=RADIUS),
+        protocol=vt.Retraction(start=vt.AtForce(PRELOAD), speed=speed),
+    )
+    return vt.crack_contact(problem)
+
+
+def forces(gap, speeds=SPEEDS):
+    unit = 1.5 * np.pi * RADIUS * WORK
+    return np.array([answer(speed, gap).pull_off_force for speed in speeds]) * unit
+
+
+def series(values, relative=0.03, speeds=SPEEDS):
+    pairs = zip(speeds, values, strict=True)
+    return [PullOff(float(v), Measured(float(P), relative * float(P))) for v, P in pairs]
+
+
+@pytest.mark.parametrize("gap", [30.8e-9, 200e-9])
+def test_forces_without_noise_give_back_the_interface_they_came_from(gap):
+    true = forces(gap)
+    fit = identify_rates(series(true, 1e-3), theory=0.0, **CASE)
+    assert fit.forces == pytest.approx(true, rel=1e-3)
+    assert fit.work_of_adhesion == pytest.approx(WORK, rel=5e-3)
+    assert fit.equilibrium_gap == pytest.approx(gap, rel=0.02)
+    assert fit.tabor == pytest.approx(15.9 * 200e-9 / gap, rel=0.02)
+
+
+def test_a_slow_test_beside_the_series_narrows_the_range():
+    rng = np.random.default_rng(4)
+    noisy = series(forces(200e-9) * (1 + 0.03 * rng.standard_normal(6)))
+    alone = identify_rates(noisy, **CASE)
+    known = identify_rates(noisy, work_of_adhesion=(WORK, 0.02 * WORK), **CASE)
+    widths = [
+        fit.intervals["equilibrium_gap"].high / fit.intervals["equilibrium_gap"].low
+        for fit in (alone, known)
+    ]
+    assert widths[1] < 0.8 * widths[0]
+    assert known.work_of_adhesion == pytest.approx(WORK, rel=0.04)
+
+
+@pytest.mark.slow
+def test_the_truth_is_in_the_intervals_as_often_as_they_say():
+    true, inside = forces(200e-9), []
+    for seed in range(60):
+        rng = np.random.default_rng(seed)
+        fit = identify_rates(series(true * (1 + 0.03 * rng.standard_normal(6))), theory=0.0, **CASE)
+        for name, value in (("work_of_adhesion", WORK), ("equilibrium_gap", 200e-9)):
+            ends = fit.intervals[name]
+            inside.append(ends.low < value < ends.high)
+    assert 0.8 < np.mean(inside) < 0.97
+
+
+def test_two_near_speeds_do_not_tell_the_range():
+    speeds = np.array([1e-5, 1.2e-5])
+    fit = identify_rates(series(forces(30.8e-9, speeds), speeds=speeds), **CASE)
+    assert not fit.intervals["equilibrium_gap"].told
+    assert "not identifiable" in " ".join(fit.words)
+
+
+def test_forces_that_no_linear_solid_gives_are_said_to_be_so():
+    steep = forces(30.8e-9)[0] * (SPEEDS / SPEEDS[0]) ** 0.6
+    fit = identify_rates(series(steep), **CASE)
+    assert fit.scatter > 3
+    assert "the interface may grow with speed" in " ".join(fit.words)
+
+
+def test_a_series_that_says_nothing_is_refused():
+    one = series(forces(200e-9, SPEEDS[:1]), speeds=SPEEDS[:1])
+    with pytest.raises(InputError, match="two speeds and more"):
+        identify_rates(one, **CASE)
+    two = series([4e-3, 5e-3], speeds=SPEEDS[:2])
+    with pytest.raises(InputError, match="holds for no range"):
+        identify_rates(two, gaps=(5e-6, 50e-6), **CASE)
+    with pytest.raises(InputError, match="must be positive"):
+        identify_rates(series([4e-3, -5e-3], speeds=SPEEDS[:2]), **CASE)
+
+
+def rig_file(path, speed, gap=200e-9):
+    """Write a test as a rig would: approach, then the retraction of the theory, then nothing."""
+    found = answer(speed, gap)
+    force = np.append(found.force, np.zeros(300)) * 1.5 * np.pi * RADIUS * WORK
+    depth = found.depth * gap
+    free = depth[-1] - np.linspace(1e-7, 40e-6, 300)
+    depth = np.append(depth, free)
+    retract = (depth[0] - depth) / speed
+    even = np.linspace(0, retract[-1], 1500)
+    force, depth = np.interp(even, retract, force), np.interp(even, retract, depth)
+    # the approach of a rig that touches at depth 0 and is loaded at once
+    down = np.linspace(depth[-1], depth[0], 400)
+    pressed = np.where(down > 0, force[0] * np.maximum(down, 0) ** 1.5 / depth[0] ** 1.5, 0.0)
+    time = np.concatenate([np.linspace(-20, -10, 400), np.linspace(-9.9, 0, 50), 1e-6 + even])
+    rows = zip(
+        time + 20,
+        1e6 * np.concatenate([down, np.full(50, depth[0]), depth]),
+        1e3 * np.concatenate([pressed, np.full(50, force[0]), force])
+        + 5e-3 * np.random.default_rng(1).standard_normal(time.size),
+        strict=True,
+    )
+    lines = ["Time [s],Depth [um],Force [mN]", *(f"{t:.9g},{d:.9g},{P:.9g}" for t, d, P in rows)]
+    path.write_text("\n".join(lines) + "\n")
+
+
+def test_from_the_files_of_a_rig_to_the_interface(tmp_path, capsys):
+    paths = [tmp_path / f"lens_{i}.csv" for i in range(3)]
+    for path, speed in zip(paths, (1e-6, 3e-5, 1e-3), strict=True):
+        rig_file(path, speed)
+    command = ["identify", "rates", *paths, "--material", "pdms-10-1", "--radius", "5.19 mm"]
+    picture = tmp_path / "rates.png"
+    assert exit_status([*command, "--preload", "1.5 mN", "--json", "--plot", picture]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [row["speed_m_s"] for row in found["series"]] == pytest.approx(
+        [1e-6, 3e-5, 1e-3], rel=0.01
+    )
+    assert found["work_of_adhesion_J_m2"] == pytest.approx(WORK, rel=0.08)
+    assert found["equilibrium_gap_m"] == pytest.approx(200e-9, rel=0.35)
+    assert picture.stat().st_size > 10_000
+    assert exit_status(command) == 0
+    assert "work of adhesion" in capsys.readouterr().out
+    assert exit_status([*command, "--work-of-adhesion", "152 mJ/m2"]) == 2
+    assert "go together" in capsys.readouterr().err

@@ -1,0 +1,170 @@
+"""The interface from a slow test: true values found, models chosen, what is not told said."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import tack_files
+from command_line import exit_status
+from viscotack.errors import InputError
+from viscotack.identify import Objective, Parameter, SlowTest, identify_slow, slow_test
+from viscotack.lab import tack
+from viscotack.theory import jkr, maugis
+
+LENS = {"radius": 5.19e-3, "contact_modulus": 1.944e6, "work_of_adhesion": 0.152}
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+
+
+def of_jkr(seed, points=50, noise=0.02):
+    """Return a noisy P(a) of the lens, and its noise."""
+    end = jkr.pull_off(**LENS)
+    a = np.linspace(end.contact_radius, 3 * end.contact_radius, points)
+    sigma = noise * abs(end.force)
+    force = jkr.force(a, **LENS) + sigma * np.random.default_rng(seed).standard_normal(points)
+    return SlowTest(force, a, "radius", LENS["radius"], sigma)
+
+
+def of_maugis(tabor, seed, noise=0.005, against="radius"):
+    lam = maugis.parameter_from_tabor(tabor)
+    case = LENS | {"strength": lam / maugis.maugis_parameter(strength=1.0, **LENS)}
+    end = maugis.pull_off(**case)
+    state = maugis.curve(1 + np.geomspace(1e-5, 1e3, 3000), **case)
+    chosen = (state.contact_radius > end.contact_radius) & (state.contact_radius < 6e-4)
+    rows = np.flatnonzero(chosen)[:: max(int(chosen.sum()) // 60, 1)]
+    sigma = noise * abs(end.force)
+    force = state.force[rows] + sigma * np.random.default_rng(seed).standard_normal(rows.size)
+    at = state.contact_radius[rows] if against == "radius" else state.depth[rows] + 2e-6
+    return SlowTest(force, at, against, LENS["radius"], sigma)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii(seed):
+    fit = identify_slow(of_jkr(seed), models=["jkr", "dmt"])
+    assert fit.best.model == "jkr"
+    assert fit.best.work_of_adhesion == pytest.approx(0.152, rel=0.02)
+    assert fit.best.contact_modulus == pytest.approx(LENS["contact_modulus"], rel=0.02)
+
+
+@pytest.mark.slow
+def test_intervals_hold_the_truth_as_often_as_they_say():
+    inside = 0
+    for seed in range(40):
+        ends = identify_slow(of_jkr(seed), models=["jkr"]).best.intervals["work_of_adhesion"]
+        inside += ends.low < LENS["work_of_adhesion"] < ends.high
+    # 36 are expected; 30 to 40 are within what chance does in 999 of 1000
+    assert inside >= 30
+
+
+def test_of_a_short_range_the_data_tell_only_that_it_is_short():
+    fit = identify_slow(of_jkr(1), models=["jkr", "maugis"])
+    assert fit.best.model == "jkr"
+    words = " ".join(fit.words)
+    assert "the Tabor number is above" in words and "cannot tell" in words
+    ends = next(one for one in fit.fits if one.model == "maugis").intervals["tabor"]
+    assert ends.closed_below and not ends.closed_above and ends.low > 2
+
+
+@pytest.mark.parametrize("tabor", [0.3, 1.5])
+def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
+    fit = identify_slow(of_maugis(tabor, 2))
+    assert fit.best.model == "maugis"
+    ends = fit.best.intervals["tabor"]
+    assert ends.low < tabor < ends.high and ends.high < 1.2 * ends.low
+    carpick = next(one for one in fit.fits if one.model == "carpick")
+    # an approximation, which it is known to be within a few per cent
+    assert carpick.tabor == pytest.approx(tabor, rel=0.25)
+    assert fit.best.work_of_adhesion == pytest.approx(0.152, rel=0.01)
+    for other in ("jkr", "dmt"):
+        (one,) = (x for x in fit.fits if x.model == other)
+        assert one.criterion > fit.best.criterion + 20 and one.intervals == {}
+
+
+def test_without_a_camera_the_range_is_told_weakly():
+    known = (LENS["contact_modulus"], 0.05 * LENS["contact_modulus"])
+    by_depth = identify_slow(
+        of_maugis(1.5, 3, against="depth"), models=["maugis"], contact_modulus=known
+    )
+    with pytest.raises(InputError, match="has no depth"):
+        identify_slow(of_maugis(1.5, 3, against="depth"), models=["carpick"])
+    assert by_depth.best.work_of_adhesion == pytest.approx(0.152, rel=0.05)
+    assert "without a camera" in " ".join(by_depth.words)
+    by_radius = identify_slow(of_maugis(1.5, 3), models=["maugis"], contact_modulus=known)
+    ends = next(x for x in by_depth.fits if x.model == "maugis").intervals["tabor"]
+    other = by_radius.best.intervals["tabor"]
+    assert ends.high / ends.low > 1.5 * other.high / other.low
+
+
+def error_study():
+    path = BENCHMARKS / "slow_test_error.py"
+    spec = importlib.util.spec_from_file_location("slow_test_error", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_an_elastic_fit_of_a_viscoelastic_test_reads_the_tabor_number_wrong():
+    study = error_study()
+    tabor, slow = study.read_as_slow(1e-9, models=["jkr"])
+    assert tabor == pytest.approx(15.9, abs=0.2)
+    assert slow.best.work_of_adhesion == pytest.approx(study.WORK_OF_ADHESION, rel=0.01)
+    assert not any("Was the test slow" in word for word in slow.words)
+    _, fast = study.read_as_slow(1e-5, models=["maugis"])
+    (maugis_fit,) = (one for one in fast.fits if one.model == "maugis")
+    # at 10 um/s: an eighth of the true number, and half as much work again
+    assert maugis_fit.tabor < 3
+    assert maugis_fit.work_of_adhesion > 1.3 * study.WORK_OF_ADHESION
+    assert any("Was the test slow" in word for word in fast.words)
+
+
+def test_a_profile_of_a_parabola_is_its_width():
+    data = np.array([1.0, 2.0, 4.0])
+    objective = Objective(
+        lambda values: (values["mean"] - data) / 0.5,
+        (Parameter("mean", -100.0, 100.0, 0.0, logarithmic=False),),
+    )
+    best = objective.best()
+    assert best.values["mean"] == pytest.approx(data.mean(), rel=1e-6)
+    ends = objective.interval("mean", best, level=0.9)
+    half = 1.6449 * 0.5 / np.sqrt(3)
+    assert (ends.low, ends.high) == pytest.approx(
+        (data.mean() - half, data.mean() + half), rel=2e-2
+    )
+    assert ends.told
+    assert objective.log_density(np.array([200.0])) == -np.inf
+    prior = Parameter("mean", -100.0, 100.0, 0.0, logarithmic=False, prior=(0.0, 0.5))
+    pulled = Objective(objective.residuals, (prior,)).best()
+    assert pulled.values["mean"] == pytest.approx(data.sum() / 4, rel=1e-6)
+
+
+@pytest.mark.parametrize("change", [
+    {"force": np.ones(50)}, {"at": -np.ones(50)}, {"radius": 0.0}, {"force_noise": 0.0},
+    {"against": "gap"}, {"force": np.ones(3)},
+])  # fmt: skip
+def test_a_test_that_says_nothing_is_refused(change):
+    whole = of_jkr(0)
+    words = {name: getattr(whole, name) for name in ("force", "at", "against", "radius")}
+    with pytest.raises(InputError):
+        SlowTest(**(words | {"force_noise": whole.force_noise} | change))
+
+
+def test_the_command_says_what_the_function_says(tmp_path, capsys):
+    path, picture = tmp_path / "lens.csv", tmp_path / "fit.png"
+    path.write_bytes(tack_files.with_camera(tack_files.made(2e-5)))
+    arguments = ["identify", "slow", path, "--radius", "5 mm", "--model", "jkr", "--model", "dmt"]
+    assert exit_status([*arguments, "--json", "--plot", picture]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["fits"][0]["model"] == "jkr" and answer["against"] == "radius"
+    assert answer["fits"][0]["work_of_adhesion_J_m2"] == pytest.approx(0.152, rel=0.02)
+    assert picture.stat().st_size > 10_000
+    (cycle,) = tack.evaluate(tack.read(path)[0]).cycles
+    fit = identify_slow(slow_test(cycle, 5e-3), models=["jkr", "dmt"])
+    assert fit.best.work_of_adhesion == answer["fits"][0]["work_of_adhesion_J_m2"]
+    assert exit_status(arguments) == 0
+    assert "work of adhesion 0.15" in capsys.readouterr().out
+    assert exit_status([*arguments, "--cycle", "2"]) == 2
+    assert "--cycle must be 1 to 1" in capsys.readouterr().err
+    assert exit_status([*arguments, "--contact-modulus", "2 MPa"]) == 2
+    assert "go together" in capsys.readouterr().err

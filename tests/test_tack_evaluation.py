@@ -1,0 +1,169 @@
+"""Cycles of tack tests: found by the signal, corrected, and refused where they say nothing."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import tack_files
+from viscotack.errors import InputError
+from viscotack.lab import tack
+from viscotack.theory import jkr
+
+PULL_OFF = jkr.pull_off(**tack_files.SPHERE)
+
+
+def record(test, **more):
+    return tack.TackRecord(test.time, test.force, test.drive, **{"into": 1, **more})
+
+
+def only(test, **more):
+    evaluation = tack.evaluate(record(test), **more)
+    assert evaluation.refused == ()
+    (cycle,) = evaluation.cycles
+    return cycle
+
+
+def test_a_clean_test_gives_what_the_theory_says():
+    cycle = only(tack_files.made())
+    sphere = tack_files.SPHERE
+    # the minimum lies between two points of the test
+    assert cycle.pull_off_force.value == pytest.approx(-PULL_OFF.force, rel=5e-4)
+    assert cycle.pull_off_depth.value == pytest.approx(PULL_OFF.depth, abs=1e-6)
+    assert cycle.work_to_pull_off.value == pytest.approx(jkr.work_to_pull_off(**sphere), rel=0.02)
+    assert cycle.preload_depth.value == pytest.approx(tack_files.DEEP, rel=0.03)
+    assert cycle.speed.value == pytest.approx(tack_files.SPEED, rel=1e-3)
+    assert cycle.approach_speed == pytest.approx(tack_files.APPROACH_SPEED, rel=1e-3)
+    assert cycle.dwell_time == pytest.approx(tack_files.DWELL, rel=0.01)
+
+
+FAULTS = {
+    "zero": {"zero": 0.02},
+    "drift": {"drift": 3e-5},
+    "tilt": {"tilt": 4.0},
+    "all": {"zero": -0.01, "drift": -2e-5, "tilt": -6.0},
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_zero_tilt_and_drift_are_taken_off_within_the_uncertainty(fault):
+    true = only(tack_files.made())
+    inside = []
+    for seed in range(8):
+        cycle = only(tack_files.made(noise=5e-5, seed=seed, **FAULTS[fault]))
+        for name in ("pull_off_force", "work_to_pull_off", "preload"):
+            found, value = getattr(cycle, name), getattr(true, name).value
+            inside.append(abs(found.value - value) < 3 * found.uncertainty)
+            # of a flat minimum noise says where it is, and so how far the work goes
+            assert found.value == pytest.approx(value, rel=0.2 if "work" in name else 0.03)
+    assert np.mean(inside) > 0.9
+
+
+def test_a_machine_that_yields_is_taken_off_the_depth():
+    true, compliance = only(tack_files.made()), 2e-4
+    test = tack_files.made(compliance=compliance)
+    cycle = only(test, compliance=compliance)
+    assert cycle.pull_off_depth.value == pytest.approx(true.pull_off_depth.value, abs=3e-7)
+    assert cycle.work_to_pull_off.value == pytest.approx(true.work_to_pull_off.value, rel=0.02)
+    left = only(test)
+    assert abs(left.pull_off_depth.value - true.pull_off_depth.value) > 0.6e-6
+    unsure = only(test, compliance=compliance, compliance_uncertainty=2e-5)
+    assert unsure.pull_off_depth.uncertainty > cycle.pull_off_depth.uncertainty
+    assert unsure.work_to_pull_off.uncertainty >= cycle.work_to_pull_off.uncertainty
+    (refusal,) = tack.evaluate(record(test), compliance=1.0).refused
+    assert "more than rig and sample have together" in refusal.reason
+
+
+@pytest.mark.parametrize("force_sign", [1, -1])
+@pytest.mark.parametrize("travel_sign", [1, -1])
+def test_signs_are_found_from_the_signal(force_sign, travel_sign):
+    test = tack_files.made(noise=5e-5)
+    turned = replace(test, force=force_sign * test.force, drive=travel_sign * test.drive)
+    found = tack.evaluate(record(turned, into=0)).cycles[0]
+    assert found.pull_off_force == only(test).pull_off_force
+    with pytest.raises(InputError, match="a compression is said to be"):
+        tack.evaluate(record(turned, into=0), compression=-force_sign)
+
+
+def test_every_cycle_of_a_record_is_found():
+    test = tack_files.made(noise=5e-5)
+    time = np.concatenate([test.time + i * (test.time[-1] + 1) for i in range(3)])
+    three = tack.TackRecord(time, np.tile(test.force, 3), np.tile(test.drive, 3), into=1)
+    cycles = tack.evaluate(three).cycles
+    assert [cycle.number for cycle in cycles] == [1, 2, 3]
+    for cycle in cycles:
+        assert cycle.pull_off_force.value == pytest.approx(
+            only(test).pull_off_force.value, rel=5e-3
+        )
+        assert cycle.dwell_time == pytest.approx(tack_files.DWELL, rel=0.02)
+
+
+def test_the_true_speed_is_not_the_nominal_one():
+    test = tack_files.made()
+    slow = replace(test, time=1.13 * test.time)
+    assert only(slow).speed.value == pytest.approx(tack_files.SPEED / 1.13, rel=1e-3)
+    # a drive that still speeds up says so
+    late = test.time - test.time[560]
+    uneven = np.where(late > 0, test.time[560] + late / (1 + 0.3 * late / late[-1]), test.time)
+    cycle = only(replace(test, time=uneven))
+    assert cycle.speed.uncertainty > 0.005 * cycle.speed.value
+
+
+def cut_at(test, stop):
+    return replace(test, time=test.time[:stop], force=test.force[:stop], drive=test.drive[:stop])
+
+
+def bad():
+    test = tack_files.made(noise=5e-5)
+    least = int(np.argmin(test.force))
+    clipped = replace(test, force=np.maximum(test.force, -2e-3))
+    spike = test.force.copy()
+    spike[900] = -0.05
+    hard = test.force.copy()
+    hard[hard < -2e-4] = 0.0
+    swinging = test.force + 0.005 * np.sin(np.arange(test.force.size) / 40)
+    return {
+        "cut at the pull-off": (cut_at(test, least + 3), "does not come to rest"),
+        "still in contact": (cut_at(test, 620), "does not come to rest"),
+        "clipped": (clipped, "end of its range"),
+        "a spike": (replace(test, force=spike), "a single point"),
+        "no adhesion": (replace(test, force=np.maximum(hard, 0)), "no pull-off above the noise"),
+        "a swinging zero": (replace(test, force=swinging), "noise|known within|rest|free of"),
+        "no approach": (
+            replace(test, time=test.time[560:], force=test.force[560:], drive=test.drive[560:]),
+            "--retraction-only",
+        ),
+    }
+
+
+@pytest.mark.parametrize("what", bad())
+def test_a_bad_curve_is_refused_with_the_reason(what):
+    test, words = bad()[what]
+    evaluation = tack.evaluate(record(test))
+    assert evaluation.cycles == ()
+    (refusal,) = evaluation.refused
+    assert re.search(words, refusal.reason), refusal.reason
+
+
+def test_a_retraction_alone_is_taken_where_that_is_said():
+    test = tack_files.made(noise=5e-5)
+    half = replace(test, time=test.time[560:], force=test.force[560:], drive=test.drive[560:])
+    cycle = only(half, retraction_only=True)
+    assert cycle.pull_off_force.value == pytest.approx(PULL_OFF.force * -1, rel=0.01)
+    assert "no approach before contact" in " ".join(cycle.source.notes)
+
+
+def test_what_cannot_be_told_is_refused():
+    test = tack_files.made(noise=5e-5)
+    still = replace(test, drive=np.full_like(test.drive, 1e-3))
+    with pytest.raises(InputError, match="does not move"):
+        tack.evaluate(record(still))
+    rng = np.random.default_rng(3)
+    nothing = replace(test, force=1e-4 * rng.standard_normal(test.force.size))
+    with pytest.raises(InputError, match="--into"):
+        tack.evaluate(record(nothing, into=0))
+    with pytest.raises(InputError, match="a test needs 20"):
+        tack.evaluate(record(cut_at(test, 12)))
+    with pytest.raises(InputError, match="time must rise"):
+        record(replace(test, time=test.time[::-1]))

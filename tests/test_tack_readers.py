@@ -1,0 +1,187 @@
+"""Files of tack tests: every layout gives the same test, in SI, or is refused with the cause."""
+
+import numpy as np
+import pytest
+
+import tack_files
+from test_measured_damage import mutated
+from viscotack.errors import InputError
+from viscotack.lab import tack
+
+WHOLE = tack_files.made()
+
+
+def read(tmp_path, content, name="test.csv", **said):
+    path = tmp_path / name
+    path.write_bytes(content)
+    return tack.read(path, **said)
+
+
+@pytest.mark.parametrize("name", tack_files.TEXTS)
+def test_every_text_layout_gives_the_same_test(name, tmp_path):
+    (record,) = read(tmp_path, tack_files.TEXTS[name](WHOLE))
+    assert record.time == pytest.approx(WHOLE.time, rel=1e-6)
+    sign = -1 if name == "bluehill" else 1
+    assert sign * record.force == pytest.approx(WHOLE.force, rel=1e-6)
+    assert sign * record.position == pytest.approx(WHOLE.drive, rel=1e-6)
+    assert record.into == (1 if name in ("plain", "with camera", "nanoindenter") else 0)
+
+
+def test_a_contact_radius_is_read_where_there_is_one(tmp_path):
+    (record,) = read(tmp_path, tack_files.with_camera(WHOLE))
+    assert record.contact_radius == pytest.approx(WHOLE.contact_radius, rel=1e-6)
+    area = tack_files.with_camera(WHOLE).replace(b"Contact radius [um]", b"Contact area [um^2]")
+    (other,) = read(tmp_path, area)
+    assert other.contact_radius == pytest.approx(
+        1e-3 * np.sqrt(WHOLE.contact_radius / np.pi), rel=1e-6
+    )
+
+
+def test_intervals_in_files_of_their_own_are_one_test(tmp_path):
+    # numbered so that the order of names is not that of the intervals
+    paths = []
+    for number, content in zip((9, 10, 11), tack_files.anton_paar(WHOLE), strict=True):
+        paths.append(tmp_path / f"probe_Interval_{number}.csv")
+        paths[-1].write_bytes(content)
+    (tmp_path / "probe_Interval_12.csv").write_bytes(b"")
+    (record,) = tack.read([*reversed(paths), tmp_path / "probe_Interval_12.csv"])
+    assert record.time == pytest.approx(WHOLE.time, rel=1e-6)
+    assert record.into == -1
+    assert "interval 12 is empty" in record.source.notes
+    (only,) = tack.read(paths[:1])
+    with pytest.raises(InputError, match="there is no retraction.*all intervals"):
+        tack.evaluate(only)
+
+
+def test_intervals_that_do_not_follow_each_other_are_records_of_their_own(tmp_path):
+    first, second, third = tack_files.anton_paar(WHOLE)
+    paths = [tmp_path / f"probe_Interval_{number}.csv" for number in (1, 2, 4)]
+    for path, content in zip(paths, (first, second, third), strict=True):
+        path.write_bytes(content)
+    assert [len(record) for record in tack.read(paths)] == [560, 700]
+    paths[2].rename(tmp_path / "probe_Interval_0.csv")
+    with pytest.raises(InputError, match="before the end of the interval before it"):
+        tack.read([tmp_path / "probe_Interval_0.csv", *paths[:2]])
+
+
+def test_a_workbook_gives_the_sheet_with_a_test(tmp_path):
+    pytest.importorskip("openpyxl")
+    tack_files.workbook(WHOLE, tmp_path / "probe.xlsx")
+    (record,) = tack.read(tmp_path / "probe.xlsx")
+    assert record.force == pytest.approx(WHOLE.force, rel=1e-12)
+    assert record.source.format == "workbook"
+
+
+@pytest.mark.parametrize("name", tack_files.BINARIES)
+def test_every_microscope_gives_the_same_test(name, tmp_path):
+    (record,) = read(tmp_path, tack_files.BINARIES[name](WHOLE), name)
+    assert record.source.format == name.partition(".")[2]
+    (cycle,) = tack.evaluate(record, compliance=0.0).cycles
+    assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min(), rel=2e-3)
+    assert cycle.speed.value == pytest.approx(tack_files.SPEED, rel=5e-3)
+    assert cycle.dwell_time == pytest.approx(tack_files.DWELL, rel=0.02)
+
+
+def test_a_cantilever_that_the_file_names_bends(tmp_path):
+    (record,) = read(tmp_path, tack_files.jpk(WHOLE), "curve.jpk-force")
+    assert record.compliance == pytest.approx(1 / tack_files.STIFFNESS)
+    (bent,), (stiff,) = tack.evaluate(record).cycles, tack.evaluate(record, compliance=0).cycles
+    force = bent.pull_off_force.value
+    shift = bent.pull_off_depth.value - stiff.pull_off_depth.value
+    assert shift == pytest.approx(force / tack_files.STIFFNESS, rel=1e-2)
+
+
+PLAIN = tack_files.plain(WHOLE)
+REFUSED = {
+    "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
+    "no unit of length": (PLAIN.replace(b"[um]", b""), "--length-unit"),
+    "no time": (PLAIN.replace(b"Time [s]", b"Number"), "--nominal-speed"),
+    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "names the columns of a tack test"),
+    "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
+    "no headings": (b"1,2,3\n4,5,6\n", "names the columns of a tack test"),
+    "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "a test needs 20"),
+    "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells where"),
+    "a word": (PLAIN.replace(b"-199.5591", b"near"), "line 3: column"),
+    "time goes back": (
+        b"\r\n".join([PLAIN.split(b"\r\n")[0], *PLAIN.split(b"\r\n")[300:], PLAIN.split(b"\r\n")[9],
+                      b""]),
+        "time must rise",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_a_file_that_leaves_something_open_is_refused_with_what_to_do(what, tmp_path):
+    content, words = REFUSED[what]
+    assert content != PLAIN
+    with pytest.raises(InputError) as error:
+        read(tmp_path, content)
+    assert words in str(error.value)
+    assert "test.csv" in str(error.value)
+
+
+def test_what_a_file_does_not_say_can_be_said(tmp_path):
+    bare = PLAIN.replace(b"[mN]", b"").replace(b"[um]", b"").replace(b"[s]", b"")
+    units = {"force_unit": "mN", "length_unit": "um", "time_unit": "s"}
+    (record,) = read(tmp_path, bare, **units)
+    assert record.force == pytest.approx(WHOLE.force, rel=1e-6)
+    (named,) = read(
+        tmp_path, PLAIN.replace(b"Force [mN]", b"Signal 3"), force_column="Signal 3",
+        position_column="depth [um]", force_unit="mN",
+    )  # fmt: skip
+    assert named.force == pytest.approx(WHOLE.force, rel=1e-6)
+    (timed,) = read(tmp_path, PLAIN.replace(b"Time [s]", b"Number"), nominal_speed=1e-5)
+    assert np.ptp(timed.time) == pytest.approx(np.sum(np.abs(np.diff(WHOLE.drive))) / 1e-5)
+    with pytest.raises(InputError, match="--format must be one of"):
+        read(tmp_path, PLAIN, format="csv")
+
+
+def test_a_microscope_that_was_not_calibrated_is_refused(tmp_path):
+    content = tack_files.ibw(WHOLE).replace(b"SpringConstant", b"SpringConstanT")
+    with pytest.raises(InputError, match="no SpringConstant"):
+        read(tmp_path, content, "curve.ibw")
+    with pytest.raises(InputError, match="ends after"):
+        read(tmp_path, tack_files.nid(WHOLE)[:-100], "curve.nid")
+
+
+ALL = {
+    **{f"{name.replace(' ', '_')}.csv": make(WHOLE) for name, make in tack_files.TEXTS.items()},
+    **{name: make(WHOLE) for name, make in tack_files.BINARIES.items()},
+}
+
+
+@pytest.mark.parametrize("tries", [120, pytest.param(6000, marks=pytest.mark.slow)])
+def test_every_reader_answers_or_refuses_a_mutated_file(tries, tmp_path):
+    rng = np.random.default_rng(11)
+    names, answered = list(ALL), 0
+    for _ in range(tries):
+        path = tmp_path / names[rng.integers(len(names))]
+        path.write_bytes(mutated(ALL[path.name], rng))
+        format = rng.choice([None] * 5 * len(tack.FORMATS) + [*tack.FORMATS])
+        try:
+            records = tack.read(path, format=format)
+            evaluations = [tack.evaluate(record) for record in records]
+        except InputError as error:
+            assert str(path) in str(error)
+            continue
+        except ImportError:
+            continue
+        answered += 1
+        for cycle in (cycle for one in evaluations for cycle in one.cycles):
+            assert np.isfinite(cycle.pull_off_force.value + cycle.speed.value)
+            assert np.isfinite(cycle.work_of_separation.uncertainty)
+            assert cycle.pull_off_force.uncertainty < cycle.pull_off_force.value
+    assert 0.05 * tries < answered < 0.9 * tries
+
+
+@pytest.mark.parametrize("name", tack_files.TEXTS)
+def test_a_text_cut_anywhere_gives_right_numbers_or_a_refusal(name, tmp_path):
+    content = tack_files.TEXTS[name](WHOLE)
+    (whole,) = read(tmp_path, content)
+    for length in np.linspace(10, len(content) - 1, 15, dtype=int):
+        try:
+            (cut,) = read(tmp_path, content[:length])
+        except InputError as error:
+            assert "test.csv" in str(error)
+            continue
+        assert np.array_equal(cut.force, whole.force[: len(cut)])
