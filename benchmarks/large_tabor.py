@@ -43,9 +43,9 @@ def measured(problem: Problem | Groups, accuracy: float) -> tuple[float, str]:
 def main() -> None:
     """Run and print."""
     elastic = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    groups = Groups(tabor=45.0, material=elastic, start=AtDepth(200.0), rate=1.0)
+    groups = Groups(tabor=30.0, material=elastic, start=AtDepth(200.0), rate=1.0)
     force, took = measured(groups, DEFAULT)
-    print(f"elastic, mu 45: {force:.5f} times the JKR pull-off force; {took}", flush=True)
+    print(f"elastic, mu 30: {force:.5f} times the JKR pull-off force; {took}", flush=True)
     for speed in (1e-3, 1e-4, 1e-5, 1e-6):
         problem = lens(PDMS, speed, SHORT_GAP)
         newton = problem.scales().force

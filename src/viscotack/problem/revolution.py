@@ -40,7 +40,7 @@ LARGEST_CONTACT = STEEPEST_FLANK = 0.5
 # Tabor numbers that the mesh of a simulation can serve; tested from 0.01 to 10.
 SIMULATED_TABOR = (1e-6, 200.0)
 # The largest for a solid that remembers nothing: nodes catch its crack, which nothing drives on.
-ELASTIC_TABOR = 50.0
+ELASTIC_TABOR = 30.0
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
 # What a protocol's numbers are in, in SI and dimensionless.
