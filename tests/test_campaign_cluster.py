@@ -26,7 +26,9 @@ DASK = [sys.executable, "-m", "dask"]
 @pytest.fixture(autouse=True)
 def findable(monkeypatch):
     monkeypatch.setattr(cluster, "_FIRST", 60.0)  # on a machine that is busy with others
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(HERE), os.environ["PYTHONPATH"]]))
+    before = os.environ.get("PYTHONPATH")
+    paths = [str(HERE), before] if before else [str(HERE)]
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join(paths))
 
 
 class Cluster:

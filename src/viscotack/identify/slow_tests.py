@@ -199,6 +199,7 @@ def identify_slow(
 
     Examples
     --------
+    >>> from viscotack.theory import jkr
     >>> sphere = dict(radius=5e-3, contact_modulus=1e6, work_of_adhesion=0.15)
     >>> a = np.linspace(1.6e-4, 4e-4, 40)
     >>> force = jkr.force(a, **sphere) + 1e-6 * np.cos(np.arange(40) ** 2)
