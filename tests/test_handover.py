@@ -9,6 +9,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from viscotack.bem import has_start
+from viscotack.theory.crack.contact import profile_of, radius_at_depth
 
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
@@ -94,3 +95,18 @@ def test_the_command_line_says_who_answered(capsys):
     words = ["--material", "sls", "--modulus-ratio", "0.1", "--preload", "1e5", "--rate", "1e5"]
     assert exit_status(["simulate", "sphere", "--tabor", "1e4", *words]) == 0
     assert "contact whose edge is a steady crack" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("rate", [0.01, 0.3, 30.0])
+def test_a_cone_that_is_fast_at_once_pulls_hardest_where_it_began(rate):
+    # a coarse way there was 2 % low, and a parabola through it 25 % high
+    cone = vt.PowerLawProfile(1.0, 1.0)
+    fast = pulled(1e4, start=vt.AtDepth(3e5), rate=rate * 1e4, geometry=cone)
+    found, force = vt.crack_contact(fast), vt.pull_off_force(vt.solve(fast))
+    assert found.pull_off_force == pytest.approx(force, rel=2e-4)
+    # Gamma = 1/k at the radius of the start, a: P = total(a) less sqrt(2 pi a^3/k)
+    a = profile_of(cone)
+    radius = radius_at_depth(a, 30.0)
+    relaxed = float(a.depth(radius)) - np.sqrt(2 * np.pi * radius * 10.0)
+    limit = -2 * (radius * relaxed - float(a.total(radius))) / (1.5 * np.pi)
+    assert force == pytest.approx(limit, rel=2e-3)

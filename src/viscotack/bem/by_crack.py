@@ -55,6 +55,8 @@ LEAST_ZONES, _SLOW = 1.5, 1.1
 _LOAD, _ROOT = 1.5 * np.pi, np.pi ** (1 / 3)
 # How much larger than the largest relaxed state a contact may become.
 _MARGIN = 1.15
+# Instants nearer to each other than this part of a parabola's tell the same of it.
+_NEAR = 1e-6
 _NOTHING = 1e-12
 
 
@@ -364,8 +366,10 @@ def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
     place = np.zeros(1)
     weights = np.array([1.0])
     # the first step is one of an edge at rest: no parabola goes through it
-    if first + 1 < low < last and series["contact_radius"][low + 1] > 0:
-        x, y = series["time"][low - 1 : low + 2], force[low - 1 : low + 2]
+    x = series["time"][low - 1 : low + 2]
+    inside = first + 1 < low < last and series["contact_radius"][low + 1] > 0
+    if inside and float(np.min(np.diff(x))) > _NEAR * (x[2] - x[0]):
+        y = force[low - 1 : low + 2]
         u = (x - x[1]) / (x[2] - x[0])
         slope = np.linalg.solve(np.vander(u, increasing=True), y)
         top = -slope[1] / (2 * slope[2]) if slope[2] > 0 else 0.0

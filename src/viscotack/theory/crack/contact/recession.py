@@ -29,6 +29,9 @@ Array = npt.NDArray[np.float64]
 
 # Radii of a curve, and the smallest: over the start's, and over the elastic pull-off's.
 _RADII, _SMALLEST = 160, 0.25
+# A crack that is fast at once takes up its energy where it began, and the tension may be largest
+# there: so many radii lie in the first step, from this part of the way on.
+_AT_REST, _FIRST = 40, 1e-11
 # Part of the time by which the two may differ to be extrapolated.
 _LARGE_ERROR = 0.05
 # Half of the first bracket of ln t around that of the step before, and rounds to the root.
@@ -86,8 +89,7 @@ def recede(
     start = profile.relaxed_depth(a0)
     # what the smallest, elastic contact has at pull-off, not to end above any of them
     least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
-    part = np.linspace(0.0, 1.0, 2 * _RADII - 1)[:, None]
-    radii = a0 * np.exp(part * np.log(least / a0))
+    radii = a0 * np.exp(_parts()[:, None] * np.log(least / a0))
 
     def marched(a: Array) -> tuple[Array, Array]:
         return _marched(a, profile, edge, travel, start=start, rate=r, mobility=mu**2)
@@ -115,6 +117,13 @@ def recede(
         # beyond, where the contact jumps, no crack takes what is there
         amplification=np.minimum(energy, edge.limit),
     )
+
+
+def _parts() -> Array:
+    """Return parts of the way of ln a; every second one is a coarser way."""
+    even = np.linspace(0.0, 1.0, _RADII)
+    coarse = np.concatenate([[0.0], np.geomspace(_FIRST, even[1], _AT_REST), even[2:]])
+    return np.sort(np.concatenate([coarse, (coarse[1:] + coarse[:-1]) / 2]))
 
 
 def _marched(
