@@ -1,5 +1,7 @@
 """From a fit to a passport: the material with what is known of it."""
 
+from typing import Any
+
 from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
@@ -7,6 +9,8 @@ from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
 from .fit_report import FitReport
 from .shift_laws import nearest_law
 from .sweeps import ShiftTable
+
+_ALLOWED = 24  # solids that a passport keeps
 
 
 def issued(
@@ -72,7 +76,13 @@ def issued(
             undetermined=report.undetermined,
             cautions=report.cautions,
         ),
+        allowed=_thinned(report.draws),
     )
+
+
+def _thinned(draws: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return as many of the solids drawn as a file needs to say how they scatter."""
+    return draws[:: max(len(draws) // _ALLOWED, 1)][:_ALLOWED]
 
 
 def _tabulated(table: ShiftTable, temperature: float | None) -> TabulatedShift:

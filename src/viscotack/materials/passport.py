@@ -91,6 +91,9 @@ class Passport:
         Where it comes from.
     evidence : Evidence or None
         How well the fit knows it.
+    allowed : tuple of Material
+        Solids that the measurement allows as well, drawn at random at the same temperature: what
+        a forecast does with the uncertainty of all constants together.
 
     Examples
     --------
@@ -118,9 +121,11 @@ class Passport:
     measured: str | None = None
     origin: Origin = Origin()
     evidence: Evidence | None = None
+    allowed: tuple[Any, ...] = ()
 
     def __post_init__(self):
-        rests(self.material)
+        for solid in (self.material, *self.allowed):
+            rests(solid)
         if not hasattr(self.material, "retardation_modes"):
             raise InputError(
                 f"material must be one of viscotack.materials, got {type(self.material).__name__}"
@@ -203,7 +208,17 @@ class Passport:
             frequencies=frequencies,
             origin=replace(self.origin, notes=(*self.origin.notes, note)),
             evidence=evidence,
+            allowed=tuple(
+                slowed(solid, a * 10 ** (deviation * z))
+                for solid, z in zip(self.allowed, _scattered(len(self.allowed)), strict=True)
+            ),
         )
+
+
+def _scattered(count: int) -> list[float]:
+    """Return standard normal numbers, evenly spread and in no order, that do not change."""
+    # steps of the golden section visit the unit interval evenly
+    return [NormalDist().inv_cdf((0.5 + 0.6180339887 * i) % 1.0) for i in range(count)]
 
 
 def _moved(

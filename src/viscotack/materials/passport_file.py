@@ -27,7 +27,7 @@ from viscotack.units import parse
 
 _TABLES = (
     "material", "convention", "temperature", "nearest_law", "range", "origin", "evidence",
-    "relaxation", "retardation",
+    "relaxation", "retardation", "allowed",
 )  # fmt: skip
 
 
@@ -93,6 +93,7 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
         measured=None if measured == "not stated" else measured,
         origin=_made(Origin, tables.get("origin", {})),
         evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
+        allowed=tuple(material_in(table) for table in tables.get("allowed", ())),
     )
     _check_forms(passport, tables)
     return passport

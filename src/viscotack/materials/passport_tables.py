@@ -37,23 +37,18 @@ def passport_text(passport: Passport) -> str:
     for name, values in _tables(passport).items():
         if values:
             lines += ["", f"[{name}]", *(f"{key} = {_toml(v)}" for key, v in values.items())]
+    for solid in passport.allowed:
+        lines += ["", "[[allowed]]", *(f"{key} = {_toml(v)}" for key, v in _solid(solid).items())]
     return "\n".join(lines) + "\n"
 
 
 def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
     """Return the tables of the file; empty ones are not written."""
-    material = passport.material
-    model = word_of(material)
-    constants = {
-        name: _quantity(getattr(material, name), unit)
-        for name, unit in units_of(type(material)).items()
-    }
-    if isinstance(material, Prony):
-        constants["branches"] = _pairs(material.branches, "Pa", "s")
+    solid = _solid(passport.material)
     convention = {
         "modulus": "E",
         "measured": passport.measured or "not stated",
-        "times": _TIMES[model],
+        "times": _TIMES[solid["model"]],
     }
     temperature: dict[str, Any] = {}
     if passport.temperature is not None:
@@ -64,7 +59,7 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
         temperature |= _shift_words(passport.shift)
     bounds = passport.frequencies
     return {
-        "material": {"model": model} | constants,
+        "material": solid,
         "convention": convention,
         "temperature": temperature,
         "nearest_law": _fitted_words(passport.fitted_shift),
@@ -73,6 +68,17 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
         "evidence": _plain(passport.evidence) if passport.evidence else {},
         **_forms(passport),
     }
+
+
+def _solid(material: Any) -> dict[str, Any]:
+    """Return a material by the name of its model and its constants."""
+    constants: dict[str, Any] = {
+        name: _quantity(getattr(material, name), unit)
+        for name, unit in units_of(type(material)).items()
+    }
+    if isinstance(material, Prony):
+        constants["branches"] = _pairs(material.branches, "Pa", "s")
+    return {"model": word_of(material)} | constants
 
 
 def _forms(passport: Passport) -> dict[str, dict[str, Any]]:

@@ -1,16 +1,19 @@
 """The steady crack with its whole traction law: any law, any linear solid, opening and closing."""
 
-from . import comparison, cracks
+from . import comparison, cracks, neighbour
 from .comparison import Comparison, best_strength_ratio, compared
 from .cracks import MESH_ERROR, Profile, SteadyCrack
+from .neighbour import NeighbourCrack
 
 __all__ = [
     "MESH_ERROR",
     "Comparison",
+    "NeighbourCrack",
     "Profile",
     "SteadyCrack",
     "best_strength_ratio",
     "compared",
     "comparison",
     "cracks",
+    "neighbour",
 ]

@@ -7,11 +7,13 @@ ln of the speed; the spline through every second one says how far it may be off.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import CubicSpline
+from threadpoolctl import ThreadpoolController
 
 from viscotack.errors import InputError
 from viscotack.materials import Modes
@@ -33,6 +35,12 @@ _GLASSY, _MOST = np.log(2e3), 400
 _FINE = 16
 # The part of the difference to the coarser spline that is stated: of fourth order it is 1/16.
 _STATED = 0.25
+
+
+@cache
+def _pools() -> ThreadpoolController:
+    """Return the threads of the libraries that are loaded; to look for them takes longer."""
+    return ThreadpoolController()
 
 
 class Branch:
@@ -139,7 +147,9 @@ class Branch:
         at, step = before, aim - before
         while at != aim:
             towards = aim if abs(aim - at) <= abs(step) else at + step
-            found = solved(self._system(np.exp(towards)), crack.u)
+            # the matrices are small: more threads only wait for each other
+            with _pools().limit(limits=1, user_api="blas"):
+                found = solved(self._system(np.exp(towards)), crack.u)
             if found is not None:
                 at, crack, step = towards, found, 1.5 * step
                 continue

@@ -216,7 +216,7 @@ class SteadyCrack:
     @cached_property
     def modes(self) -> Modes:
         """Creep in modes: times in the unit of time, compliances in that of the relaxed solid."""
-        return _modes_of(self.material)
+        return modes_of(self.material)
 
     @property
     def _reduced(self) -> Any:
@@ -287,7 +287,7 @@ def _finite(name: str, value: npt.ArrayLike) -> Array:
     return x
 
 
-def _modes_of(material: Any) -> Modes:
+def modes_of(material: Any) -> Modes:
     """Return the modes of a solid, times in its unit of time."""
     unit, k = material.time_unit, material.modulus_ratio
     shortest, longest = (unit * edge for edge in _WINDOW)
