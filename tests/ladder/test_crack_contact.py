@@ -168,6 +168,20 @@ def test_a_history_is_that_of_a_simulation():
     assert found.hysteresis == pytest.approx(loop, rel=0.03)
 
 
+@pytest.mark.parametrize("hold", ["depth", "force"])
+def test_after_a_very_long_dwell_the_contact_has_relaxed(hold):
+    # a dwell of a million times, then a jump of a few 1e-10 of one: steps were round-off
+    press = Approach(1e4, to=AtForce(20.0)), Dwell(1e6, hold=hold)
+    dwelt = Groups(tabor=100.0, material=standard(), start=Apart(5.0), moves=press, rate=1e3)
+    found = crack_contact(dwelt)
+    start = AtForce(20.0)
+    if hold == "depth":
+        start = AtDepth(float(found.depth[found.move == 1][-1]))
+    rested = crack_contact(Groups(tabor=100.0, material=standard(), start=start, rate=1e3))
+    assert found.pull_off_force == pytest.approx(rested.pull_off_force, rel=5e-3)
+    assert found.status == "detached"
+
+
 def test_cycles_that_do_not_relax_have_a_bell():
     # Afferrante and Violano: loaded and unloaded at one speed, slow and fast contacts are elastic
     # ones, rubbery and glassy, and JKR's force knows no modulus

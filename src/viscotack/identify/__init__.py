@@ -1,7 +1,9 @@
 """The interface from measured curves: which work of adhesion, which range, and how well known."""
 
+from .forecasting import RateForecast, forecast_rates
 from .objective import Best, Interval, Objective, Parameter
 from .rate_series import PullOff, RateSeriesFit, identify_rates, pull_offs
+from .sampling import Posterior, posterior
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 
 __all__ = [
@@ -10,13 +12,17 @@ __all__ = [
     "ModelFit",
     "Objective",
     "Parameter",
+    "Posterior",
     "PullOff",
+    "RateForecast",
     "RateSeriesFit",
     "SlowTest",
     "SlowTestFit",
     "fitted_force",
+    "forecast_rates",
     "identify_rates",
     "identify_slow",
+    "posterior",
     "pull_offs",
     "slow_test",
 ]

@@ -1,9 +1,9 @@
 r"""The interface from a rate series: pull-off forces at several speeds, and a material.
 
-The forward model is the contact whose edge is a steady crack
-(:mod:`viscotack.theory.crack.contact`), with Lennard-Jones forces. All works of adhesion and ranges
-that are looked at are computed at once, on a grid, and interpolated in their logarithms; the search
-and its intervals then cost nothing.
+The forward model is the contact whose edge is a steady crack (:mod:`.forward`). All works of
+adhesion and ranges that are looked at are computed at once, on a grid, and interpolated in their
+logarithms; the search and its intervals then cost nothing. Noise of the forces, the error of the
+theory and the doubt about the material (:mod:`.doubt`) are one covariance of the relative forces.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,21 +14,17 @@ import numpy.typing as npt
 from scipy.interpolate import RectBivariateSpline
 
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
 from viscotack.lab.tack import Cycle, Measured
-from viscotack.materials import Material
-from viscotack.problem import Problem
-from viscotack.protocol import AtForce, Retraction
-from viscotack.theory import SteadyCrack, lennard_jones
-from viscotack.theory.crack.contact import profile_of, radius_at_force, recede
-from viscotack.traction import LennardJones
+from viscotack.materials import Material, Passport
 
+from .doubt import allowed, covariance, log_forces, theory_covariance
+from .forward import Forward
 from .objective import Best, Interval, Objective, Parameter
 
 Array = npt.NDArray[np.float64]
 
 _WORKS, _GAPS = 9, 21
-_LEAST_TABOR = 2.0  # effective: below it the theory does not hold
+LEAST_TABOR = 2.0  # effective: below it the theory does not hold
 _THEORY = 0.02  # relative standard uncertainty of the forward model
 _LOUD = 2.0  # residuals over their uncertainty: no such interface gives the forces
 _SAME = 0.03  # speeds within this part are one
@@ -37,13 +33,14 @@ _MOST = 40  # speeds
 
 @dataclass(frozen=True)
 class PullOff:
-    """One pull-off: true speed [m/s] and force [N]; a positive number with its uncertainty."""
+    """One pull-off: true speed [m/s], force [N] as a positive number, and preload [N] if known."""
 
     speed: float
     force: Measured
+    preload: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RateSeriesFit:
     """What a rate series says of the interface.
 
@@ -61,6 +58,18 @@ class RateSeriesFit:
         Root of the mean square of the residuals over their uncertainty.
     words : tuple of str
         What the data say and what they cannot tell.
+    series : tuple of PullOff
+        What was fitted, each with its preload.
+    passport : Passport
+        Of the material.
+    forward : Forward
+        The pull-offs of the material.
+    covariance : ndarray, shape (S, S)
+        Of the relative forces: noise, theory and material.
+    objective : Objective
+        To ask more of: its profiles, its density.
+    level : float
+        Confidence level of the intervals.
     """
 
     work_of_adhesion: float
@@ -70,14 +79,29 @@ class RateSeriesFit:
     forces: tuple[float, ...]
     scatter: float
     words: tuple[str, ...]
+    series: tuple[PullOff, ...]
+    passport: Passport
+    forward: Forward
+    covariance: Array
+    objective: Objective
+    level: float
+
+    @property
+    def best(self) -> Best:
+        """The most likely interface."""
+        values = {
+            "work_of_adhesion": self.work_of_adhesion,
+            "equilibrium_gap": self.equilibrium_gap,
+        }
+        return self.objective.best(values)
 
 
 def identify_rates(
     series: Sequence[PullOff],
     *,
-    material: Material,
+    material: Material | Passport,
     radius: float,
-    preload: float,
+    preload: float | None = None,
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
     theory: float = _THEORY,
@@ -88,17 +112,20 @@ def identify_rates(
     Parameters
     ----------
     series : sequence of PullOff
-        Two speeds and more, of one sphere relaxed under one preload.
-    material : Material
-        Of the solid, as a passport has it; taken as exact.
-    radius, preload : float
-        Of the sphere [m], and the force under which it relaxed [N].
+        Two speeds and more, of one sphere relaxed under its preload.
+    material : Passport or Material
+        Of the solid, at the temperature of the tests. Of a passport the solids that its
+        measurement allows as well widen the answer; a bare material is taken as exact.
+    radius : float
+        Of the sphere [m].
+    preload : float, optional
+        The force under which all of them relaxed [N]; else that of each pull-off.
     gaps : (float, float)
         Ranges of attraction h0 that are looked at [m]; cut where the theory ends.
     work_of_adhesion : (float, float), optional
         Known from a slow test, with its standard uncertainty [J/m2].
     theory : float
-        Relative standard uncertainty of the forward model itself.
+        Relative standard uncertainty of the forward model itself, shared by near speeds.
     level : float
         Confidence level of the intervals.
 
@@ -110,30 +137,41 @@ def identify_rates(
     Notes
     -----
     The bulk is linear and the interface elastic: where forces rise more steeply than any range
-    gives, residuals say so. 1 to 10 s.
+    gives, residuals say so. 1 to 20 s, most of it the cracks of the material.
     """
-    _check(series, radius, preload, gaps, theory, level)
-    speeds = np.array([one.speed for one in series])
+    passport = material if isinstance(material, Passport) else Passport(name="", material=material)
+    series = [_loaded(one, preload) for one in series]
+    _check(series, radius, gaps, theory, level)
+    speed = np.array([one.speed for one in series])
+    load = np.array([one.preload for one in series], dtype=float)
     force = np.array([one.force.value for one in series])
-    sigma = np.hypot([one.force.uncertainty for one in series], theory * force)
-    model = _Table(material, radius, preload, speeds, gaps, float(force.min()))
+    noise = np.array([one.force.uncertainty for one in series]) / force
+    forward = Forward(passport.material, radius)
+    model = _Table(forward, speed, load, gaps, float(force.min()))
     prior = None
     if work_of_adhesion is not None:
         prior = (work_of_adhesion[0], work_of_adhesion[1] / work_of_adhesion[0])
-    low, high = model.works[0], model.works[-1]
     parameters = (
-        Parameter("work_of_adhesion", low, high, float(np.sqrt(low * high)), prior=prior),
-        Parameter(
-            "equilibrium_gap",
-            model.gaps[0],
-            model.gaps[-1],
-            float(np.sqrt(model.gaps[0] * model.gaps[-1])),
-        ),
+        _between("work_of_adhesion", model.works, prior),
+        _between("equilibrium_gap", model.gaps, None),
     )
-    objective = Objective(lambda values: (model(values) - force) / sigma, parameters)
+
+    def asked(spread: Array) -> Objective:
+        white = np.linalg.inv(np.linalg.cholesky(spread))
+        return Objective(lambda values: white @ (model(values) / force - 1), parameters)
+
+    spread = np.diag(np.maximum(noise, 1e-9) ** 2) + theory_covariance(speed, theory)
+    objective = asked(spread)
     best = _best(objective)
+    solids = allowed(passport)
+    if solids:
+        # what the doubt about the material does hardly changes with the interface
+        w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+        spread = spread + covariance(log_forces(forward, solids, w, gap, speed, load))
+        objective = asked(spread)
+        best = _best(objective)
     intervals = {one.name: objective.interval(one.name, best, level) for one in parameters}
-    if model.effective(best.values) < _LEAST_TABOR:
+    if model.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {best.values['equilibrium_gap']:.3g} m, lies where the zone "
             "at the edge is as large as the contact and the theory does not hold: simulate"
@@ -141,22 +179,41 @@ def identify_rates(
     rest = objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - 2, 1)))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-    tabor = _problem(material, radius, preload, w, gap, 1e-6).groups().tabor
     return RateSeriesFit(
         w,
         gap,
-        tabor,
+        forward.problem(w, gap, float(load[0])).groups().tabor,
         intervals,
         tuple(model(best.values).tolist()),
         scatter,
-        tuple(_words(best, intervals, scatter, level)),
+        tuple(_words(best, intervals, scatter, level, bool(solids))),
+        tuple(series),
+        passport,
+        forward,
+        spread,
+        objective,
+        level,
     )
+
+
+def _loaded(one: PullOff, preload: float | None) -> PullOff:
+    load = one.preload if preload is None else preload
+    if load is None:
+        raise InputError(
+            f"the pull-off at {one.speed:.3g} m/s has no preload; say the force [N] under which "
+            "the contact relaxed"
+        )
+    return PullOff(one.speed, one.force, load)
+
+
+def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Parameter:
+    low, high = float(values[0]), float(values[-1])
+    return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
 
 
 def _check(
     series: Sequence[PullOff],
     radius: float,
-    preload: float,
     gaps: tuple[float, float],
     theory: float,
     level: float,
@@ -169,30 +226,21 @@ def _check(
         )
     if not all(one.speed > 0 and one.force.value > 0 for one in series):
         raise InputError("speeds and pull-off forces must be positive")
-    if not (radius > 0 and preload > 0 and 0 <= theory < 1 and 0 < level < 1):
+    loads = [one.preload or 0.0 for one in series]
+    if not (radius > 0 and min(loads) > 0 and 0 <= theory < 1 and 0 < level < 1):
         raise InputError(
             f"radius and preload must be positive, theory and level parts of one; got {radius} m, "
-            f"{preload} N, {theory}, {level}"
+            f"{min(loads)} N, {theory}, {level}"
         )
     if not 0 < gaps[0] < gaps[1]:
         raise InputError(f"gaps must be two ranges, the smaller first [m], got {gaps!r}")
 
 
-def _problem(
-    material: Material, radius: float, preload: float, w: float, gap: float, speed: float
-) -> Problem:
-    return Problem(
-        material=material,
-        traction=LennardJones(work_of_adhesion=w, equilibrium_gap=gap),
-        geometry=Sphere(radius=radius),
-        protocol=Retraction(start=AtForce(preload), speed=speed),
-    )
-
-
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
     """Return one pull-off for each speed: repeated cycles are averaged.
 
-    Speeds within 3 % are one. The uncertainty of a mean holds the scatter of its cycles.
+    Speeds within 3 % are one. The uncertainty of a mean holds the scatter of its cycles; the
+    preload is the force where retractions begin, none where one of them begins in tension.
     """
     found: list[PullOff] = []
     rest = sorted(cycles, key=lambda cycle: cycle.speed.value)
@@ -204,7 +252,9 @@ def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
         own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
         spread = float(np.std(forces, ddof=1) / np.sqrt(forces.size)) if forces.size > 1 else 0.0
         speed = float(np.mean([cycle.speed.value for cycle in same]))
-        found.append(PullOff(speed, Measured(float(forces.mean()), float(np.hypot(own, spread)))))
+        begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
+        force = Measured(float(forces.mean()), float(np.hypot(own, spread)))
+        found.append(PullOff(speed, force, float(np.mean(begins)) if min(begins) > 0 else None))
     return found
 
 
@@ -213,20 +263,20 @@ class _Table:
 
     def __init__(
         self,
-        material: Material,
-        radius: float,
-        preload: float,
-        speeds: Array,
+        forward: Forward,
+        speed: Array,
+        preload: Array,
         gaps: tuple[float, float],
         least: float,
     ):
         # no energy at an opening edge is less than the work of adhesion
-        most = 1.2 * least / (1.5 * np.pi * radius)
+        most = 1.2 * least / (1.5 * np.pi * forward.radius)
         self.works = np.geomspace(most / 12, most, _WORKS)
         self.gaps = np.geomspace(*gaps, _GAPS)
-        force, effective = _grid(material, radius, preload, speeds, self.works, self.gaps)
+        found = forward.pulled(self.works[:, None, None], self.gaps[:, None], speed, preload)
+        force, effective = found.force, found.effective_tabor
         # where the most work of adhesion still gives a crack; less is checked where it is found
-        holds = np.all(effective[-1] >= _LEAST_TABOR, axis=-1)
+        holds = np.all(effective[-1] >= LEAST_TABOR, axis=-1)
         count = int(np.argmin(holds)) if not holds.all() else holds.size
         if count < 5:
             raise InputError(
@@ -237,7 +287,7 @@ class _Table:
         self.gaps = self.gaps[:count]
         x, y = np.log(self.works), np.log(self.gaps)
         self._splines = [
-            RectBivariateSpline(x, y, np.log(force[:, :count, i])) for i in range(speeds.size)
+            RectBivariateSpline(x, y, np.log(force[:, :count, i])) for i in range(speed.size)
         ]
         self._effective = RectBivariateSpline(x, y, np.log(effective.min(axis=-1)[:, :count]))
 
@@ -251,36 +301,6 @@ class _Table:
         return float(np.exp(self._effective(x, y)[0, 0]))
 
 
-def _grid(
-    material: Material, radius: float, preload: float, speeds: Array, works: Array, gaps: Array
-) -> tuple[Array, Array]:
-    """Return pull-off forces [N] and effective Tabor numbers, shape (works, gaps, speeds)."""
-    groups = [
-        [_problem(material, radius, preload, w, gap, 1e-6).groups() for gap in gaps] for w in works
-    ]
-    one = groups[0][0]
-    unit = one.material.time_unit
-    crack, profile = SteadyCrack(one.material, one.traction), profile_of(one.geometry)
-    shape = (works.size, gaps.size, speeds.size)
-    start = np.array([radius_at_force(profile, preload / (radius * w)) for w in works])
-    tabor = np.array([[group.tabor for group in row] for row in groups])
-    rate = np.array([[(group.rate or 0.0) * unit / group.tabor for group in row] for row in groups])
-    found = recede(
-        crack,
-        profile,
-        radius=np.broadcast_to(start[:, None, None], shape).ravel(),
-        rate=(rate[:, :, None] * speeds / 1e-6).ravel(),
-        tabor=np.broadcast_to(tabor[:, :, None], shape).ravel(),
-    )
-    mu = np.broadcast_to(tabor[:, :, None], shape).ravel()
-    effective = mu * np.maximum(found.amplification, 1.0) ** (-1 / 3)
-    ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
-    tension = np.where(found.force < 0, -ratio * found.force, 0.0)
-    at = np.argmax(tension, axis=0), np.arange(mu.size)
-    scale = radius * works[:, None, None]
-    return tension[at].reshape(shape) * scale, effective[at].reshape(shape)
-
-
 def _best(objective: Objective) -> Best:
     """Return the best of several starts along the range."""
     (gap,) = (one for one in objective.parameters if one.name == "equilibrium_gap")
@@ -292,7 +312,9 @@ def _best(objective: Objective) -> Best:
     return min(found, key=lambda best: best.misfit)
 
 
-def _words(best: Best, intervals: dict[str, Interval], scatter: float, level: float) -> list[str]:
+def _words(
+    best: Best, intervals: dict[str, Interval], scatter: float, level: float, doubted: bool
+) -> list[str]:
     said = []
     labels = {
         "work_of_adhesion": ("work of adhesion", "J/m2"),
@@ -321,4 +343,6 @@ def _words(best: Best, intervals: dict[str, Interval], scatter: float, level: fl
             "of a linear solid with an elastic interface give these forces; the interface may "
             "grow with speed, or the material be another one"
         )
+    if not doubted:
+        said.append("the material is taken as exact: nothing says how well it is known")
     return said

@@ -4,11 +4,13 @@ Few, because each is checked against its publication. Add one by a function like
 """
 
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
+from viscotack.materials.passport_file import read_passport
 from viscotack.materials.power_law import RetardationPowerLaw
 from viscotack.materials.shift import WLF
 
@@ -74,3 +76,21 @@ def published(name: str) -> Passport:
             f"there is no published material {name!r} in the library; it has {', '.join(MATERIALS)}"
         )
     return MATERIALS[name]()
+
+
+def passport_of(name: str) -> Passport:
+    """Return the passport in a file, or that of a published material.
+
+    Raises
+    ------
+    ValueError
+        If it is neither, or the file no passport.
+    """
+    if name in MATERIALS:
+        return published(name)
+    if not name.endswith(".toml") and not Path(name).exists():
+        raise InputError(
+            f"{name!r} is neither a passport (FILE.toml) nor a published material "
+            f"({', '.join(MATERIALS)})"
+        )
+    return read_passport(name)

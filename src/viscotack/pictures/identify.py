@@ -1,17 +1,27 @@
 """Pictures of an interface that was found: measured points, fitted curves, residuals."""
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack.identify import PullOff, RateSeriesFit, SlowTestFit, fitted_force
+from viscotack.identify import (
+    Posterior,
+    RateForecast,
+    RateSeriesFit,
+    SlowTestFit,
+    fitted_force,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
+# parameter -> its label and factor in pictures
+_SCALES = {
+    "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
+    "equilibrium_gap": ("range $h_0$ [nm]", 1e9),
+}
 _MOST = 20.0  # of the criterion: models that are worth a line
 
 
@@ -43,31 +53,86 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
     return figure
 
 
-def draw_rate_series(series: Sequence[PullOff], fit: RateSeriesFit) -> "Figure":
-    """Return pull-off force against speed: measured with uncertainties, and fitted."""
+def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -> "Figure":
+    """Return pull-off force against speed: measured, fitted, and forecast with its band."""
     import matplotlib.style
     from matplotlib.figure import Figure
+    from matplotlib.ticker import FuncFormatter
 
     with matplotlib.style.context(_STYLE):
         figure = Figure(figsize=(8.0, 5.4), layout="constrained")
         axes = figure.subplots()
-        speed = [1e6 * one.speed for one in series]
+        speed = [1e6 * one.speed for one in fit.series]
         axes.errorbar(
             speed,
-            [1e3 * one.force.value for one in series],
-            yerr=[1e3 * one.force.uncertainty for one in series],
+            [1e3 * one.force.value for one in fit.series],
+            yerr=[1e3 * one.force.uncertainty for one in fit.series],
             fmt="o",
             color="0.3",
             label="measured",
+            zorder=3,
         )
-        axes.plot(
-            speed,
-            [1e3 * force for force in fit.forces],
-            label=f"{fit.work_of_adhesion:.3g} J/m$^2$, range {1e9 * fit.equilibrium_gap:.3g} nm",
-        )
+        interface = f"{fit.work_of_adhesion:.3g} J/m$^2$, range {1e9 * fit.equilibrium_gap:.3g} nm"
+        fitted = [1e3 * force for force in fit.forces]
+        axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
+        if forecast is not None:
+            _band(axes, forecast)
         axes.set_xscale("log")
         axes.set_yscale("log")
+        # forces seldom go through a decade: plain numbers
+        for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
+            which(FuncFormatter(lambda value, _: f"{value:.3g}"))
         axes.set_xlabel("true speed of retraction [um/s]")
         axes.set_ylabel("pull-off force [mN]")
         axes.legend()
+    return figure
+
+
+def _band(axes: Any, forecast: RateForecast) -> None:
+    order = np.argsort(forecast.speed)
+    x, low, high, middle = (
+        scale * values[order]
+        for scale, values in (
+            (1e6, forecast.speed),
+            (1e3, forecast.low),
+            (1e3, forecast.high),
+            (1e3, forecast.force),
+        )
+    )
+    where = f"forecast at {1e3 * forecast.preload:.3g} mN"
+    if forecast.temperature is not None:
+        where += f", {forecast.temperature - 273.15:.3g} C"
+    if forecast.dwell is not None:
+        where += f", {forecast.dwell:.3g} s of dwell"
+    (line,) = axes.plot(x, middle, ls="--", label=where)
+    axes.fill_between(
+        x, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{forecast.level:.0%} band"
+    )
+
+
+def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
+    """Return the posterior of an interface, each parameter alone and with each other."""
+    import matplotlib.style
+    from corner import corner
+    from matplotlib.figure import Figure
+
+    with matplotlib.style.context(_STYLE):
+        figure = Figure(figsize=(7.0, 7.0))
+        figure.set_layout_engine("none")
+        columns = [_SCALES.get(one.name, (one.name, 1.0)) for one in chain.parameters]
+        scale = np.array([factor for _, factor in columns])
+        ends = [(1 - fit.level) / 2, 0.5, (1 + fit.level) / 2]
+        best = np.array([fit.best.values[one.name] for one in chain.parameters])
+        corner(
+            chain.values * scale,
+            labels=[label for label, _ in columns],
+            truths=best * scale,
+            quantiles=ends,
+            title_quantiles=ends,
+            show_titles=True,
+            title_fmt=".3g",
+            title_kwargs={"fontsize": 10},
+            label_kwargs={"fontsize": 11},
+            fig=figure,
+        )
     return figure

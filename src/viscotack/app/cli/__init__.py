@@ -14,6 +14,7 @@ _COMMANDS = (
     "material",
     "tack",
     "identify",
+    "forecast",
     "campaign",
     "schema",
 )

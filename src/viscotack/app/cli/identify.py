@@ -3,17 +3,17 @@
 import json
 from dataclasses import asdict
 from enum import StrEnum
-from statistics import median
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from typer import Option
 
 from viscotack.errors import InputError
+from viscotack.files.whole import write_whole
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
-from .material import passport_of
 from .tack import (
     Compliance,
     ComplianceUncertainty,
@@ -32,7 +32,6 @@ from .tack import (
     evaluation_of,
     nothing,
     reading_of,
-    reasons_of,
 )
 from .writing import Writing, check_files
 
@@ -164,7 +163,7 @@ def slow_command(
         )
     write = Writing()
     write.picture(plot_file, lambda: draw_slow_test(fit))
-    for path, why in reasons_of(found):
+    for path, why in found.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
     write.answer(_as_json(fit) if as_json else _words(fit))
     write.end()
@@ -211,8 +210,29 @@ def rates_command(
             help="Standard uncertainty of it; goes with it.",
         ),
     ] = None,
+    temperature: Annotated[
+        str | None,
+        Option(
+            "--temperature",
+            metavar="T",
+            help='Of the tests, "25 degC"; else that at which the passport holds.',
+        ),
+    ] = None,
     level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
+    output: Annotated[
+        Path | None,
+        Option(
+            "-o",
+            "--output",
+            metavar="STUDY",
+            help="Write the study, for `viscotack forecast` and `viscotack report`.",
+        ),
+    ] = None,
     plot_file: PlotFile = None,
+    corner_file: Annotated[
+        Path | None,
+        Option("--corner", metavar="FILE", help="Draw the posterior of work and range."),
+    ] = None,
     format: Format = None,
     force_unit: ForceUnit = None,
     length_unit: LengthUnit = None,
@@ -229,13 +249,16 @@ def rates_command(
     """Find work of adhesion and range of attraction from pull-offs at several speeds.
 
     Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
-    steady viscoelastic crack is fitted to them, with the material taken as exact. What the data
-    cannot tell, and where such an interface does not give the forces, is said in words.
+    steady viscoelastic crack is fitted to them. Solids that the measurement behind the passport
+    allows as well widen the intervals. What the data cannot tell, and where such an interface does
+    not give the forces, is said in words.
 
     Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
+    -o study.toml
     """
     with wrong_input():
-        check_files({"--plot": plot_file}, as_json=as_json, reads=files)
+        drawn = {"--plot": plot_file, "--corner": corner_file}
+        check_files({"--output": output, **drawn}, as_json=as_json, reads=files)
         reading = reading_of(
             format,
             (force_unit, length_unit, time_unit),
@@ -244,40 +267,42 @@ def rates_command(
             nominal_speed,
         )
         evaluation = evaluation_of((None, None), (into, compression), retraction_only)
-        from viscotack.identify import identify_rates, pull_offs
-        from viscotack.lab.tack import survey
-        from viscotack.pictures.identify import draw_rate_series
+        from viscotack.identify import posterior
+        from viscotack.identify.study import Study, answer, study_text
+        from viscotack.pictures.identify import draw_posterior, draw_rate_series
 
-        solid = passport_of(passport).material
-        found = survey(files, reading=reading, evaluation=evaluation)
-        if not found.cycles:
-            raise InputError(nothing(found))
-        series = pull_offs(found.cycles)
-        begins = [float(one.force[one.segments.retract]) for one in found.cycles]
-        fit = identify_rates(
-            series,
-            material=solid,
+        study = Study(
+            files=tuple(files),
+            material=passport,
             radius=parse(radius, "m"),
-            preload=float(median(begins)) if preload is None else parse(preload, "N"),
+            preload=None if preload is None else parse(preload, "N"),
+            temperature=None if temperature is None else parse(temperature, "K"),
             work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
             level=level,
+            reading=reading,
+            evaluation=evaluation,
         )
-    write = Writing()
-    write.picture(plot_file, lambda: draw_rate_series(series, fit))
-    for path, why in reasons_of(found):
+        found = answer(study)
+    fit, write = found.fit, Writing()
+    folder = "." if output is None else output.parent
+    text = study_text(study, folder)
+    write("wrote", output, lambda target: write_whole(target, text.encode()))
+    write.picture(plot_file, lambda: draw_rate_series(fit))
+    write.picture(corner_file, lambda: draw_posterior(posterior(fit.objective, fit.best), fit))
+    for path, why in found.survey.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
     if as_json:
-        write.answer(json.dumps(_rates(series, fit), indent=2, allow_nan=False))
+        write.answer(json.dumps(_rates(fit), indent=2, allow_nan=False))
     else:
         rows = [
             f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
-            for one, force in zip(series, fit.forces, strict=True)
+            for one, force in zip(fit.series, fit.forces, strict=True)
         ]
         write.answer("\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"]))
     write.end()
 
 
-def _rates(series: Any, fit: Any) -> dict[str, Any]:
+def _rates(fit: Any) -> dict[str, Any]:
     return {
         "work_of_adhesion_J_m2": fit.work_of_adhesion,
         "equilibrium_gap_m": fit.equilibrium_gap,
@@ -291,7 +316,7 @@ def _rates(series: Any, fit: Any) -> dict[str, Any]:
                 "pull_off_force_N_uncertainty": one.force.uncertainty,
                 "fitted_N": force,
             }
-            for one, force in zip(series, fit.forces, strict=True)
+            for one, force in zip(fit.series, fit.forces, strict=True)
         ],
         "words": list(fit.words),
     }

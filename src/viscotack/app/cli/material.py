@@ -15,9 +15,9 @@ from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.materials.conversion import PronyForm, prony_form
 from viscotack.materials.exchange import Units, exported, imported
-from viscotack.materials.library import MATERIALS, published
+from viscotack.materials.library import MATERIALS, passport_of
 from viscotack.materials.passport import Origin, Passport
-from viscotack.materials.passport_file import read_passport, write_passport
+from viscotack.materials.passport_file import write_passport
 from viscotack.materials.passport_words import in_words, shift_lines
 from viscotack.materials.words import word_of
 from viscotack.units import parse
@@ -454,18 +454,6 @@ def export_command(
     write = Writing()
     write("wrote", output or Path("-"), lambda target: write_whole(target, text.encode()))
     write.end()
-
-
-def passport_of(name: str) -> Passport:
-    """Return the passport in a file, or that of a published material."""
-    if name in MATERIALS:
-        return published(name)
-    if not name.endswith(".toml") and not Path(name).exists():
-        raise InputError(
-            f"{name!r} is neither a passport (FILE.toml) nor a published material "
-            f"({', '.join(MATERIALS)})"
-        )
-    return read_passport(name)
 
 
 def _measured(files: list[Path], test: Test | None, given: dict[str, Any]) -> Any:

@@ -189,7 +189,7 @@ def read_command(
     ]
     write("wrote", table, lambda target: write_whole(target, _as_csv(rows)))
     write.picture(plot_file, lambda: draw_tests(found.cycles))
-    for path, why in reasons_of(found):
+    for path, why in found.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
     write.answer(_as_json(found) if as_json else _words(found))
     write.end()
@@ -237,15 +237,9 @@ def _sign(flag: str, word: str | None) -> int:
     return _SIGNS[word]
 
 
-def reasons_of(found: Any) -> list[tuple[str, str]]:
-    """Return why files and cycles were refused."""
-    files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in found.unread]
-    return files + [(path, f"cycle {one.number}: {one.reason}") for path, one in found.refused]
-
-
 def nothing(found: Any) -> str:
     """Return why no cycle at all was read."""
-    reasons = "\n  ".join(f"{path}: {why}" for path, why in reasons_of(found))
+    reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
     return f"no cycle of a tack test could be read:\n  {reasons}"
 
 
@@ -296,7 +290,7 @@ def _words(found: Any) -> str:
             )
         lines.append(f"     {'; '.join(one.cycles[0].source.notes)}")
     count = len(found.cycles)
-    lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(reasons_of(found))} refused")
+    lines.append(f"{count} {'cycle' if count == 1 else 'cycles'}, {len(found.reasons)} refused")
     return "\n".join(lines)
 
 

@@ -41,6 +41,13 @@ class Survey:
             (one.record.source.path, refusal) for one in self.evaluations for refusal in one.refused
         )
 
+    @property
+    def reasons(self) -> tuple[tuple[str, str], ...]:
+        """Why files and cycles were refused, each with the file."""
+        files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]
+        cycles = [(path, f"cycle {one.number}: {one.reason}") for path, one in self.refused]
+        return (*files, *cycles)
+
 
 def survey(
     paths: Sequence[AnyPath],

@@ -159,12 +159,15 @@ class Contact:
     def run(self, start: _State, drives: tuple[Drive, ...]) -> Curve:
         """Return the history of a start, until the contact lets go in the last drive or it ends."""
         rows = [(start, 0.0, 1.0, 0)]
-        state, detached = start, False
+        state, detached, begins = start, False, [0.0]
         for number, drive in enumerate(drives):
             last = number == len(drives) - 1
-            state, detached = self._through(state, drive, number, rows, last)
+            # a time of its own for each drive: after a long one, short steps would be round-off
+            state, detached = self._through(state._replace(time=0.0), drive, number, rows, last)
+            begins.append(begins[-1] + state.time)
         columns = list(zip(*((*row[0][:5], *row[1:]) for row in rows), strict=True))
         time, _, depth, force, radius, speed, energy, move = (np.array(c) for c in columns)
+        time = time + np.array(begins)[move.astype(int)]
         return Curve(time, depth, force, radius, speed, energy, move.astype(int), detached)
 
     def _through(
@@ -356,13 +359,13 @@ class _Step:
 
         grow, low, high = 1e-7, before, before
         while True:
-            low, high = high, before + grow * max(before, 0.05)
-            if high > largest:
+            low, high = high, min(before + grow * max(before, 0.05), largest)
+            if excess(high) < 0:
+                return _bisected(excess, high, low)
+            if high >= largest:
                 raise InputError(
                     "the contact grows beyond the largest radius that was expected; simulate it"
                 )
-            if excess(high) < 0:
-                return _bisected(excess, high, low)
             grow *= 2
 
     def state(self, radius: float, time: float) -> _State:

@@ -68,7 +68,13 @@ class Curves(NamedTuple):
 
 
 def recede(
-    crack: SteadyCrack, profile: Profile, *, radius: Array, rate: Array, tabor: Array
+    crack: SteadyCrack,
+    profile: Profile,
+    *,
+    radius: Array,
+    rate: Array,
+    tabor: Array,
+    radii: int = _RADII,
 ) -> Curves:
     """Return the curves of contacts that recede from relaxed ones.
 
@@ -81,6 +87,8 @@ def recede(
     radius, rate, tabor : ndarray
         Of each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
         material], Tabor number.
+    radii : int
+        Of a curve; fewer are faster, and enough where near cases are compared.
     """
     a0, r, mu = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (radius, rate, tabor)))
     chain = chain_of(crack.modes)
@@ -89,14 +97,14 @@ def recede(
     start = profile.relaxed_depth(a0)
     # what the smallest, elastic contact has at pull-off, not to end above any of them
     least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
-    radii = a0 * np.exp(_parts()[:, None] * np.log(least / a0))
+    way = a0 * np.exp(_parts(radii)[:, None] * np.log(least / a0))
 
     def marched(a: Array) -> tuple[Array, Array]:
         return _marched(a, profile, edge, travel, start=start, rate=r, mobility=mu**2)
 
     # of first order in the steps: of two runs at the same radii the difference is the error
-    (coarse, slow), (fine, fast) = marched(radii[::2]), marched(radii)
-    a = radii[::2]
+    (coarse, slow), (fine, fast) = marched(way[::2]), marched(way)
+    a = way[::2]
     fine, fast = fine[::2], fast[::2]
 
     def lifted(time: Array) -> tuple[Array, Array]:
@@ -119,10 +127,11 @@ def recede(
     )
 
 
-def _parts() -> Array:
+def _parts(radii: int) -> Array:
     """Return parts of the way of ln a; every second one is a coarser way."""
-    even = np.linspace(0.0, 1.0, _RADII)
-    coarse = np.concatenate([[0.0], np.geomspace(_FIRST, even[1], _AT_REST), even[2:]])
+    even = np.linspace(0.0, 1.0, radii)
+    first = np.geomspace(_FIRST, even[1], _AT_REST * radii // _RADII)
+    coarse = np.concatenate([[0.0], first, even[2:]])
     return np.sort(np.concatenate([coarse, (coarse[1:] + coarse[:-1]) / 2]))
 
 

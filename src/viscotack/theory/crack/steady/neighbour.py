@@ -42,8 +42,8 @@ class NeighbourCrack:
     Notes
     -----
     Speeds in the neighbour's own unit, as everywhere. Of power laws with a constant changed by 10
-    to 100 %, and Prony series with arms changed by 20 %, energies are those of its own cracks within 1.1 %
-    (`tests/ladder/test_neighbour_crack.py`).
+    to 100 %, and Prony series with arms changed by 20 %, energies are those of its own cracks
+    within 1.1 % (`tests/ladder/test_neighbour_crack.py`).
     """
 
     known: SteadyCrack

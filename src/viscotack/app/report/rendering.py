@@ -1,0 +1,174 @@
+"""The page of a study as HTML that needs nothing beside it.
+
+Its words and their order stand in ``page.html``, its looks in ``page.css``.
+"""
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from viscotack import __version__
+from viscotack.errors import InputError
+from viscotack.identify import RateForecast
+from viscotack.identify.study import Answer
+from viscotack.lab.tack import Cycle, Measured
+from viscotack.materials.passport_words import in_words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_FOLDER = Path(__file__).parent
+_MOST_CURVES = 12  # cycles in the picture of curves
+_MOST_ROWS = 13  # of the table of the forecast
+
+
+def page(found: Answer, forecast: RateForecast) -> str:
+    """Return the page of a study and its forecast.
+
+    Parameters
+    ----------
+    found : Answer
+        The files of a study, evaluated and fitted.
+    forecast : RateForecast
+        Of the same fit.
+    """
+    try:
+        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    except ImportError as error:
+        raise InputError(
+            "a report needs Jinja2; install it with: pip install 'viscotack[lab]'"
+        ) from error
+    from viscotack.pictures.identify import draw_posterior, draw_rate_series
+    from viscotack.pictures.tack import draw_tests
+
+    shelf = Environment(
+        loader=FileSystemLoader(_FOLDER), autoescape=True, undefined=StrictUndefined
+    )
+    fit = found.fit
+    return shelf.get_template("page.html").render(
+        style=(_FOLDER / "page.css").read_text(),
+        version=__version__,
+        title=found.study.title or "Pull-off of a sphere at several speeds",
+        notes=found.study.notes,
+        words=fit.words,
+        cautions=forecast.words,
+        facts=_facts(found),
+        tests=_tests(found),
+        refused=found.survey.reasons,
+        decisions=_decisions(found),
+        series=_series(found),
+        forecast=_forecast(forecast),
+        level=f"{fit.level:.0%}",
+        material=in_words(fit.passport),
+        curves=_drawing(draw_tests(found.survey.cycles[:_MOST_CURVES])),
+        speeds=_drawing(draw_rate_series(fit, forecast)),
+        posterior=_drawing(draw_posterior(forecast.posterior, fit)),
+    )
+
+
+def _facts(found: Answer) -> list[tuple[str, str]]:
+    study, fit = found.study, found.fit
+    temperature = fit.passport.temperature
+    loads = [one.preload or 0.0 for one in fit.series]
+    preload = f"{1e3 * min(loads):.4g} to {1e3 * max(loads):.4g} mN, where retractions begin"
+    if study.preload is not None:
+        preload = _unit(study.preload, 1e3, "mN")
+    return [
+        ("sphere radius", _unit(study.radius, 1e3, "mm")),
+        ("material", fit.passport.name or study.material),
+        ("temperature", "not stated" if temperature is None else f"{temperature - 273.15:.4g} °C"),
+        ("preload", preload),
+        ("work of adhesion", _interval(found, "work_of_adhesion", 1e3, "mJ/m²")),
+        ("range of attraction h₀", _interval(found, "equilibrium_gap", 1e9, "nm")),
+        ("Tabor number", f"{fit.tabor:.3g}"),
+        ("residuals over their uncertainty", f"{fit.scatter:.2g}"),
+    ]
+
+
+def _interval(found: Answer, name: str, scale: float, unit: str) -> str:
+    fit = found.fit
+    ends, value = fit.intervals[name], scale * fit.best.values[name]
+    low = f"{scale * ends.low:.3g}" if ends.closed_below else "no lower end"
+    high = f"{scale * ends.high:.3g}" if ends.closed_above else "no upper end"
+    return f"{value:.4g} {unit} ({low} to {high}, {fit.level:.0%})"
+
+
+def _tests(found: Answer) -> list[tuple[str, ...]]:
+    return [
+        (Path(one.record.source.path).name, one.record.source.sha256[:12], *_cycle(cycle))
+        for one in found.survey.evaluations
+        for cycle in one.cycles
+    ]
+
+
+def _cycle(cycle: Cycle) -> tuple[str, ...]:
+    return (
+        str(cycle.number),
+        _measured(cycle.speed, 1e6),
+        _measured(cycle.pull_off_force, 1e3),
+        _measured(cycle.work_of_separation, 1e9),
+        _measured(cycle.preload, 1e3),
+        f"{cycle.dwell_time:.3g}",
+    )
+
+
+def _decisions(found: Answer) -> list[str]:
+    """Return what was decided on the way from the files, each sentence once."""
+    notes = (note for cycle in found.survey.cycles for note in cycle.source.notes)
+    return list(dict.fromkeys(notes))
+
+
+def _series(found: Answer) -> list[tuple[str, ...]]:
+    fit = found.fit
+    return [
+        (
+            f"{1e6 * one.speed:.4g}",
+            _measured(one.force, 1e3),
+            f"{1e3 * force:.4g}",
+            f"{100 * (one.force.value / force - 1):+.2g} %",
+        )
+        for one, force in zip(fit.series, fit.forces, strict=True)
+    ]
+
+
+def _forecast(forecast: RateForecast) -> dict[str, Any]:
+    count = forecast.speed.size
+    shown = np.unique(np.linspace(0, count - 1, min(count, _MOST_ROWS)).round().astype(int))
+    columns = zip(
+        *(x[shown] for x in (forecast.speed, forecast.force, forecast.low, forecast.high)),
+        strict=True,
+    )
+    temperature = forecast.temperature
+    return {
+        "rows": [
+            (f"{1e6 * v:.4g}", f"{1e3 * P:.4g}", f"{1e3 * low:.4g}", f"{1e3 * high:.4g}")
+            for v, P, low, high in columns
+        ],
+        "preload": _unit(forecast.preload, 1e3, "mN"),
+        "temperature": "" if temperature is None else f"{temperature - 273.15:.4g} °C",
+        "dwell": "until all has relaxed" if forecast.dwell is None else f"{forecast.dwell:.4g} s",
+        "level": f"{forecast.level:.0%}",
+    }
+
+
+def _measured(one: Measured, scale: float) -> str:
+    return f"{scale * one.value:.4g} ± {scale * one.uncertainty:.1g}"
+
+
+def _unit(value: float, scale: float, unit: str) -> str:
+    return f"{scale * value:.4g} {unit}"
+
+
+def _drawing(figure: "Figure") -> Any:
+    """Return a figure as SVG to stand within a page."""
+    import matplotlib
+    from markupsafe import Markup
+
+    stream = io.StringIO()
+    # ids that are the same each time
+    with matplotlib.rc_context({"svg.hashsalt": "viscotack", "svg.fonttype": "path"}):
+        figure.savefig(stream, format="svg", metadata={"Date": None})
+    text = stream.getvalue()
+    return Markup(text[text.index("<svg") :])  # noqa: S704, our own drawing

@@ -1,0 +1,147 @@
+"""Pull-off forces of a sphere relaxed under a preload, for many interfaces and speeds at once.
+
+The contact whose edge is a steady crack (:mod:`viscotack.theory.crack.contact`), with Lennard-Jones
+forces: the forward model of a rate series and of its forecast.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.geometry import Sphere
+from viscotack.materials import Material
+from viscotack.problem import Problem
+from viscotack.protocol import AtForce, Retraction
+from viscotack.theory import SteadyCrack, lennard_jones
+from viscotack.theory.crack.contact import profile_of, radius_at_force, recede
+from viscotack.theory.crack.steady import NeighbourCrack
+from viscotack.traction import LennardJones
+
+Array = npt.NDArray[np.float64]
+
+_SPEED = 1e-6  # at which groups are asked for; rates are in proportion
+
+
+class Pulled(NamedTuple):
+    """Pull-offs, each array of the same shape.
+
+    Attributes
+    ----------
+    force : ndarray
+        Positive [N].
+    effective_tabor : ndarray
+        Tabor number of an elastic contact whose zone is as large beside it.
+    crack_speed : ndarray
+        Of the edge there [m/s].
+    contact_radius : ndarray
+        Of the relaxed start [m].
+    """
+
+    force: Array
+    effective_tabor: Array
+    crack_speed: Array
+    contact_radius: Array
+
+
+@dataclass(frozen=True)
+class Forward:
+    """Pull-offs of a sphere of one material.
+
+    Parameters
+    ----------
+    material : Material
+        Of the half-space.
+    radius : float
+        Of the sphere [m].
+    """
+
+    material: Material
+    radius: float
+
+    def problem(self, work: float, gap: float, preload: float, speed: float = _SPEED) -> Problem:
+        """Return one of the tests: work of adhesion [J/m2], h0 [m], preload [N], speed [m/s]."""
+        return Problem(
+            material=self.material,
+            traction=LennardJones(work_of_adhesion=work, equilibrium_gap=gap),
+            geometry=Sphere(radius=self.radius),
+            protocol=Retraction(start=AtForce(preload), speed=speed),
+        )
+
+    @cached_property
+    def crack(self) -> SteadyCrack:
+        """Return the cracks of the material, which are the same for all interfaces."""
+        groups = self.problem(0.1, 1e-9, 1e-3).groups()
+        return SteadyCrack(groups.material, groups.traction)
+
+    def beside(self, material: Material) -> "Neighbour":
+        """Return the pull-offs of a material near to this one, at no cost."""
+        return Neighbour(material, self.radius, self)
+
+    def pulled(
+        self,
+        work: npt.ArrayLike,
+        gap: npt.ArrayLike,
+        speed: npt.ArrayLike,
+        preload: npt.ArrayLike,
+        radii: int = 160,
+    ) -> Pulled:
+        """Return pull-offs of interfaces, broadcast.
+
+        Parameters
+        ----------
+        work, gap : array_like
+            Work of adhesion [J/m2] and range of attraction h0 [m].
+        speed, preload : array_like
+            Of the retraction [m/s], and under which the contact relaxed [N].
+        radii : int
+            Of a curve, as of :func:`~viscotack.theory.crack.contact.recede`.
+        """
+        w, h0, v, P = np.broadcast_arrays(
+            *(np.asarray(x, dtype=float) for x in (work, gap, speed, preload))
+        )
+        one = self.problem(float(w.flat[0]), float(h0.flat[0]), float(P.flat[0])).groups()
+        unit, profile = one.material.time_unit, profile_of(one.geometry)
+        # mu and the rate scale with powers of the interface
+        tabor = one.tabor * (w / w.flat[0]) ** (2 / 3) * h0.flat[0] / h0
+        rate = (one.rate or 0.0) * unit * (h0.flat[0] / h0) * (v / _SPEED) / tabor
+        load = P / (self.radius * w)
+        known, back = np.unique(load, return_inverse=True)
+        start = np.array([radius_at_force(profile, x) for x in known])[back].reshape(w.shape)
+        crack: Any = self.crack
+        found = recede(
+            crack,
+            profile,
+            radius=start.ravel(),
+            rate=rate.ravel(),
+            tabor=tabor.ravel(),
+            radii=radii,
+        )
+        mu = tabor.ravel()
+        effective = mu * np.maximum(found.amplification, 1.0) ** (-1 / 3)
+        ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
+        tension = np.where(found.force < 0, -ratio * found.force, 0.0)
+        at = np.argmax(tension, axis=0), np.arange(mu.size)
+        modulus = self.material.contact_modulus
+        beta = (self.radius**2 * w / modulus) ** (1 / 3)
+        crack_speed = found.speed[at].reshape(w.shape) * modulus * h0**2 / w / unit
+        return Pulled(
+            tension[at].reshape(w.shape) * self.radius * w,
+            effective[at].reshape(w.shape),
+            crack_speed,
+            start * beta,
+        )
+
+
+@dataclass(frozen=True)
+class Neighbour(Forward):
+    """Pull-offs of a material beside another whose cracks are known."""
+
+    known: Forward
+
+    @cached_property
+    def crack(self) -> Any:
+        """Return the cracks of the material, by those of its neighbour."""
+        return NeighbourCrack(self.known.crack, self.material)

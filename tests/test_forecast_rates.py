@@ -1,0 +1,172 @@
+"""A forecast from a rate series: held where it was measured, honest elsewhere; and its report."""
+
+import json
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from viscotack.errors import InputError
+from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
+from viscotack.identify.doubt import allowed, covariance, log_forces
+from viscotack.identify.forward import Forward
+from viscotack.identify.study import Study, read_study, study_text
+from viscotack.lab.tack import Measured
+from viscotack.materials import Passport, write_passport
+from viscotack.materials.passport import Evidence
+from viscotack.materials.shift import WLF
+
+SOLID = vt.RetardationPowerLaw(
+    rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
+)
+RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 1e-3
+SPEEDS = np.geomspace(1e-6, 1e-3, 5)
+RUBBER = Passport(
+    name="rubber",
+    material=SOLID,
+    temperature=293.15,
+    shift=WLF(293.15, 5.0, 150.0),
+    evidence=Evidence(numbers=50, constants=4, level=0.9, intervals=(("tau0", 5e-3, 2e-2),)),
+)
+RIG = Path(__file__).parents[1] / "examples" / "from_rig"
+
+
+@pytest.fixture(scope="module")
+def forward():
+    return Forward(SOLID, RADIUS)
+
+
+@pytest.fixture(scope="module")
+def series(forward):
+    force = forward.pulled(WORK, GAP, SPEEDS, PRELOAD).force
+    noisy = force * (1 + 0.02 * np.random.default_rng(1).standard_normal(force.size))
+    return [
+        PullOff(float(v), Measured(float(P), 0.02 * float(P)), PRELOAD)
+        for v, P in zip(SPEEDS, noisy, strict=True)
+    ]
+
+
+@pytest.fixture(scope="module")
+def fit(series):
+    return identify_rates(series, material=RUBBER, radius=RADIUS)
+
+
+def test_a_forecast_holds_the_truth_and_widens_away_from_the_data(fit, forward):
+    speed = np.array([3e-5, 1e-1])
+    found = forecast_rates(fit, speed)
+    true = forward.pulled(WORK, GAP, speed, PRELOAD).force
+    assert np.all((found.low < true) & (true < found.high))
+    width = np.log(found.high / found.low)
+    assert width[1] > 1.5 * width[0]
+    assert "beyond them the forecast rests on the material" in " ".join(found.words)
+
+
+def test_doubt_about_the_material_widens_the_answer(series, fit):
+    exact = identify_rates(series, material=SOLID, radius=RADIUS)
+    narrow, wide = (
+        np.log(one.intervals["equilibrium_gap"].high / one.intervals["equilibrium_gap"].low)
+        for one in (exact, fit)
+    )
+    assert wide > 1.05 * narrow
+    assert "taken as exact" in exact.words[-1] and "taken as exact" not in fit.words[-1]
+
+
+def test_times_in_doubt_are_speeds_in_doubt(forward):
+    # tau -> c tau is v -> c v: the scatter of ln(force) is the slope times that of ln(tau)
+    speed = np.array([1e-5, 1.1e-5])
+    rows = log_forces(forward, allowed(RUBBER), WORK, GAP, speed, np.full(2, PRELOAD))
+    force = forward.pulled(WORK, GAP, speed, PRELOAD).force
+    slope = np.diff(np.log(force)) / np.log(1.1)
+    scatter = np.std([np.log(one.tau0) for one in allowed(RUBBER)], ddof=1)
+    assert np.sqrt(covariance(rows)[0, 0]) == pytest.approx(slope[0] * scatter, rel=0.1)
+
+
+def test_a_warmer_test_is_a_slower_one(fit):
+    warm = forecast_rates(fit, [1e-4], temperature=303.15, theory=0.0)
+    same = forecast_rates(fit, [1e-4 * RUBBER.shift_factor(303.15)], theory=0.0)
+    assert warm.force == pytest.approx(same.force, rel=0.02)
+    assert warm.temperature == 303.15
+
+
+def test_a_short_dwell_is_told_from_a_long_one(fit):
+    rested = forecast_rates(fit, [1e-4]).force
+    long, short = (
+        forecast_rates(fit, [1e-4], dwell=t, approach_speed=1e-4).force for t in (1e4, 1e-4)
+    )
+    assert long == pytest.approx(rested, rel=0.02)
+    assert abs(short / rested - 1) > 0.005
+
+
+def test_the_posterior_agrees_with_the_profile(fit):
+    chain = posterior(fit.objective, fit.best)
+    ends = np.quantile(np.log(chain.of("work_of_adhesion")), [0.05, 0.95])
+    told = fit.intervals["work_of_adhesion"]
+    assert np.diff(ends)[0] == pytest.approx(np.log(told.high / told.low), rel=0.3)
+    assert chain.converged
+
+
+def test_what_cannot_be_forecast_is_refused(fit):
+    with pytest.raises(InputError, match="go together"):
+        forecast_rates(fit, [1e-4], dwell=1.0)
+    with pytest.raises(InputError, match="positive speeds"):
+        forecast_rates(fit, [-1e-4])
+    with pytest.raises(InputError, match="no law says how times change"):
+        bare = replace(fit, passport=replace(RUBBER, shift=None))
+        forecast_rates(bare, [1e-4], temperature=310.0)
+
+
+def test_a_study_comes_back_from_its_file(tmp_path):
+    study = Study(
+        files=(tmp_path / "a.csv", tmp_path / "b.csv"),
+        material="pdms-10-1",
+        radius=5.19e-3,
+        preload=1.5e-3,
+        temperature=298.15,
+        work_of_adhesion=(0.15, 0.01),
+        reading={"force_unit": "mN", "nominal_speed": 1e-6},
+        evaluation={"compliance": 2e-6, "into": -1},
+        title='a "lens"',
+    )
+    path = tmp_path / "study.toml"
+    path.write_text(study_text(study, tmp_path))
+    assert read_study(path) == study
+    path.write_text('files = ["a.csv"]\nmaterial = "x"\nradius = "1 mm"\nspeeds = 3\n')
+    with pytest.raises(InputError, match=r"study.toml: a study has no 'speeds'"):
+        read_study(path)
+    path.write_text('files = ["a.csv"]\nradius = "1 mm"\n')
+    with pytest.raises(InputError, match="material is missing"):
+        read_study(path)
+
+
+class _Seen(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.links, self.headings, self.drawings = [], 0, 0
+
+    def handle_starttag(self, tag, attrs):
+        self.headings += tag == "h2"
+        self.drawings += tag == "svg"
+        self.links += [v for k, v in attrs if k in ("src", "href", "xlink:href")]
+
+
+def test_from_rig_files_to_a_report_in_three_commands(tmp_path, capsys):
+    files = [str(RIG / f"lens_{name}_um_s.csv") for name in ("1", "30", "1000")]
+    solid = tmp_path / "solid.toml"
+    write_passport(replace(RUBBER, shift=None), solid)
+    study, page = tmp_path / "study.toml", tmp_path / "report.html"
+    words = ["--material", str(solid), "--radius", "5.19 mm", "-o", str(study)]
+    assert exit_status(["identify", "rates", *files, *words]) == 0
+    capsys.readouterr()
+    assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["forecast"]
+    assert row["low_N"] < row["pull_off_force_N"] < row["high_N"]
+    assert exit_status(["report", str(study), "-o", str(page)]) == 0
+    seen = _Seen()
+    seen.feed(page.read_text())
+    assert seen.headings == 8 and seen.drawings == 3
+    # nothing is asked of the net: only places within the drawings, and the points of the posterior
+    assert all(link.startswith(("#", "data:image/png")) for link in seen.links)
