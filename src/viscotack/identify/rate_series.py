@@ -104,6 +104,7 @@ def identify_rates(
     preload: float | None = None,
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
+    scatter: float = 0.0,
     theory: float = _THEORY,
     level: float = 0.9,
 ) -> RateSeriesFit:
@@ -124,6 +125,8 @@ def identify_rates(
         Ranges of attraction h0 that are looked at [m]; cut where the theory ends.
     work_of_adhesion : (float, float), optional
         Known from a slow test, with its standard uncertainty [J/m2].
+    scatter : float
+        Relative standard deviation from test to test, where the tests do not show it themselves.
     theory : float
         Relative standard uncertainty of the forward model itself, shared by near speeds.
     level : float
@@ -141,7 +144,7 @@ def identify_rates(
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
-    _check(series, radius, gaps, theory, level)
+    _check(series, radius, gaps, scatter, theory, level)
     speed = np.array([one.speed for one in series])
     load = np.array([one.preload for one in series], dtype=float)
     force = np.array([one.force.value for one in series])
@@ -160,7 +163,7 @@ def identify_rates(
         white = np.linalg.inv(np.linalg.cholesky(spread))
         return Objective(lambda values: white @ (model(values) / force - 1), parameters)
 
-    spread = np.diag(np.maximum(noise, 1e-9) ** 2) + theory_covariance(speed, theory)
+    spread = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2) + theory_covariance(speed, theory)
     objective = asked(spread)
     best = _best(objective)
     solids = allowed(passport)
@@ -215,6 +218,7 @@ def _check(
     series: Sequence[PullOff],
     radius: float,
     gaps: tuple[float, float],
+    scatter: float,
     theory: float,
     level: float,
 ) -> None:
@@ -227,10 +231,14 @@ def _check(
     if not all(one.speed > 0 and one.force.value > 0 for one in series):
         raise InputError("speeds and pull-off forces must be positive")
     loads = [one.preload or 0.0 for one in series]
-    if not (radius > 0 and min(loads) > 0 and 0 <= theory < 1 and 0 < level < 1):
+    if not (radius > 0 and min(loads) > 0 and 0 < level < 1):
         raise InputError(
-            f"radius and preload must be positive, theory and level parts of one; got {radius} m, "
-            f"{min(loads)} N, {theory}, {level}"
+            f"radius and preload must be positive, the level a part of one; got {radius} m, "
+            f"{min(loads)} N, {level}"
+        )
+    if not (0 <= scatter < 1 and 0 <= theory < 1):
+        raise InputError(
+            f"scatter and error of the theory must be parts of one, got {scatter}, {theory}"
         )
     if not 0 < gaps[0] < gaps[1]:
         raise InputError(f"gaps must be two ranges, the smaller first [m], got {gaps!r}")

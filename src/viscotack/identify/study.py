@@ -9,6 +9,7 @@ As TOML, ``viscotack identify rates ... -o study.toml`` writes one::
     preload = "1.5 mN"
     temperature = "20 degC"
     work_of_adhesion = ["152 mJ/m2", "3 mJ/m2"]        # known from a slow test
+    scatter = "3 %"                                    # of forces from test to test
 
     [read]            # as the flags of `viscotack test read`
     force_unit = "mN"
@@ -34,7 +35,7 @@ from .rate_series import RateSeriesFit, identify_rates, pull_offs
 
 _UNITS = {"radius": "m", "preload": "N", "temperature": "K"}
 _WORDS = ("title", "notes", "material")
-_KEYS = ("files", "level", "work_of_adhesion", "read", *_UNITS, *_WORDS)
+_KEYS = ("files", "level", "scatter", "work_of_adhesion", "read", *_UNITS, *_WORDS)
 # keys of [read]: of the reader, of the evaluation, with the unit of those that have one
 _READING: dict[str, str | None] = {
     "format": None,
@@ -73,6 +74,8 @@ class Study:
         Of the tests [K]; else that of the passport.
     work_of_adhesion : (float, float), optional
         Known from a slow test, with its standard uncertainty [J/m2].
+    scatter : float
+        Relative standard deviation from test to test, where the tests do not show it themselves.
     level : float
         Confidence level of all intervals and bands.
     reading, evaluation : mapping
@@ -87,6 +90,7 @@ class Study:
     preload: float | None = None
     temperature: float | None = None
     work_of_adhesion: tuple[float, float] | None = None
+    scatter: float = 0.0
     level: float = 0.9
     reading: Mapping[str, Any] = field(default_factory=dict)
     evaluation: Mapping[str, Any] = field(default_factory=dict)
@@ -133,6 +137,7 @@ def answer(study: Study) -> Answer:
         radius=study.radius,
         preload=study.preload,
         work_of_adhesion=study.work_of_adhesion,
+        scatter=study.scatter,
         level=study.level,
     )
     return Answer(study, found, fit)
@@ -168,8 +173,7 @@ def _study(table: Mapping[str, Any], folder: Path) -> Study:
     beside = folder / values["material"]
     if beside.is_file():
         values["material"] = str(beside)
-    if "level" in table:
-        values["level"] = float(table["level"])
+    values |= {key: parse(table[key], "1") for key in ("level", "scatter") if key in table}
     if "work_of_adhesion" in table:
         value, uncertainty = table["work_of_adhesion"]
         values["work_of_adhesion"] = parse(value, "J/m^2"), parse(uncertainty, "J/m^2")
@@ -208,7 +212,7 @@ def study_text(study: Study, folder: str | os.PathLike[str]) -> str:
         values[key] = _quantity(getattr(study, key), unit)
     if study.work_of_adhesion is not None:
         values["work_of_adhesion"] = [_quantity(x, "J/m^2") for x in study.work_of_adhesion]
-    values["level"] = study.level
+    values |= {"scatter": study.scatter or None, "level": study.level}
     how = {
         key: value if unit is None else _quantity(value, unit)
         for units, given in ((_READING, study.reading), (_EVALUATION, study.evaluation))

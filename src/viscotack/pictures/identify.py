@@ -116,9 +116,10 @@ def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
     from corner import corner
     from matplotlib.figure import Figure
 
-    with matplotlib.style.context(_STYLE):
+    # the panels are placed by the library that draws them
+    own: list[Any] = [_STYLE, {"figure.constrained_layout.use": False}]
+    with matplotlib.style.context(own):
         figure = Figure(figsize=(7.0, 7.0))
-        figure.set_layout_engine("none")
         columns = [_SCALES.get(one.name, (one.name, 1.0)) for one in chain.parameters]
         scale = np.array([factor for _, factor in columns])
         ends = [(1 - fit.level) / 2, 0.5, (1 + fit.level) / 2]

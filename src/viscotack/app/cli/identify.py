@@ -218,6 +218,14 @@ def rates_command(
             help='Of the tests, "25 degC"; else that at which the passport holds.',
         ),
     ] = None,
+    scatter: Annotated[
+        str | None,
+        Option(
+            "--scatter",
+            metavar="PART",
+            help='Of forces from test to test, "3 %", where repeated tests do not show it.',
+        ),
+    ] = None,
     level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
     output: Annotated[
         Path | None,
@@ -278,6 +286,7 @@ def rates_command(
             preload=None if preload is None else parse(preload, "N"),
             temperature=None if temperature is None else parse(temperature, "K"),
             work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
+            scatter=0.0 if scatter is None else parse(scatter, "1"),
             level=level,
             reading=reading,
             evaluation=evaluation,

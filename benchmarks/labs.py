@@ -1,0 +1,221 @@
+"""Synthetic labs: does a study hold the truth, from DMA and rig curves to a forecast?
+
+    python benchmarks/labs.py [--count 20] [--first 0] [--out labs.jsonl]
+
+Each lab has a solid, an interface, a lens and a rig of its own, drawn from a seed: Tabor numbers 10
+to 1e4, modulus ratios 1e-3 to 0.3, power laws, standard solids and Prony series. It measures a DMA
+sweep with 2 % of noise and fits it; pulls at six speeds over three decades with a rig that yields
+(its compliance known within 10 %), a zero, a drift, noise, and forces that scatter by 3 % from test
+to test. Its files are evaluated, its interface identified, and two speeds forecast that were not
+measured: between two of the series, and three times its fastest. Truth is simulated up to a Tabor
+number of 25, beyond it is the contact whose edge is a steady crack, through the spring of the rig.
+Finished labs in the file are not done again.
+"""
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import chi2
+
+import viscotack as vt
+from viscotack.identify import forecast_rates, identify_rates, pull_offs
+from viscotack.lab import MasterCurve, fit
+from viscotack.lab.fit_passport import issued
+from viscotack.lab.tack import TackRecord, evaluate
+
+SCATTER, NOISE, LEVEL = 0.03, 0.004, 0.9
+SIMULATED = 25.0  # largest Tabor number
+
+
+def solid_of(rng):
+    """Return a solid and the model by which its lab fits it."""
+    rubbery = 10 ** rng.uniform(4.5, 6.5)
+    k, tau0 = 10 ** rng.uniform(-3, -0.5), 10 ** rng.uniform(-3, 0)
+    plateaus = dict(rubbery_modulus=rubbery, glassy_modulus=rubbery / k, poisson_ratio=0.5)
+    kind = rng.integers(3)
+    if kind == 0:
+        exponent = rng.uniform(0.25, 0.8)
+        return vt.RetardationPowerLaw(**plateaus, exponent=exponent, tau0=tau0), "power-law"
+    if kind == 1:
+        return vt.StandardSolid(**plateaus, tau0=tau0), "sls"
+    count = int(rng.integers(3, 7))
+    share = rng.dirichlet(np.ones(count))
+    times = np.sort(tau0 * 10 ** rng.uniform(-3, 1, count))
+    arms = [(float(s * rubbery * (1 / k - 1)), float(t)) for s, t in zip(share, times, strict=True)]
+    return vt.Prony(rubbery_modulus=rubbery, branches=arms, poisson_ratio=0.5), "prony"
+
+
+def passport_of(solid, model, rng):
+    """Return what a DMA with 2 % of noise says of the solid."""
+    unit = solid.time_unit
+    omega = np.geomspace(1e-3, 1e6, 80) / unit
+    modulus = solid.complex_modulus(omega)
+    noise = np.exp(0.02 * rng.standard_normal((2, omega.size)))
+    curve = MasterCurve(293.15, omega, modulus.real * noise[0], modulus.imag * noise[1], "E")
+    return issued(fit(curve, model=model, poisson_ratio=0.5, draws=60), name="of a lab")
+
+
+def problem_of(lab, speed):
+    """Return the test of a lab at a speed of its drive."""
+    return vt.Problem(
+        material=lab["solid"],
+        traction=vt.LennardJones(work_of_adhesion=lab["work"], equilibrium_gap=lab["gap"]),
+        geometry=vt.Sphere(radius=lab["radius"]),
+        protocol=vt.Retraction(
+            start=vt.AtForce(lab["preload"]), speed=speed, stiffness=lab["stiffness"]
+        ),
+    )
+
+
+def lab_of(seed):
+    """Return a lab: its solid, interface, lens, rig and speeds."""
+    rng = np.random.default_rng([2026, seed])
+    solid, model = solid_of(rng)
+    work, radius = 10 ** rng.uniform(-1.7, -0.5), 10 ** rng.uniform(-3, -2)
+    tabor = 10 ** rng.uniform(1, 4)
+    gap = (radius * work**2 / solid.contact_modulus**2) ** (1 / 3) / tabor
+    pull_off = 1.5 * np.pi * radius * work
+    contact = (radius**2 * work / solid.contact_modulus) ** (1 / 3)
+    # a drive that goes the height of the contact in so many times of the solid
+    height = contact**2 / radius
+    middle = height / solid.time_unit * 10 ** rng.uniform(-1, 2)
+    return {
+        "rng": rng,
+        "solid": solid,
+        "model": model,
+        "work": float(work),
+        "gap": float(gap),
+        "tabor": float(tabor),
+        "radius": float(radius),
+        "preload": float(pull_off * 10 ** rng.uniform(0.3, 1.3)),
+        "stiffness": float(pull_off / (height * 10 ** rng.uniform(-1.5, -0.3))),
+        "speeds": middle * np.geomspace(0.03, 30, 6),
+        "held_out": middle * np.array([0.5, 90.0]),
+    }
+
+
+def curve_of(lab, speed):
+    """Return time, depth of the drive and force of the true retraction, and its pull-off."""
+    problem = problem_of(lab, speed)
+    if lab["tabor"] <= SIMULATED:
+        found = vt.solve(problem)
+        series, force = found, vt.pull_off_force(found)
+    else:
+        series = vt.crack_contact(problem)
+        force = series.pull_off_force
+    scales = problem.scales()
+    depth, pressed = series.depth * scales.length, series.force * scales.force
+    drive = depth + pressed / lab["stiffness"]
+    return (drive[0] - drive) / speed, drive, pressed, force * scales.force
+
+
+def record_of(lab, speed):
+    """Return what the rig writes: approach, dwell, retraction; zero, drift and noise."""
+    rng = lab["rng"]
+    past, drive, force, pull_off = curve_of(lab, speed)
+    even = np.linspace(0, past[-1], 700)
+    force, drive = np.interp(even, past, force), np.interp(even, past, drive)
+    force = force * (1 + SCATTER * rng.standard_normal())
+    top, far = drive[0], 0.5 * (drive[0] - drive[-1])
+    away = drive[-1] - np.linspace(1 / 150, 1, 150) * far
+    down = np.linspace(away[-1], top, 300)
+    height = np.maximum(down, 0) / top if top > 0 else np.zeros(down.size)
+    pressed = force[0] * height**1.5
+    way = np.concatenate([down, np.full(30, top), drive, away])
+    push = np.concatenate([pressed, np.full(30, force[0]), force, np.zeros(150)])
+    step = far / 150 / speed
+    clock = np.concatenate(
+        [np.linspace(-1.3, -0.3, 300), np.linspace(-0.29, -1e-3, 30)]
+    ) * past[-1]  # fmt: skip
+    clock = np.concatenate([clock, even, even[-1] + step * np.arange(1, 151)])
+    noise = NOISE * pull_off
+    push = push + 3 * noise * (1 + clock / clock[-1]) + noise * rng.standard_normal(push.size)
+    return TackRecord(clock, push, way, into=1)
+
+
+def done(seed):
+    """Return how one lab fares."""
+    lab = lab_of(seed)
+    rng = lab["rng"]
+    held = [curve_of(lab | {"stiffness": 1e12}, v)[3] for v in lab["held_out"]]
+    records = [record_of(lab, v) for v in lab["speeds"]]
+    begin = time.process_time()
+    passport = passport_of(lab["solid"], lab["model"], rng)
+    fitted = time.process_time()
+    compliance = (1 + 0.1 * rng.standard_normal()) / lab["stiffness"]
+    known = {"compliance": compliance, "compliance_uncertainty": 0.1 / lab["stiffness"]}
+    evaluations = [evaluate(record, **known) for record in records]
+    cycles = [cycle for one in evaluations for cycle in one.cycles]
+    series = pull_offs(cycles)
+    around = tuple(lab["gap"] * np.array([1e-3, 1e3]))
+    found = identify_rates(
+        series,
+        material=passport,
+        radius=lab["radius"],
+        preload=lab["preload"],
+        gaps=around,
+        scatter=SCATTER,
+        level=LEVEL,
+    )
+    identified = time.process_time()
+    truth = {"work_of_adhesion": lab["work"], "equilibrium_gap": lab["gap"]}
+    beyond = found.objective.best(truth).misfit - found.best.misfit
+    forecast = forecast_rates(found, lab["held_out"])
+    return {
+        "seed": seed,
+        "model": lab["model"],
+        "tabor": lab["tabor"],
+        "modulus_ratio": lab["solid"].modulus_ratio,
+        "pull_offs": len(series),
+        "amplification": float(held[1] / (1.5 * np.pi * lab["radius"] * lab["work"])),
+        "misfit_of_truth": float(beyond),
+        "inside": bool(beyond <= chi2.ppf(LEVEL, 2)),
+        "work_over_truth": found.work_of_adhesion / lab["work"],
+        "gap_over_truth": found.equilibrium_gap / lab["gap"],
+        "scatter": found.scatter,
+        "forecast_over_truth": (forecast.force / held).tolist(),
+        "held": [
+            bool(a < x < b) for a, x, b in zip(forecast.low, held, forecast.high, strict=True)
+        ],
+        "half_width": ((forecast.high - forecast.low) / 2 / forecast.force).tolist(),
+        "seconds": [fitted - begin, identified - fitted, time.process_time() - identified],
+        "words": [*found.words, *forecast.words],
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--out", type=Path, default=Path("labs.jsonl"))
+    given = parser.parse_args()
+    rows = (
+        [json.loads(line) for line in given.out.read_text().splitlines()]
+        if given.out.exists()
+        else []
+    )
+    for seed in range(given.first, given.first + given.count):
+        if any(row["seed"] == seed for row in rows):
+            continue
+        try:
+            rows.append(done(seed))
+        except (ValueError, RuntimeError) as error:
+            rows.append({"seed": seed, "refused": str(error)})
+        with given.out.open("a") as file:
+            file.write(json.dumps(rows[-1]) + "\n")
+        print(rows[-1], flush=True)
+    told = [row for row in rows if "refused" not in row]
+    held = [one for row in told for one in row["held"]]
+    print(f"{len(told)} labs, {len(rows) - len(told)} refused")
+    print(f"truth inside the region: {sum(row['inside'] for row in told)}")
+    print(f"forecasts inside the band: {sum(held)} of {len(held)}")
+    widths = [one for row in told for one in row["half_width"]]
+    print(f"half width of a band: {np.median(widths):.1%} in the median")
+    print(f"identification: {np.median([row['seconds'][1] for row in told]):.0f} s")
+
+
+if __name__ == "__main__":
+    main()
