@@ -71,6 +71,27 @@ def test_a_passport_comes_back_to_the_last_digit(material, shift, tmp_path):
     assert read_passport(tmp_path / "x.toml") == written
 
 
+def test_solids_that_are_allowed_come_back_and_move_with_the_temperature(tmp_path):
+    shift = TabulatedShift(
+        293.15, (253.15, 273.15, 303.15), (5 / 3, 1.0, -1 / 7), uncertainty=(0.1, 0.05, 0.05)
+    )
+    arms = MATERIAL["prony"]
+    more = tuple(replace(arms, rubbery_modulus=f * 1e6 / 3) for f in (0.9, 1.0, 1.1, 1.2))
+    written = replace(passport(arms, shift), allowed=more)
+    write_passport(written, tmp_path / "m.toml")
+    assert read_passport(tmp_path / "m.toml") == written
+    moved = written.moved_to(273.15)
+    factors = [
+        new.branches[0][1] / old.branches[0][1]
+        for new, old in zip(moved.allowed, more, strict=True)
+    ]
+    # as far apart as log10 a_T is doubtful, around it
+    assert np.mean(np.log10(factors)) == pytest.approx(1.0, abs=0.03)
+    deviation = written.shift_deviation(273.15)
+    assert np.std(np.log10(factors)) == pytest.approx(deviation, rel=0.4) and deviation > 0
+    assert [x.rubbery_modulus for x in moved.allowed] == [x.rubbery_modulus for x in more]
+
+
 @pytest.mark.parametrize("name", MATERIALS)
 def test_a_published_material_has_a_source_and_comes_back(name, tmp_path):
     known = published(name)

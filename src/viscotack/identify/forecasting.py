@@ -12,26 +12,23 @@ that speak, far from them the model.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem import crack_contact
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
-from viscotack.protocol import Apart, Approach, AtForce, Dwell, Retraction
+from viscotack.protocol import Approach, AtForce, Dwell, Move
 
 from .doubt import allowed, log_forces, theory_covariance
-from .forward import Forward
 from .rate_series import LEAST_TABOR, RateSeriesFit
 from .sampling import Posterior, posterior
 
 Array = npt.NDArray[np.float64]
 
 _MOST = 200  # speeds
-_APART = 20.0  # ranges from which an approach begins
 _DRAWS, _TIMES = 200, 10  # interfaces drawn, and forces of each
 
 
@@ -77,6 +74,7 @@ def forecast_rates(
     temperature: float | None = None,
     dwell: float | None = None,
     approach_speed: float | None = None,
+    stiffness: float | None = None,
     theory: float = 0.02,
     level: float | None = None,
     seed: int = 0,
@@ -98,6 +96,8 @@ def forecast_rates(
         relaxed.
     approach_speed : float, optional
         [m/s]; goes with `dwell`.
+    stiffness : float, optional
+        Of the machine [N/m], inf for a rigid one; else that of the series.
     theory : float
         Relative standard uncertainty of the forward model, as in the fit.
     level : float, optional
@@ -117,12 +117,19 @@ def forecast_rates(
     loads = np.array([one.preload for one in fit.series], dtype=float)
     load = float(loads.mean()) if preload is None else preload
     _check(v, load, level, dwell, approach_speed)
+    if stiffness is not None and not stiffness > 0:
+        raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
     known = fit.forward.beside(passport.material)
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     middle = known.pulled(w, gap, v, load)
     _refuse(v, middle.effective_tabor)
-    dwelt = _dwelt(known, (w, gap, load), v, dwell, approach_speed)
+    pressed: tuple[Move, ...] = ()
+    if dwell is not None and approach_speed is not None:
+        pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")
+    spring = fit.stiffness if stiffness is None else stiffness
+    spring = None if spring == np.inf else spring
+    changed = known.changed(w, gap, v, np.full(v.size, load), stiffness=spring, moves=pressed)
 
     measured = np.array([one.speed for one in fit.series])
     spread = _together(fit, passport, (measured, loads), (v, load), theory)
@@ -138,11 +145,11 @@ def forecast_rates(
     works, gaps = values["work_of_adhesion"][:, None], values["equilibrium_gap"][:, None]
     forecast = np.log(known.pulled(works, gaps, v, load).force)
     at = fit.forward.pulled(works, gaps, measured, loads).force
-    force = np.array([one.force.value for one in fit.series])
+    force = np.array([one.force.value for one in fit.series]) / fit.yielding
     moved = forecast + np.log(force / at) @ gain.T
     rng = np.random.default_rng(seed)
     noise = rng.standard_normal((_TIMES, *moved.shape)) @ root.T
-    sample = np.exp(moved + noise).reshape(-1, v.size) * dwelt
+    sample = np.exp(moved + noise).reshape(-1, v.size) * changed
     part = (1 - level) / 2
     low, median, high = np.quantile(sample, [part, 0.5, 1 - part], axis=0)
     return RateForecast(
@@ -221,30 +228,6 @@ def _root(covariance: Array) -> Array:
     """Return a square root of a covariance that may be singular."""
     values, vectors = np.linalg.eigh((covariance + covariance.T) / 2)
     return vectors * np.sqrt(np.maximum(values, 0.0))
-
-
-def _dwelt(
-    known: Forward,
-    case: tuple[float, float, float],
-    speed: Array,
-    dwell: float | None,
-    approach: float | None,
-) -> Array:
-    """Return by what a finite dwell changes the forces of the most likely interface."""
-    if dwell is None or approach is None:
-        return np.ones(speed.size)
-    w, gap, load = case
-    pressed = Approach(approach, to=AtForce(load)), Dwell(dwell, hold="force")
-    found = []
-    for v in speed:
-        relaxed = known.problem(w, gap, load, float(v))
-        protocol = Retraction(start=Apart(_APART * gap), moves=pressed, speed=float(v))
-        pair = [crack_contact(relaxed), crack_contact(replace(relaxed, protocol=protocol))]
-        slow, short = (one.pull_off_force for one in pair)
-        if slow is None or short is None:
-            raise OutOfRange(f"no pull-off after the dwell at {v:.3g} m/s; simulate it")
-        found.append(short / slow)
-    return np.array(found)
 
 
 def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> list[str]:

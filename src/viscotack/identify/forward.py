@@ -4,17 +4,19 @@ The contact whose edge is a steady crack (:mod:`viscotack.theory.crack.contact`)
 forces: the forward model of a rate series and of its forecast.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.bem import crack_contact
+from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
 from viscotack.problem import Problem
-from viscotack.protocol import AtForce, Retraction
+from viscotack.protocol import Apart, AtForce, Move, Retraction
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import profile_of, radius_at_force, recede
 from viscotack.theory.crack.steady import NeighbourCrack
@@ -22,6 +24,7 @@ from viscotack.traction import LennardJones
 
 Array = npt.NDArray[np.float64]
 
+_APART = 20.0  # ranges from which an approach begins
 _SPEED = 1e-6  # at which groups are asked for; rates are in proportion
 
 
@@ -75,6 +78,48 @@ class Forward:
         """Return the cracks of the material, which are the same for all interfaces."""
         groups = self.problem(0.1, 1e-9, 1e-3).groups()
         return SteadyCrack(groups.material, groups.traction)
+
+    def changed(
+        self,
+        work: float,
+        gap: float,
+        speed: Array,
+        preload: Array,
+        *,
+        stiffness: float | None = None,
+        moves: tuple[Move, ...] = (),
+    ) -> Array:
+        """Return by what a spring, or an approach and a dwell, change the pull-offs.
+
+        Parameters
+        ----------
+        work, gap : float
+            Of the interface.
+        speed, preload : ndarray, shape (S,)
+            Of the drive, and of the start.
+        stiffness : float, optional
+            Of the machine [N/m]; None for a rigid one.
+        moves : tuple
+            From apart to where the retraction begins; none for a contact that has relaxed.
+
+        Returns
+        -------
+        ndarray, shape (S,)
+            Pull-off force over that of a relaxed contact and a rigid machine.
+        """
+        if stiffness is None and not moves:
+            return np.ones(speed.size)
+        found = []
+        for v, load in zip(speed, np.broadcast_to(preload, speed.shape), strict=True):
+            plain = self.problem(work, gap, float(load), float(v))
+            start = Apart(_APART * gap) if moves else AtForce(float(load))
+            protocol = Retraction(start=start, moves=moves, speed=float(v), stiffness=stiffness)
+            pair = [crack_contact(plain), crack_contact(replace(plain, protocol=protocol))]
+            rigid, other = (one.pull_off_force for one in pair)
+            if rigid is None or other is None:
+                raise OutOfRange(f"there is no pull-off at {v:.3g} m/s; simulate it")
+            found.append(other / rigid)
+        return np.array(found)
 
     def beside(self, material: Material) -> "Neighbour":
         """Return the pull-offs of a material near to this one, at no cost."""

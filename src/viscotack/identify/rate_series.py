@@ -70,6 +70,10 @@ class RateSeriesFit:
         To ask more of: its profiles, its density.
     level : float
         Confidence level of the intervals.
+    stiffness : float or None
+        Of the machine [N/m].
+    yielding : ndarray, shape (S,)
+        Forces through that over those of a rigid machine.
     """
 
     work_of_adhesion: float
@@ -85,6 +89,8 @@ class RateSeriesFit:
     covariance: Array
     objective: Objective
     level: float
+    stiffness: float | None
+    yielding: Array
 
     @property
     def best(self) -> Best:
@@ -104,6 +110,7 @@ def identify_rates(
     preload: float | None = None,
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
+    stiffness: float | None = None,
     scatter: float = 0.0,
     theory: float = _THEORY,
     level: float = 0.9,
@@ -125,6 +132,9 @@ def identify_rates(
         Ranges of attraction h0 that are looked at [m]; cut where the theory ends.
     work_of_adhesion : (float, float), optional
         Known from a slow test, with its standard uncertainty [J/m2].
+    stiffness : float, optional
+        Of the machine between drive and sphere [N/m], one over its compliance; None if it is
+        rigid. While the tension grows the sphere goes more slowly than the drive.
     scatter : float
         Relative standard deviation from test to test, where the tests do not show it themselves.
     theory : float
@@ -144,7 +154,7 @@ def identify_rates(
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
-    _check(series, radius, gaps, scatter, theory, level)
+    _check(series, radius, gaps, stiffness, scatter, theory, level)
     speed = np.array([one.speed for one in series])
     load = np.array([one.preload for one in series], dtype=float)
     force = np.array([one.force.value for one in series])
@@ -159,19 +169,22 @@ def identify_rates(
         _between("equilibrium_gap", model.gaps, None),
     )
 
-    def asked(spread: Array) -> Objective:
+    def asked(spread: Array, yielding: Array) -> Objective:
         white = np.linalg.inv(np.linalg.cholesky(spread))
-        return Objective(lambda values: white @ (model(values) / force - 1), parameters)
+        return Objective(lambda values: white @ (model(values) * yielding / force - 1), parameters)
 
     spread = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2) + theory_covariance(speed, theory)
-    objective = asked(spread)
+    yielding = np.ones(speed.size)
+    objective = asked(spread, yielding)
     best = _best(objective)
     solids = allowed(passport)
-    if solids:
-        # what the doubt about the material does hardly changes with the interface
+    if solids or stiffness is not None:
+        # what doubt about the material and a soft machine do hardly changes with the interface
         w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-        spread = spread + covariance(log_forces(forward, solids, w, gap, speed, load))
-        objective = asked(spread)
+        yielding = forward.changed(w, gap, speed, load, stiffness=stiffness)
+        if solids:
+            spread = spread + covariance(log_forces(forward, solids, w, gap, speed, load))
+        objective = asked(spread, yielding)
         best = _best(objective)
     intervals = {one.name: objective.interval(one.name, best, level) for one in parameters}
     if model.effective(best.values) < LEAST_TABOR:
@@ -187,7 +200,7 @@ def identify_rates(
         gap,
         forward.problem(w, gap, float(load[0])).groups().tabor,
         intervals,
-        tuple(model(best.values).tolist()),
+        tuple((model(best.values) * yielding).tolist()),
         scatter,
         tuple(_words(best, intervals, scatter, level, bool(solids))),
         tuple(series),
@@ -196,6 +209,8 @@ def identify_rates(
         spread,
         objective,
         level,
+        stiffness,
+        yielding,
     )
 
 
@@ -218,6 +233,7 @@ def _check(
     series: Sequence[PullOff],
     radius: float,
     gaps: tuple[float, float],
+    stiffness: float | None,
     scatter: float,
     theory: float,
     level: float,
@@ -231,6 +247,8 @@ def _check(
     if not all(one.speed > 0 and one.force.value > 0 for one in series):
         raise InputError("speeds and pull-off forces must be positive")
     loads = [one.preload or 0.0 for one in series]
+    if stiffness is not None and not 0 < stiffness < np.inf:
+        raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
     if not (radius > 0 and min(loads) > 0 and 0 < level < 1):
         raise InputError(
             f"radius and preload must be positive, the level a part of one; got {radius} m, "

@@ -131,12 +131,15 @@ def answer(study: Study) -> Answer:
     if not found.cycles:
         reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
         raise InputError(f"no cycle of a tack test could be read:\n  {reasons}")
+    machine = [one.record.compliance for one in found.evaluations]
+    compliance = study.evaluation.get("compliance") or max(machine)
     fit = identify_rates(
         pull_offs(found.cycles),
         material=passport,
         radius=study.radius,
         preload=study.preload,
         work_of_adhesion=study.work_of_adhesion,
+        stiffness=1 / compliance if compliance > 0 else None,
         scatter=study.scatter,
         level=study.level,
     )

@@ -249,6 +249,8 @@ def rates_command(
     position_column: PositionColumn = None,
     decimal: Decimal = None,
     nominal_speed: NominalSpeed = None,
+    compliance: Compliance = None,
+    compliance_uncertainty: ComplianceUncertainty = None,
     into: Into = None,
     compression: Compression = None,
     retraction_only: RetractionOnly = False,
@@ -274,7 +276,9 @@ def rates_command(
             decimal,
             nominal_speed,
         )
-        evaluation = evaluation_of((None, None), (into, compression), retraction_only)
+        evaluation = evaluation_of(
+            (compliance, compliance_uncertainty), (into, compression), retraction_only
+        )
         from viscotack.identify import posterior
         from viscotack.identify.study import Study, answer, study_text
         from viscotack.pictures.identify import draw_posterior, draw_rate_series
