@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from statistics import NormalDist
+from statistics import NormalDist, fmean, pstdev
 from typing import Any
 
 from viscotack.errors import InputError
@@ -216,9 +216,12 @@ class Passport:
 
 
 def _scattered(count: int) -> list[float]:
-    """Return standard normal numbers, evenly spread and in no order, that do not change."""
+    """Return numbers of mean 0 and deviation 1, evenly spread and in no order; always the same."""
     # steps of the golden section visit the unit interval evenly
-    return [NormalDist().inv_cdf((0.5 + 0.6180339887 * i) % 1.0) for i in range(count)]
+    drawn = [NormalDist().inv_cdf((0.5 + 0.6180339887 * i) % 1.0) for i in range(count)]
+    if count < 2:
+        return [0.0] * count
+    return [(x - fmean(drawn)) / pstdev(drawn) for x in drawn]
 
 
 def _moved(
