@@ -86,7 +86,7 @@ def test_solids_that_are_allowed_come_back_and_move_with_the_temperature(tmp_pat
         for new, old in zip(moved.allowed, more, strict=True)
     ]
     # as far apart as log10 a_T is doubtful, around it
-    assert np.mean(np.log10(factors)) == pytest.approx(1.0)
+    assert 10 ** np.mean(np.log10(factors)) == pytest.approx(written.shift_factor(273.15))
     deviation = written.shift_deviation(273.15)
     assert np.std(np.log10(factors)) == pytest.approx(deviation) and deviation > 0
     assert [x.rubbery_modulus for x in moved.allowed] == [x.rubbery_modulus for x in more]
