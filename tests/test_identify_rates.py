@@ -1,6 +1,7 @@
 """The interface from a rate series: the truth found, its intervals honest, limits said."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,8 +9,10 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError
-from viscotack.identify import PullOff, identify_rates
-from viscotack.lab.tack import Measured
+from viscotack.identify import PullOff, identify_rates, identify_slow, pull_offs, slow_test
+from viscotack.identify.forward import Forward
+from viscotack.identify.travel import travels
+from viscotack.lab.tack import Measured, survey
 from viscotack.materials.library import published
 
 RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
@@ -141,3 +144,38 @@ def test_from_the_files_of_a_rig_to_the_interface(tmp_path, capsys):
     assert "work of adhesion" in capsys.readouterr().out
     assert exit_status([*command, "--work-of-adhesion", "152 mJ/m2"]) == 2
     assert "go together" in capsys.readouterr().err
+
+
+def test_one_whole_curve_of_a_fast_test_tells_what_an_elastic_fit_of_it_cannot():
+    rig = Path(__file__).parents[1] / "examples" / "from_rig" / "lens_30_um_s.csv"
+    (cycle,) = survey([rig]).cycles
+    fit = identify_rates(pull_offs([cycle]), material=PDMS, radius=RADIUS, curves=True)
+    assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.02)
+    assert fit.equilibrium_gap == pytest.approx(200e-9, rel=0.1)
+    assert fit.intervals["equilibrium_gap"].told
+    elastic = identify_slow(slow_test(cycle, RADIUS), contact_modulus=(1.944e6, 5e4))
+    assert elastic.best.work_of_adhesion > 1.4 * WORK
+
+
+def test_whole_curves_narrow_a_series_and_must_be_there():
+    rig = Path(__file__).parents[1] / "examples" / "from_rig"
+    cycles = survey([rig / f"lens_{v}_um_s.csv" for v in (1, 1000)]).cycles
+    series = pull_offs(cycles)
+    alone, whole = (identify_rates(series, curves=curves, **CASE) for curves in (False, True))
+    # two pull-offs leave two ranges, a hundred times apart, and say so; both are in the interval
+    ends = alone.intervals["equilibrium_gap"]
+    assert ends.split and ends.low < 1e-9 and ends.high > 200e-9
+    assert "two ranges" in " ".join(alone.words)
+    ends = whole.intervals["equilibrium_gap"]
+    assert not ends.split and 150e-9 < ends.low < 200e-9 < ends.high < 260e-9
+    bare = [PullOff(one.speed, one.force, one.preload) for one in series]
+    with pytest.raises(InputError, match="whole curves begin in compression"):
+        identify_rates(bare, curves=True, **CASE)
+
+
+def test_travels_of_a_cycle_are_those_of_the_curve_it_was_made_from():
+    rig = Path(__file__).parents[1] / "examples" / "from_rig" / "lens_1000_um_s.csv"
+    (cycle,) = survey([rig]).cycles
+    read = [one.value for one in travels(cycle)]
+    true = Forward(PDMS, RADIUS).pulled(WORK, 200e-9, 1e-3, PRELOAD).travels
+    assert read == pytest.approx(true, rel=2e-3)

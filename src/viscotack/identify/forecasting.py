@@ -239,6 +239,8 @@ def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> 
             "them the forecast rests on the material and the theory"
         )
     said.append(f"the edge is at {crack.min():.2g} to {crack.max():.2g} m/s at pull-off")
+    if any(ends.split for ends in fit.intervals.values()):
+        said.append("the band is drawn around the likelier of two ranges; the other may differ")
     if not chain.converged:
         said.append(
             "the walk through the posterior is short: its correlation time is "

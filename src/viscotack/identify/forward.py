@@ -22,6 +22,8 @@ from viscotack.theory.crack.contact import profile_of, radius_at_force, recede
 from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import LennardJones
 
+from .travel import travels_of
+
 Array = npt.NDArray[np.float64]
 
 _APART = 20.0  # ranges from which an approach begins
@@ -41,12 +43,16 @@ class Pulled(NamedTuple):
         Of the edge there [m/s].
     contact_radius : ndarray
         Of the relaxed start [m].
+    travels : ndarray, shape (..., 4)
+        From the start to zero force, and from there to parts of the pull-off [m], as
+        :mod:`.travel` has them; nan where the start is in tension.
     """
 
     force: Array
     effective_tabor: Array
     crack_speed: Array
     contact_radius: Array
+    travels: Array
 
 
 @dataclass(frozen=True)
@@ -168,15 +174,20 @@ class Forward:
         effective = mu * np.maximum(found.amplification, 1.0) ** (-1 / 3)
         ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
         tension = np.where(found.force < 0, -ratio * found.force, 0.0)
+        pressed = np.where(found.force < 0, -tension, found.force)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
         modulus = self.material.contact_modulus
         beta = (self.radius**2 * w / modulus) ** (1 / 3)
         crack_speed = found.speed[at].reshape(w.shape) * modulus * h0**2 / w / unit
+        # heights in beta^2/R
+        height = (beta**2 / self.radius).ravel()
+        way = travels_of(found.depth[0] - found.depth, pressed, tension[at]) * height[:, None]
         return Pulled(
             tension[at].reshape(w.shape) * self.radius * w,
             effective[at].reshape(w.shape),
             crack_speed,
             start * beta,
+            way.reshape(*w.shape, -1),
         )
 
 

@@ -17,7 +17,8 @@ from viscotack.errors import InputError
 Array = npt.NDArray[np.float64]
 Residuals = Callable[[Mapping[str, float]], Array]
 
-_STEPS = 12  # of a profile on either side
+# Of the way from the best value to a bound: an interval may be narrow or wide, or in two parts.
+_PLACES = np.union1d(np.geomspace(2e-3, 1.0, 12), np.linspace(0.1, 1.0, 13))
 _BEYOND = 1e-9
 
 
@@ -92,12 +93,15 @@ class Interval:
         Ends of the interval; the bound of the search where the data do not end it.
     closed_below, closed_above : bool
         Whether the data end it there.
+    split : bool
+        Whether values between are unlikely: the data leave two ranges apart from each other.
     """
 
     low: float
     high: float
     closed_below: bool
     closed_above: bool
+    split: bool = False
 
     @property
     def told(self) -> bool:
@@ -153,27 +157,29 @@ class Objective:
         ends = []
         for bound in (parameter.low, parameter.high):
             ends.append(self._end(parameter, middle, parameter.inner(bound), limit, best))
-        (low, below), (high, above) = ends
-        return Interval(parameter.outer(low), parameter.outer(high), below, above)
+        (low, below, first), (high, above, second) = ends
+        return Interval(parameter.outer(low), parameter.outer(high), below, above, first or second)
 
     def _end(
         self, parameter: Parameter, middle: float, bound: float, limit: float, best: Best
-    ) -> tuple[float, bool]:
-        """Return where the misfit passes its limit between the best value and a bound."""
+    ) -> tuple[float, bool, bool]:
+        """Return where the misfit last passes its limit on the way to a bound.
+
+        And whether it does before that bound, and whether it has passed it before.
+        """
 
         def misfit(inner: float, near: Best) -> Best:
             return self.best({parameter.name: parameter.outer(inner)}, near)
 
-        inside, near = middle, best
-        # steps that grow, from a small part of the way: an interval may be as narrow or as wide
-        for part in np.geomspace(2e-3, 1.0, _STEPS):
-            outside = middle + part * (bound - middle)
-            found = misfit(outside, near)
-            if found.misfit > limit:
-                break
-            inside, near = outside, found
-        else:
-            return bound, False
+        # all the way to the bound: where the misfit has passed its limit it may come back
+        tried = [(middle, best)]
+        for part in _PLACES:
+            tried.append((x := middle + part * (bound - middle), misfit(x, tried[-1][1])))
+        last = max(i for i, (_, found) in enumerate(tried) if found.misfit <= limit)
+        split = any(found.misfit > limit for _, found in tried[:last])
+        if last == len(tried) - 1:
+            return bound, False, split
+        (inside, near), (outside, _) = tried[last : last + 2]
         for _ in range(8):
             half = (inside + outside) / 2
             found = misfit(half, near)
@@ -181,7 +187,7 @@ class Objective:
                 outside = half
             else:
                 inside, near = half, found
-        return (inside + outside) / 2, True
+        return (inside + outside) / 2, True, split
 
     def _rest(self, inner: Array, free: tuple[Parameter, ...], held: Mapping[str, float]) -> Array:
         values = {p.name: p.outer(x) for p, x in zip(free, inner, strict=True)} | dict(held)

@@ -7,7 +7,7 @@ theory and the doubt about the material (:mod:`.doubt`) are one covariance of th
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ from viscotack.materials import Material, Passport
 from .doubt import allowed, covariance, log_forces, theory_covariance
 from .forward import Forward
 from .objective import Best, Interval, Objective, Parameter
+from .travel import travels
 
 Array = npt.NDArray[np.float64]
 
@@ -33,11 +34,24 @@ _MOST = 40  # speeds
 
 @dataclass(frozen=True)
 class PullOff:
-    """One pull-off: true speed [m/s], force [N] as a positive number, and preload [N] if known."""
+    """One pull-off, or the mean of several at one speed.
+
+    Parameters
+    ----------
+    speed : float
+        True one of the retraction [m/s].
+    force : Measured
+        A positive number [N].
+    preload : float, optional
+        Under which the contact relaxed [N].
+    travels : tuple of Measured, optional
+        What the whole curve says beside it [m], as :func:`.travel.travels` has it.
+    """
 
     speed: float
     force: Measured
     preload: float | None = None
+    travels: tuple[Measured, ...] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +125,7 @@ def identify_rates(
     gaps: tuple[float, float] = (0.3e-9, 3e-6),
     work_of_adhesion: tuple[float, float] | None = None,
     stiffness: float | None = None,
+    curves: bool = False,
     scatter: float = 0.0,
     theory: float = _THEORY,
     level: float = 0.9,
@@ -135,6 +150,9 @@ def identify_rates(
     stiffness : float, optional
         Of the machine between drive and sphere [N/m], one over its compliance; None if it is
         rigid. While the tension grows the sphere goes more slowly than the drive.
+    curves : bool
+        Take the whole curves too, by the travels between forces that each pull-off has; one
+        speed is enough then, and a test that is not slow is not taken for one.
     scatter : float
         Relative standard deviation from test to test, where the tests do not show it themselves.
     theory : float
@@ -145,7 +163,8 @@ def identify_rates(
     Raises
     ------
     ValueError
-        If there are fewer than two speeds, or the theory holds for no range looked at.
+        If there are fewer than two speeds without curves, a pull-off has none, or the theory
+        holds for no range looked at.
 
     Notes
     -----
@@ -154,7 +173,7 @@ def identify_rates(
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
-    _check(series, radius, gaps, stiffness, scatter, theory, level)
+    _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
     speed = np.array([one.speed for one in series])
     load = np.array([one.preload for one in series], dtype=float)
     force = np.array([one.force.value for one in series])
@@ -169,9 +188,16 @@ def identify_rates(
         _between("equilibrium_gap", model.gaps, None),
     )
 
+    shapes = _Shapes(series, model, theory) if curves else None
+
     def asked(spread: Array, yielding: Array) -> Objective:
         white = np.linalg.inv(np.linalg.cholesky(spread))
-        return Objective(lambda values: white @ (model(values) * yielding / force - 1), parameters)
+
+        def residuals(values: Mapping[str, float]) -> Array:
+            rest = white @ (model(values) * yielding / force - 1)
+            return rest if shapes is None else np.concatenate([rest, shapes(values)])
+
+        return Objective(residuals, parameters)
 
     spread = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2) + theory_covariance(speed, theory)
     yielding = np.ones(speed.size)
@@ -221,7 +247,7 @@ def _loaded(one: PullOff, preload: float | None) -> PullOff:
             f"the pull-off at {one.speed:.3g} m/s has no preload; say the force [N] under which "
             "the contact relaxed"
         )
-    return PullOff(one.speed, one.force, load)
+    return replace(one, preload=load)
 
 
 def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Parameter:
@@ -234,12 +260,18 @@ def _check(
     radius: float,
     gaps: tuple[float, float],
     stiffness: float | None,
+    curves: bool,
     scatter: float,
     theory: float,
     level: float,
 ) -> None:
     speeds = {one.speed for one in series}
-    if len(speeds) < 2 or len(series) > _MOST:
+    if curves and any(one.travels is None for one in series):
+        raise InputError(
+            "whole curves begin in compression and have points between zero force and the "
+            "pull-off; one of these has not: leave out curves, or that test"
+        )
+    if not curves and len(speeds) < 2 or not 0 < len(series) <= _MOST:
         raise InputError(
             f"a rate series has pull-offs at two speeds and more, up to {_MOST} in all; got "
             f"{len(series)} at {len(speeds)}"
@@ -280,8 +312,24 @@ def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
         speed = float(np.mean([cycle.speed.value for cycle in same]))
         begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
         force = Measured(float(forces.mean()), float(np.hypot(own, spread)))
-        found.append(PullOff(speed, force, float(np.mean(begins)) if min(begins) > 0 else None))
+        preload = float(np.mean(begins)) if min(begins) > 0 else None
+        found.append(PullOff(speed, force, preload, _mean([travels(cycle) for cycle in same])))
     return found
+
+
+def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:
+    """Return the means of travels; None where a curve has none."""
+    told = [row for row in rows if row is not None]
+    if len(told) < len(rows):
+        return None
+    columns = list(zip(*told, strict=True))
+    return tuple(
+        Measured(
+            float(np.mean([one.value for one in column])),
+            float(np.mean([one.uncertainty for one in column])),
+        )
+        for column in columns
+    )
 
 
 class _Table:
@@ -315,16 +363,52 @@ class _Table:
         self._splines = [
             RectBivariateSpline(x, y, np.log(force[:, :count, i])) for i in range(speed.size)
         ]
+        # asked for only where starts are in compression, which the travels need
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ways = np.log(found.travels[:, :count])
+        self._travels = [
+            [RectBivariateSpline(x, y, ways[:, :, i, j]) for j in range(ways.shape[-1])]
+            for i in range(speed.size)
+            if np.all(np.isfinite(ways[:, :, i]))
+        ]
         self._effective = RectBivariateSpline(x, y, np.log(effective.min(axis=-1)[:, :count]))
 
     def __call__(self, values: Mapping[str, float]) -> Array:
         x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
         return np.exp([float(spline(x, y)[0, 0]) for spline in self._splines])
 
+    def travels(self, values: Mapping[str, float]) -> Array:
+        """Return travels between forces [m], shape (speeds, travels)."""
+        x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
+        rows = [[float(spline(x, y)[0, 0]) for spline in row] for row in self._travels]
+        return np.exp(rows)
+
     def effective(self, values: Mapping[str, float]) -> float:
         """Return the least effective Tabor number of the series."""
         x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
         return float(np.exp(self._effective(x, y)[0, 0]))
+
+
+class _Shapes:
+    """Residuals of travels, in standard deviations."""
+
+    def __init__(self, series: Sequence[PullOff], model: _Table, theory: float):
+        self._model = model
+        self._log, self._white = [], []
+        for one in series:
+            assert one.travels is not None, "checked before"
+            value = np.array([x.value for x in one.travels])
+            noise = np.array([x.uncertainty for x in one.travels]) / value
+            # what the theory errs in one curve it errs in all of it, half of it
+            own = noise**2 + theory**2 / 2
+            spread = np.diag(own) + np.full((value.size, value.size), theory**2 / 2)
+            self._log.append(np.log(value))
+            self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
+
+    def __call__(self, values: Mapping[str, float]) -> Array:
+        found = np.log(self._model.travels(values))
+        rows = zip(self._white, found, self._log, strict=True)
+        return np.concatenate([white @ (one - measured) for white, one, measured in rows])
 
 
 def _best(objective: Objective) -> Best:
@@ -363,6 +447,11 @@ def _words(
             )
         else:
             said.append(f"{label}: not identifiable from these speeds")
+        if ends.split:
+            said.append(
+                f"of the {label} there are two ranges in that interval which give these forces, "
+                "with a gap between: another speed, whole curves or a slow test would tell"
+            )
     if scatter > _LOUD:
         said.append(
             f"residuals are {scatter:.2g} times their uncertainty: no work of adhesion and range "

@@ -35,7 +35,17 @@ from .rate_series import RateSeriesFit, identify_rates, pull_offs
 
 _UNITS = {"radius": "m", "preload": "N", "temperature": "K"}
 _WORDS = ("title", "notes", "material")
-_KEYS = ("files", "level", "scatter", "work_of_adhesion", "read", *_UNITS, *_WORDS)
+_KEYS = (
+    "files",
+    "level",
+    "scatter",
+    "curves",
+    "curves",
+    "work_of_adhesion",
+    "read",
+    *_UNITS,
+    *_WORDS,
+)
 # keys of [read]: of the reader, of the evaluation, with the unit of those that have one
 _READING: dict[str, str | None] = {
     "format": None,
@@ -74,6 +84,8 @@ class Study:
         Of the tests [K]; else that of the passport.
     work_of_adhesion : (float, float), optional
         Known from a slow test, with its standard uncertainty [J/m2].
+    curves : bool
+        Take whole curves, not only pull-offs.
     scatter : float
         Relative standard deviation from test to test, where the tests do not show it themselves.
     level : float
@@ -90,6 +102,7 @@ class Study:
     preload: float | None = None
     temperature: float | None = None
     work_of_adhesion: tuple[float, float] | None = None
+    curves: bool = False
     scatter: float = 0.0
     level: float = 0.9
     reading: Mapping[str, Any] = field(default_factory=dict)
@@ -140,6 +153,7 @@ def answer(study: Study) -> Answer:
         preload=study.preload,
         work_of_adhesion=study.work_of_adhesion,
         stiffness=1 / compliance if compliance > 0 else None,
+        curves=study.curves,
         scatter=study.scatter,
         level=study.level,
     )
@@ -177,6 +191,10 @@ def _study(table: Mapping[str, Any], folder: Path) -> Study:
     if beside.is_file():
         values["material"] = str(beside)
     values |= {key: parse(table[key], "1") for key in ("level", "scatter") if key in table}
+    if "curves" in table:
+        if not isinstance(table["curves"], bool):
+            raise InputError(f"curves must be true or false, got {table['curves']!r}")
+        values["curves"] = table["curves"]
     if "work_of_adhesion" in table:
         value, uncertainty = table["work_of_adhesion"]
         values["work_of_adhesion"] = parse(value, "J/m^2"), parse(uncertainty, "J/m^2")
@@ -215,7 +233,8 @@ def study_text(study: Study, folder: str | os.PathLike[str]) -> str:
         values[key] = _quantity(getattr(study, key), unit)
     if study.work_of_adhesion is not None:
         values["work_of_adhesion"] = [_quantity(x, "J/m^2") for x in study.work_of_adhesion]
-    values |= {"scatter": study.scatter or None, "level": study.level}
+    values |= {"curves": study.curves or None, "scatter": study.scatter or None}
+    values["level"] = study.level
     how = {
         key: value if unit is None else _quantity(value, unit)
         for units, given in ((_READING, study.reading), (_EVALUATION, study.evaluation))

@@ -218,6 +218,13 @@ def rates_command(
             help='Of the tests, "25 degC"; else that at which the passport holds.',
         ),
     ] = None,
+    curves: Annotated[
+        bool,
+        Option(
+            "--curves",
+            help="Take whole curves, by their travels between forces; one speed is enough then.",
+        ),
+    ] = False,
     scatter: Annotated[
         str | None,
         Option(
@@ -290,6 +297,7 @@ def rates_command(
             preload=None if preload is None else parse(preload, "N"),
             temperature=None if temperature is None else parse(temperature, "K"),
             work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
+            curves=curves,
             scatter=0.0 if scatter is None else parse(scatter, "1"),
             level=level,
             reading=reading,
