@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.bem import crack_contact
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
@@ -124,6 +125,7 @@ def forecast_rates(
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     middle = known.pulled(w, gap, v, load)
     _refuse(v, middle.effective_tabor)
+    crack_contact(known.problem(w, gap, load, float(v.max())))
     pressed: tuple[Move, ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")

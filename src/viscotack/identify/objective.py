@@ -18,7 +18,7 @@ Array = npt.NDArray[np.float64]
 Residuals = Callable[[Mapping[str, float]], Array]
 
 # Of the way from the best value to a bound: an interval may be narrow or wide, or in two parts.
-_PLACES = np.union1d(np.geomspace(2e-3, 1.0, 12), np.linspace(0.1, 1.0, 13))
+_PLACES = np.union1d(np.geomspace(2e-3, 1.0, 9), np.linspace(0.2, 1.0, 9))
 _BEYOND = 1e-9
 
 

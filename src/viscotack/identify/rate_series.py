@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import RectBivariateSpline
 
+from viscotack.bem import crack_contact
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.materials import Material, Passport
@@ -24,7 +25,7 @@ from .travel import travels
 
 Array = npt.NDArray[np.float64]
 
-_WORKS, _GAPS = 9, 21
+_WORKS, _GAPS = 8, 21  # works a decade, and ranges, of the table
 LEAST_TABOR = 2.0  # effective: below it the theory does not hold
 _THEORY = 0.02  # relative standard uncertainty of the forward model
 _LOUD = 2.0  # residuals over their uncertainty: no such interface gives the forces
@@ -162,6 +163,8 @@ def identify_rates(
 
     Raises
     ------
+    OutOfRange
+        If the most likely interface leaves the range of the theory.
     ValueError
         If there are fewer than two speeds without curves, a pull-off has none, or the theory
         holds for no range looked at.
@@ -221,6 +224,9 @@ def identify_rates(
     rest = objective.residuals(best.values)
     scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - 2, 1)))
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    fastest = int(np.argmax(speed))
+    # refuses an edge that has no way to become a steady crack
+    crack_contact(forward.problem(w, gap, float(load[fastest]), float(speed[fastest])))
     return RateSeriesFit(
         w,
         gap,
@@ -343,9 +349,10 @@ class _Table:
         gaps: tuple[float, float],
         least: float,
     ):
-        # no energy at an opening edge is less than the work of adhesion
+        # no energy at an opening edge is less than the work of adhesion, and none larger than 1/k
         most = 1.2 * least / (1.5 * np.pi * forward.radius)
-        self.works = np.geomspace(most / 12, most, _WORKS)
+        span = 2.0 / forward.material.modulus_ratio
+        self.works = np.geomspace(most / span, most, 3 + round(_WORKS * float(np.log10(span))))
         self.gaps = np.geomspace(*gaps, _GAPS)
         found = forward.pulled(self.works[:, None, None], self.gaps[:, None], speed, preload)
         force, effective = found.force, found.effective_tabor

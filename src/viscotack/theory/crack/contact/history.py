@@ -37,8 +37,9 @@ _ANNULI, _SMALLEST = 360, 0.01
 _TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.006, 0.05, 1.6, 1e-5
 # Rounds of a root and its tolerance; steps of a history at most.
 _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
-# Below this part of the elastic pull-off radius nothing is left of a contact.
-_GONE = 0.02
+# Radius [beta] below which nothing is left of a contact; and in the last retraction, where one that
+# snaps off behind a spring would close and open again without end, and without inertia.
+_GONE, _LEFT = 0.02, 0.1
 
 
 @dataclass(frozen=True)
@@ -190,6 +191,8 @@ class Contact:
             if drive.end is not None and _reached(found, drive):
                 dt, found = self._to_the_end(state, drive, given, begin, dt)
             moved = found.radius - state.radius
+            if last and found.radius < min(_LEFT, state.radius) and drive.speed < 0:
+                found = found._replace(radius=0.0, force=0.0)
             self._note(rows, state, found, number)
             gone = state.radius > 0 and found.radius == 0
             met = drive.end is not None and dt > 0 and _reached(found, drive)
