@@ -100,6 +100,8 @@ if TYPE_CHECKING:
     from .result.observables import work_to_pull_off as work_to_pull_off
     from .traction import Dugdale as Dugdale
     from .traction import Exponential as Exponential
+    from .traction import Eyring as Eyring
+    from .traction import GentSchultz as GentSchultz
     from .traction import LennardJones as LennardJones
     from .traction import Tabulated as Tabulated
     from .units import parse as parse
@@ -109,7 +111,7 @@ _NAMES = {
     "units": ("parse",),
     "errors": ("InputError", "OutOfRange"),
     "cards": ("Quantity",),
-    "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
+    "traction": ("Dugdale", "Exponential", "Eyring", "GentSchultz", "LennardJones", "Tabulated"),
     "geometry": (
         "Sphere",
         "FlatPunch",
