@@ -148,9 +148,9 @@ class Body:
         free = surface.rigid_gap + state.memory.inherited(s, state.relaxed)
         guess = _shifted(state, state.rates.edge * s.length) + s.length * state.rates.gap
         guess = np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span))
-        machine, balance = self.net(hold, state), None
+        machine, balance, speed = self.net(hold, state), None, None
         if stepped is not None:
-            balance = driven(surface, stepped, free, s.compliance, guess, machine)
+            balance, speed = driven(surface, stepped, free, s.compliance, guess, machine)
         if balance is None:
             balance = descend(
                 surface,
@@ -178,7 +178,8 @@ class Body:
         time = state.seen.time + s.length
         opening, bent = None, 0.0
         if stepped is not None:
-            opening = stepped.opening(state.gap, gap, s.length)
+            speed = stepped.speed(gap) if speed is None else speed
+            opening = stepped.opening(state.gap, speed, s.length)
             bent = bend(stepped, gap, opening, surface.area)
         after = self.trailing(
             state, self.state(time, gap, balance.depth, hold, surface, e, memory, rates, opening)
@@ -202,17 +203,15 @@ class Body:
         free = surface.rigid_gap + self.weights @ d
         guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
         opening = None if state.extra is None else state.extra.opening.carried(carried)
-        machine, balance, again = self.net(hold, state), None, None
+        machine, balance = self.net(hold, state), None
         if opening is not None and opening.length:
             again = Stepped.again(self.contact.law, self.growing, guess, opening)
-            balance = driven(surface, again, free, c, guess, machine)
+            balance, speed = driven(surface, again, free, c, guess, machine)
+            opening = opening if speed is None else replace(opening, speed=speed)
         if balance is None:
-            again = None
             balance = descend(surface, self.law(opening), free, c, guess, machine)
         if not balance.stable:
             return balance
-        if opening is not None and again is not None:
-            opening = replace(opening, speed=again.speed(balance.gap))
         e = (balance.gap - free + balance.depth) / c
         rates = state.rates
         rates = replace(

@@ -207,9 +207,10 @@ class Stepped:
         energy[opens] += way * (_SLOPE @ (self.base.traction(x) * growth))
         return energy
 
-    def opening(self, before: npt.NDArray, gap: npt.NDArray, length: float) -> Opening:
-        """Return the speeds at the end of a step between two gaps."""
-        return Opening(self.speed(gap), (gap - before) / length, length, self.per)
+    def opening(self, before: npt.NDArray, speed: npt.NDArray, length: float) -> Opening:
+        """Return the speeds at the end of a step that began at these gaps, for those there."""
+        mean = (self.since - before + speed / self.per) / length
+        return Opening(speed, mean, length, self.per)
 
     def speed(self, gap: npt.NDArray) -> npt.NDArray:
         """Return the opening speeds at the end of the step."""
@@ -241,20 +242,23 @@ def driven(
     compliance: float,
     guess: npt.NDArray,
     hold: Hold,
-) -> Balance | None:
-    """Return the balance at the end of a step near a guess; None where none is found.
+) -> tuple[Balance, npt.NDArray] | tuple[None, None]:
+    """Return the balance at the end of a step near a guess, and speeds; None where none is found.
 
     A growth that rises like a power of the speed below 1 has a slope that changes by decades, and
     none where the gap closes: Newton's method overshoots from the one to the other for ever. The
     heat of opening is concave in the SQUARE of the speed, however: a parabola through the present
     speed, with the secant G/v for a slope, lies above it, and leads monotonically to the balance,
     the logarithm of the speed being off by 1 - n times as much after each iteration. Where a node
-    has settled the tangent takes over.
+    has settled, or comes from below, where it does not overshoot, the tangent takes over.
+
+    Where surfaces are next to stuck, their opening in a step has more digits than their gap.
     """
     solid = elastic_energy(surface, compliance, free, hold)
-    area, span, gap = surface.area, effective_range(law), guess
-    speed = law.speed(gap)
-    settled = np.zeros(gap.shape, dtype=bool)
+    area, span = surface.area, effective_range(law)
+    opened = guess - law.since
+    gap, speed = law.since + opened, opened * law.per
+    tangent = np.zeros(gap.shape, dtype=bool)
     for iteration in range(1, _ITERATIONS + 1):
         look()
         at_rest = law.base.traction(gap)
@@ -262,21 +266,21 @@ def driven(
         tension = area * (at_rest + pulls * growth)
         residual = solid.at(gap)[1] + tension
         slope = law.growing.growth_slope(speed)
-        steep = (speed > 0) & ~settled
+        steep = (speed > 0) & ~tangent
         slope[steep] = growth[steep] / speed[steep]
         slope = np.where(speed == 0, law.growing.growth_slope(np.finfo(float).tiny), slope)
         stiffness = law.base.stiffness(gap) * np.where(at_rest > 0, 1 + growth, 1.0)
         factor = factored(solid, Band(area * (stiffness + pulls * slope * law.per)))
         if factor is None:
-            return None
+            return None, None
         if np.sum(np.abs(residual)) < _UNBALANCED * np.sum(np.abs(tension)):
-            return Balance(gap, solid.depth(gap), iteration, True)
+            return Balance(gap, solid.depth(gap), iteration, True), speed
         change = solved(factor, -residual)
         closing = float(np.max(-change / room(gap, span)))
-        gap = gap + change * min(1.0, _LARGEST_CLOSING / max(closing, _LARGEST_CLOSING))
-        before, speed = speed, law.speed(gap)
-        settled = np.abs(speed - before) < _SETTLED * np.abs(speed)
-    return None
+        opened = opened + change * min(1.0, _LARGEST_CLOSING / max(closing, _LARGEST_CLOSING))
+        gap, before, speed = law.since + opened, speed, opened * law.per
+        tangent = (speed > before) | (np.abs(speed - before) < _SETTLED * np.abs(speed))
+    return None, None
 
 
 def bend(law: Stepped, gap: npt.NDArray, opening: Opening, area: npt.NDArray) -> float:
