@@ -140,8 +140,8 @@ class Body:
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
         """Return what a step leads to."""
-        surface, law = state.surface, self.contact.law
-        stepped = None
+        surface, stepped = state.surface, None
+        law: Any = self.contact.law
         if state.extra is not None:
             before = state.extra.opening
             law = stepped = Stepped.of(law, self.growing, state.gap, before, s.length)

@@ -109,8 +109,29 @@ class Opening:
         return replace(self, speed=spline(self.speed), mean=spline(self.mean))
 
 
+class _AsAtRest:
+    """What balances ask of a law beside its tension: the lengths and forces of the law at rest."""
+
+    base: Traction
+
+    @property
+    def work_of_adhesion(self) -> float:
+        """That of the law at rest."""
+        return self.base.work_of_adhesion
+
+    @property
+    def equilibrium_gap(self) -> float:
+        """That of the law at rest."""
+        return self.base.equilibrium_gap
+
+    @property
+    def strength(self) -> float:
+        """That of the law at rest."""
+        return self.base.strength
+
+
 @dataclass(frozen=True, eq=False)
-class Frozen:
+class Frozen(_AsAtRest):
     """A law at rest, its tension multiplied at each node: that of frozen speeds."""
 
     base: Traction
@@ -135,24 +156,9 @@ class Frozen:
         """The law at the last node, and on the flank beyond it."""
         return Frozen(self.base, self.factor[-1])
 
-    @property
-    def work_of_adhesion(self) -> float:
-        """That of the law at rest."""
-        return self.base.work_of_adhesion
-
-    @property
-    def equilibrium_gap(self) -> float:
-        """That of the law at rest."""
-        return self.base.equilibrium_gap
-
-    @property
-    def strength(self) -> float:
-        """That of the law at rest."""
-        return self.base.strength
-
 
 @dataclass(frozen=True, eq=False)
-class Stepped:
+class Stepped(_AsAtRest):
     """A growing law in a step: at each node a function of the gap at its end.
 
     Attributes
@@ -219,21 +225,6 @@ class Stepped:
     def _growth(self, gap: npt.NDArray) -> npt.NDArray:
         return self.growing.growth(self.speed(gap))
 
-    @property
-    def work_of_adhesion(self) -> float:
-        """That of the law at rest."""
-        return self.base.work_of_adhesion
-
-    @property
-    def equilibrium_gap(self) -> float:
-        """That of the law at rest."""
-        return self.base.equilibrium_gap
-
-    @property
-    def strength(self) -> float:
-        """That of the law at rest."""
-        return self.base.strength
-
 
 def driven(
     surface: Surface,
@@ -255,7 +246,7 @@ def driven(
     Where surfaces are next to stuck, their opening in a step has more digits than their gap.
     """
     solid = elastic_energy(surface, compliance, free, hold)
-    area, span = surface.area, effective_range(law)
+    area, span = surface.area, effective_range(law.base)
     opened = guess - law.since
     gap, speed = law.since + opened, opened * law.per
     tangent = np.zeros(gap.shape, dtype=bool)

@@ -55,10 +55,10 @@ def march(
 
     `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
     apart). The law of the contact is the one at rest; `growing` is it where it grows with the
-    opening speed. The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
-    on steps was met, "time" when that on time was, "shut" when the surfaces were pressed together
-    harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a dead load
-    has no contact that bears it.
+    opening speed. The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the
+    bound on steps was met, "time" when that on time was, "shut" when the surfaces were pressed
+    together harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a
+    dead load has no contact that bears it.
     """
     history = History(least_energy=SMALLEST_ENERGY * contact.span)
     body = Body(contact, modes, np.asarray(modes.weights), growing)

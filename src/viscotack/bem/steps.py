@@ -45,7 +45,7 @@ _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
 _ROUND_OFF = 1e-11
 # Opening speeds that change in a step may change the attraction by so many times what the force may
 # change.
-_BEND = 2.0
+_BEND = 0.25
 # A contact whose tension grows with the opening speed runs where another jumps: steps may be this
 # part of the first one of a leg.
 _RUNNING = 1e-8

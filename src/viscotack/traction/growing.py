@@ -53,12 +53,13 @@ class _Growing:
     @classmethod
     def of(cls, base: Traction, **constants: float) -> Self:
         """Return the law that is this one at rest, with the constants of its growth in SI."""
-        return cls(
+        kind: Any = cls
+        return kind(
             work_of_adhesion=base.work_of_adhesion,
             equilibrium_gap=base.equilibrium_gap,
             base=base.reduced(),
             **constants,
-        )  # type: ignore[call-arg]
+        )
 
     def __post_init__(self) -> None:
         conform(self)
@@ -127,12 +128,14 @@ class _Growing:
     def reduced(self, time_unit: float = 1.0) -> Self:
         """Return the law with work 1, gap 1, and speeds in h_0 per time unit [s]."""
         speed = self.reference_speed * time_unit / self.equilibrium_gap
-        return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0, reference_speed=speed)
+        law: Any = self
+        return replace(law, work_of_adhesion=1.0, equilibrium_gap=1.0, reference_speed=speed)
 
     def scaled(self, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Self:
         """Return a reduced law in SI."""
+        law: Any = self
         return replace(
-            self,
+            law,
             work_of_adhesion=work_of_adhesion,
             equilibrium_gap=equilibrium_gap,
             reference_speed=self.reference_speed * equilibrium_gap / time_unit,
