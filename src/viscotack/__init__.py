@@ -87,6 +87,8 @@ if TYPE_CHECKING:
     from .result.dead_load import time_to_detachment as time_to_detachment
     from .result.observables import Observable as Observable
     from .result.observables import PullOff as PullOff
+    from .result.edge_energy import EdgeEnergy as EdgeEnergy
+    from .result.edge_energy import edge_energy as edge_energy
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
     from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
     from .result.observables import effective_surface_energy as effective_surface_energy
@@ -164,6 +166,7 @@ _NAMES = {
     ),
     "result.cycles": ("Cycle", "cycles", "write_cycles"),
     "result.dead_load": ("time_to_detachment",),
+    "result.edge_energy": ("EdgeEnergy", "edge_energy"),
     "forecast": (
         "advise",
         "Advice",

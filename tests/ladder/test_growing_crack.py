@@ -11,6 +11,7 @@ from viscotack.errors import OutOfRange
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
+from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
 from viscotack.theory.crack.contact import profile_of, recede
@@ -168,3 +169,29 @@ def test_solve_hands_a_short_range_over_to_the_crack_with_its_growth():
     result = vt.solve(groups)
     assert result.method == "crack contact"
     assert pull_off_force(result) > 1.2
+
+
+def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed():
+    law = GentSchultz(1, 1, 10.0, 0.5)
+    groups = Groups(tabor=10.0, material=SOLID, start=AtDepth(60.0), rate=30.0, traction=law)
+    problem = groups.in_si(
+        radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.1, time_unit=0.1, poisson_ratio=0.5
+    )
+    result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
+    found = edge_energy(result)
+    speed = found.speed / result.scales.edge_speed * groups.tabor**2
+    steady = np.asarray(SteadyCrack(SOLID, law).amplification(speed))
+    later = found.amplification > 3
+    np.testing.assert_allclose(found.amplification[later], steady[later], rtol=0.04)
+    np.testing.assert_allclose(found.bulk * found.interface, found.amplification, rtol=1e-12)
+    assert np.all(found.interface[later] > 1.3)
+    assert found.strain > 0.1 and any("a linear solid is doubtful" in word for word in found.words)
+    fitted = 1 + (found.speed / found.reference_speed) ** found.exponent
+    np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
+
+
+def test_the_energy_at_an_edge_is_not_read_of_other_tests():
+    groups = Groups(tabor=0.5, material=ELASTIC, start=AtDepth(1.0), rate=1.0)
+    result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
+    with pytest.raises(ValueError, match="hardly ever a steady crack"):
+        edge_energy(result)

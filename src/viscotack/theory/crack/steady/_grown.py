@@ -30,6 +30,7 @@ from viscotack.errors import InputError
 from viscotack.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
+from ._branch import pools
 from ._memory import lengths_of, opening_matrix
 from ._mesh import Mesh
 
@@ -207,7 +208,9 @@ class Grown:
         while True:
             towards = aim if abs(aim - at) <= abs(step) else at + step
             work = self._foreseen(crack, towards)
-            found = solved(self._system(float(np.exp(towards)), work), crack.u)
+            # the matrices are small: more threads only wait for each other
+            with pools().limit(limits=1, user_api="blas"):
+                found = solved(self._system(float(np.exp(towards)), work), crack.u)
             if found is not None:
                 at, crack, step = towards, found, 1.5 * step
                 if at == aim:
