@@ -85,10 +85,10 @@ if TYPE_CHECKING:
     from .result.cycles import cycles as cycles
     from .result.cycles import write_cycles as write_cycles
     from .result.dead_load import time_to_detachment as time_to_detachment
-    from .result.observables import Observable as Observable
-    from .result.observables import PullOff as PullOff
     from .result.edge_energy import EdgeEnergy as EdgeEnergy
     from .result.edge_energy import edge_energy as edge_energy
+    from .result.observables import Observable as Observable
+    from .result.observables import PullOff as PullOff
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
     from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
     from .result.observables import effective_surface_energy as effective_surface_energy

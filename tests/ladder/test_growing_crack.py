@@ -14,7 +14,7 @@ from viscotack.protocol import AtDepth
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
-from viscotack.theory.crack.contact import profile_of, recede
+from viscotack.theory.crack.contact import GrowingCracks, profile_of, recede
 from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
 
@@ -195,3 +195,19 @@ def test_the_energy_at_an_edge_is_not_read_of_other_tests():
     result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
     with pytest.raises(ValueError, match="hardly ever a steady crack"):
         edge_energy(result)
+
+
+@pytest.mark.slow
+def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own():
+    lattice = GrowingCracks(SOLID, np.geomspace(0.1, 100.0, 4), [0.2, 0.35, 0.5, 0.65])
+    cases = [(0.3, 0.42), (30.0, 0.27), (5.0, 0.6)]
+    given = {"radius": np.full(3, 4.0), "rate": np.full(3, 5.0), "tabor": np.full(3, 20.0)}
+    edges = lattice.edges([v0 for v0, _ in cases], [n for _, n in cases])
+    together = recede(edges, profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
+    for i, (v0, n) in enumerate(cases):
+        crack = SteadyCrack(SOLID, GentSchultz(1, 1, v0, n))
+        one = {name: values[:1] for name, values in given.items()}
+        alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()
+        assert together[i] == pytest.approx(alone, rel=0.01, abs=0)
+    with pytest.raises(ValueError, match="must lie within the lattice, 0.2 to 0.65"):
+        lattice.edges(1.0, 0.9)

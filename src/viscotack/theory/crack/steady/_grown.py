@@ -39,7 +39,7 @@ Array = npt.NDArray[np.floating[Any]]
 STEP = np.log(10) / 4
 _SHORTEST_STEP = STEP / 64
 # Gained by the first crack that is solved, and by the last one; and how many there may be.
-_FIRST, _LAST, _MOST = 1e-4, 1e3, 100
+_FIRST, _LAST, _MOST = 1e-4, 300.0, 100
 # What has been gained where there may be no crack any more: a shorter table will do.
 _ENOUGH = 4.0
 # Points of the inverse between two speeds that are solved.
