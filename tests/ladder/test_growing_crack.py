@@ -1,12 +1,15 @@
 """Cracks and contacts whose interface grows with the opening speed: limits, heat, simulation."""
 
+import json
 from functools import lru_cache
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from typer.testing import CliRunner
 
 import viscotack as vt
+from viscotack.app.cli import application
 from viscotack.errors import OutOfRange
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.problem import Groups
@@ -188,6 +191,18 @@ def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed
     assert found.strain > 0.1 and any("a linear solid is doubtful" in word for word in found.words)
     fitted = 1 + (found.speed / found.reference_speed) ** found.exponent
     np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
+
+
+def test_the_command_splits_the_energy_of_a_crack():
+    words = "theory steady-crack --modulus-ratio 0.1 --law gent-schultz:1,0.5 --speed 1 --speed -1"
+    done = CliRunner().invoke(application(), [*words.split(), "--material", "sls", "--json"])
+    answer = json.loads(done.stdout)
+    gamma, heat, interface = (
+        np.array(answer[name]) for name in ("amplification", "heat", "interface_heat")
+    )
+    assert gamma[0] == pytest.approx(1 + heat[0] + interface[0], rel=2e-3) and interface[0] > 0.5
+    assert interface[1] == 0 and gamma[1] < 1
+    assert answer["persson_brener_off"] == [None, None]
 
 
 def test_the_energy_at_an_edge_is_not_read_of_other_tests():

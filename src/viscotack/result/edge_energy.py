@@ -110,7 +110,7 @@ def edge_energy(result: Result) -> EdgeEnergy:
     speed, gamma = result.edge_speed[steady], energy[steady]
     bulk = np.asarray(rest.amplification(speed * groups.tabor**2 * groups.material.time_unit))
     v0, n = _gent_schultz(speed, gamma)
-    scales = result.scales
+    scales: Any = result.scales
     strain = None if scales is None else _strain(result, crack, speed, steady)
     unit = 1.0 if scales is None else scales.edge_speed
     said = _words(gamma[-1], bulk[-1], strain, grows(groups.traction))
