@@ -85,6 +85,8 @@ if TYPE_CHECKING:
     from .result.cycles import cycles as cycles
     from .result.cycles import write_cycles as write_cycles
     from .result.dead_load import time_to_detachment as time_to_detachment
+    from .result.edge_energy import EdgeEnergy as EdgeEnergy
+    from .result.edge_energy import edge_energy as edge_energy
     from .result.observables import Observable as Observable
     from .result.observables import PullOff as PullOff
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
@@ -100,6 +102,8 @@ if TYPE_CHECKING:
     from .result.observables import work_to_pull_off as work_to_pull_off
     from .traction import Dugdale as Dugdale
     from .traction import Exponential as Exponential
+    from .traction import Eyring as Eyring
+    from .traction import GentSchultz as GentSchultz
     from .traction import LennardJones as LennardJones
     from .traction import Tabulated as Tabulated
     from .units import parse as parse
@@ -109,7 +113,7 @@ _NAMES = {
     "units": ("parse",),
     "errors": ("InputError", "OutOfRange"),
     "cards": ("Quantity",),
-    "traction": ("Dugdale", "Exponential", "LennardJones", "Tabulated"),
+    "traction": ("Dugdale", "Exponential", "Eyring", "GentSchultz", "LennardJones", "Tabulated"),
     "geometry": (
         "Sphere",
         "FlatPunch",
@@ -162,6 +166,7 @@ _NAMES = {
     ),
     "result.cycles": ("Cycle", "cycles", "write_cycles"),
     "result.dead_load": ("time_to_detachment",),
+    "result.edge_energy": ("EdgeEnergy", "edge_energy"),
     "forecast": (
         "advise",
         "Advice",

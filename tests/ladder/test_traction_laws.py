@@ -23,6 +23,7 @@ from viscotack.traction import (
     Exponential,
     LennardJones,
     Tabulated,
+    grows,
     softening,
 )
 
@@ -229,7 +230,8 @@ def test_surfaces_cannot_pass_through_each_other(law):
 
 
 def test_every_law_has_a_word():
-    assert set(LAWS.values()) == {LennardJones, Dugdale, Exponential, Tabulated}
+    at_rest = {law for law in LAWS.values() if not grows(law)}
+    assert at_rest == {LennardJones, Dugdale, Exponential, Tabulated}
 
 
 # --- contacts -------------------------------------------------------------------------------

@@ -64,7 +64,9 @@ _MOVES = (
 _LAWS = (
     "Forces across the gap: lennard-jones (also when left out), dugdale, exponential:DECAY (decay "
     "length over h0), or table:FILE, a CSV file with the header 'gap_nm,traction_kPa' or other "
-    "units; NAME:NUMBERS for one of --with."
+    "units; NAME:NUMBERS for one of --with. Strength that grows with the opening speed: "
+    "gent-schultz:SPEED,EXPONENT or eyring:SPEED,SENSITIVITY (reference speed in h0 over the unit "
+    "of time), with :LAW behind it for another law at rest than lennard-jones."
 )
 _MATERIALS = {
     "power-law": "modified power law by its retardation spectrum",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -11,6 +12,7 @@ from scipy.interpolate import CubicSpline
 from viscotack.bem.books import Snapshot
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
+from viscotack.bem.growth import Frozen, Opening, Stepped, bend, driven
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
 from viscotack.bem.span import least_gap, room
@@ -58,6 +60,25 @@ class Rates:
 
 
 @dataclass(frozen=True, eq=False)
+class Extra:
+    """What an interface that grows with the opening speed adds at an instant.
+
+    Attributes
+    ----------
+    opening : Opening
+        How fast the gap opens.
+    nodal : ndarray, shape (N,)
+        Nodal forces beyond those at rest, tension positive.
+    flank : float
+        Force beyond that at rest on the flank [output unit], tension positive.
+    """
+
+    opening: Opening
+    nodal: npt.NDArray
+    flank: float
+
+
+@dataclass(frozen=True, eq=False)
 class State:
     """Everything at one instant: what is kept of it, and what the next step needs."""
 
@@ -68,6 +89,7 @@ class State:
     nodal: npt.NDArray  # F: nodal forces
     memory: Memory
     rates: Rates
+    extra: Extra | None = None  # None where the law is one of the gap alone
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,13 +97,15 @@ class Trial:
     """A step that was tried: the state after it, and how good it is.
 
     The error is that of a pressure linear in time, as a displacement [h0]; zero where the rates
-    before the step are not known, infinite where no stable equilibrium was found.
+    before the step are not known, infinite where no stable equilibrium was found. The bend says
+    by which part opening speeds that change in the step change the attraction.
     """
 
     after: State
     error: float
     iterations: int
     released: bool
+    bend: float = 0.0
 
     @property
     def lost(self) -> bool:
@@ -91,11 +115,16 @@ class Trial:
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """What stays the same during a run: the contact and the modes of its solid."""
+    """What stays the same during a run: the contact and the modes of its solid.
+
+    The law of the contact is the one at rest; `growing` is it where it grows with the opening
+    speed, else None.
+    """
 
     contact: Contact
     modes: Modes
     weights: npt.NDArray
+    growing: Any = None
 
     def first(self, start: Relaxed) -> State:
         """Return the relaxed state: every mode has come to rest."""
@@ -105,30 +134,41 @@ class Body:
         many = (len(self.weights), 1)
         memory = Memory(np.tile(e, many), np.tile(nodal, many))
         hold = Hold(np.inf, start.depth)
-        return self.state(0.0, gap, start.depth, hold, surface, e, memory, _at_rest(gap))
+        opening = None if self.growing is None else Opening.none(gap)
+        rates = _at_rest(gap)
+        return self.state(0.0, gap, start.depth, hold, surface, e, memory, rates, opening)
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
         """Return what a step leads to."""
-        surface, law = state.surface, self.contact.law
+        surface, stepped = state.surface, None
+        law: Any = self.contact.law
+        if state.extra is not None:
+            before = state.extra.opening
+            law = stepped = Stepped.of(law, self.growing, state.gap, before, s.length)
         free = surface.rigid_gap + state.memory.inherited(s, state.relaxed)
         guess = _shifted(state, state.rates.edge * s.length) + s.length * state.rates.gap
-        balance = descend(
-            surface,
-            law,
-            free,
-            s.compliance,
-            np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span)),
-            self.net(hold, state),
-            least_gain=_LEAST_GAIN,
-            most_iterations=most_iterations,
-        )
+        guess = np.maximum(guess, state.gap - 0.5 * room(state.gap, self.contact.span))
+        machine, balance, speed = self.net(hold, state), None, None
+        if stepped is not None:
+            balance, speed = driven(surface, stepped, free, s.compliance, guess, machine)
+        if balance is None:
+            balance = descend(
+                surface,
+                law,
+                free,
+                s.compliance,
+                guess,
+                machine,
+                least_gain=_LEAST_GAIN,
+                most_iterations=most_iterations,
+            )
         gap = balance.gap
         e = (gap - free + balance.depth) / s.compliance
         nodal = surface.nodal(law, gap)
-        moved = surface.edge(gap, law.edge_gap) - state.seen.edge
+        moved = surface.edge(gap, self.contact.law.edge_gap) - state.seen.edge
         moved = 0.0 if np.isnan(moved) else moved
         change = e - state.relaxed
-        bend = float(np.max(np.abs(change - s.length * state.rates.relaxed)))
+        most = float(np.max(np.abs(change - s.length * state.rates.relaxed)))
         rates = Rates(
             relaxed=change / s.length,
             edge=moved / s.length,
@@ -136,19 +176,23 @@ class Body:
         )
         memory = state.memory.advanced(s, state.relaxed, e, state.nodal, nodal)
         time = state.seen.time + s.length
+        opening, bent = None, 0.0
+        if stepped is not None:
+            speed = stepped.speed(gap) if speed is None else speed
+            opening = stepped.opening(state.gap, speed, s.length)
+            bent = bend(stepped, gap, opening, surface.area)
         after = self.trailing(
-            state, self.state(time, balance.gap, balance.depth, hold, surface, e, memory, rates)
+            state, self.state(time, gap, balance.depth, hold, surface, e, memory, rates, opening)
         )
-        error = (s.curvature * bend if state.rates.known else 0.0) if balance.stable else np.inf
-        return Trial(after, error, balance.iterations, balance.released)
+        error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
+        return Trial(after, error, balance.iterations, balance.released, bent)
 
     def remeshed(self, state: State, nodes: npt.NDArray, hold: Hold) -> State | Balance:
         """Return the state on other nodes, or the balance that is none where it finds no other.
 
         Displacements are carried over, and the gaps are brought into balance again.
         """
-        surface, law = self.contact.surface(nodes), self.contact.law
-        old = state.surface.position
+        surface, old = self.contact.surface(nodes), state.surface.position
 
         def carried(fields: npt.NDArray) -> npt.NDArray:
             return CubicSpline(old, fields, axis=-1)(nodes)
@@ -158,7 +202,14 @@ class Body:
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
         guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
-        balance = descend(surface, law, free, c, guess, self.net(hold, state))
+        opening = None if state.extra is None else state.extra.opening.carried(carried)
+        machine, balance = self.net(hold, state), None
+        if opening is not None and opening.length:
+            again = Stepped.again(self.contact.law, self.growing, guess, opening)
+            balance, speed = driven(surface, again, free, c, guess, machine)
+            opening = opening if speed is None else replace(opening, speed=speed)
+        if balance is None:
+            balance = descend(surface, self.law(opening), free, c, guess, machine)
         if not balance.stable:
             return balance
         e = (balance.gap - free + balance.depth) / c
@@ -170,7 +221,13 @@ class Body:
             followed=None if rates.followed is None else carried(rates.followed),
         )
         gap, depth = balance.gap, balance.depth
-        return self.state(state.seen.time, gap, depth, hold, surface, e, memory, rates)
+        return self.state(state.seen.time, gap, depth, hold, surface, e, memory, rates, opening)
+
+    def law(self, opening: Opening | None) -> Any:
+        """Return the law at opening speeds, frozen; None for the law at rest."""
+        if opening is None:
+            return self.contact.law
+        return Frozen(self.contact.law, 1 + self.growing.growth(opening.speed))
 
     def stopped(self, state: State, hold: Hold) -> State:
         """Return the state in the hold of another machine, nothing being in motion."""
@@ -181,7 +238,10 @@ class Body:
     @staticmethod
     def at_rest(state: State) -> State:
         """Return the state without rates, where the last ones tell nothing of the next."""
-        return replace(state, rates=_at_rest(state.gap))
+        extra = state.extra
+        if extra is not None:
+            extra = replace(extra, opening=extra.opening.forgotten())
+        return replace(state, rates=_at_rest(state.gap), extra=extra)
 
     def trailing(self, before: State, after: State) -> State:
         """Return a state that remembers those before it."""
@@ -199,7 +259,8 @@ class Body:
         """Return the hold less the force on the flank, which no node carries; it hardly changes."""
         if hold.rigid:
             return hold
-        flank = state.surface.flank_force(self.contact.law, state.gap) / state.surface.unit
+        law = self.law(None if state.extra is None else state.extra.opening)
+        flank = state.surface.flank_force(law, state.gap) / state.surface.unit
         return replace(hold, load=hold.load - flank)
 
     def state(
@@ -212,9 +273,10 @@ class Body:
         relaxed: npt.NDArray,
         memory: Memory,
         rates: Rates,
+        opening: Opening | None,
     ) -> State:
         """Return the state at an instant, with what is to be seen of it."""
-        law = self.contact.law
+        law, at_rest = self.law(opening), self.contact.law
         nodal = surface.nodal(law, gap)
         instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
         force = surface.force(law, gap)
@@ -223,13 +285,17 @@ class Body:
             time=time,
             depth=depth,
             drive=drive,
-            edge=surface.edge(gap, law.edge_gap),
+            edge=surface.edge(gap, at_rest.edge_gap),
             force=force,
             elastic=surface.unit * (instant + memory.stored(self.weights)),
-            interface=surface.interface_energy(law, gap),
+            interface=surface.interface_energy(at_rest, gap),
             spring=spring,
         )
-        return State(seen, surface, gap, relaxed, nodal, memory, rates)
+        extra = None
+        if opening is not None:
+            flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
+            extra = Extra(opening, surface.nodal(at_rest, gap) - nodal, flank)
+        return State(seen, surface, gap, relaxed, nodal, memory, rates, extra)
 
 
 def _machine(hold: Hold, unit: float, depth: float, force: float) -> tuple[float, float]:

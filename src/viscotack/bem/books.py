@@ -38,21 +38,28 @@ class Snapshot:
 
 @dataclass(frozen=True, eq=False)
 class Books:
-    """Where the drive's work went so far; heat by mode."""
+    """Where the drive's work went so far; heat in the solid by mode, and that in the interface."""
 
     drive: float
     heat: npt.NDArray
     jumps: float = 0.0
     transfer: float = 0.0
+    interface: float = 0.0
 
-    def entered(self, work: float, heat: npt.NDArray) -> Books:
+    def entered(self, work: float, heat: npt.NDArray, interface: float = 0.0) -> Books:
         """Return the books after a step in which the drive did work, and heat was left."""
-        return replace(self, drive=self.drive + work, heat=self.heat + heat)
+        return replace(
+            self,
+            drive=self.drive + work,
+            heat=self.heat + heat,
+            interface=self.interface + interface,
+        )
 
     def imbalance(self, start: Snapshot, now: Snapshot) -> float:
         """Return the drive work that is nowhere to be found."""
         stored = now.stored - start.stored
-        return self.drive - stored - float(self.heat.sum()) - self.jumps - self.transfer
+        heat = float(self.heat.sum()) + self.interface
+        return self.drive - stored - heat - self.jumps - self.transfer
 
     def largest(self, start: Snapshot, now: Snapshot) -> float:
         """Return the largest term, the measure of the imbalance."""
@@ -61,7 +68,8 @@ class Books:
             now.interface - start.interface,
             now.spring - start.spring,
         )
-        terms = (self.drive, *stored, float(self.heat.sum()), self.jumps, self.transfer)
+        heat = float(self.heat.sum())
+        terms = (self.drive, *stored, heat, self.interface, self.jumps, self.transfer)
         return max(abs(term) for term in terms)
 
 

@@ -100,6 +100,23 @@ class _Elastic:
         return 0.5 * float(v @ Mv) + float(self.linear @ v), Mv + self.linear  # type: ignore[operator]
 
 
+def elastic_energy(
+    surface: Surface, compliance: float, free_gap: npt.NDArray, hold: Hold
+) -> _Elastic:
+    """Return the elastic energy of solid and machine as a function of the gap."""
+    return _Elastic.of(surface.stiffness / compliance, free_gap, hold)
+
+
+def factored(solid: _Elastic, curvature: Band) -> npt.NDArray | None:
+    """Return the factor of the tangent, None where it is not stable."""
+    return _factor(solid.matrix, curvature)
+
+
+def solved(factor: npt.NDArray, right: npt.NDArray) -> npt.NDArray:
+    """Return what a factored tangent makes of a right side."""
+    return _potrs(factor, right, lower=1)[0]
+
+
 def _factor(stiffness: npt.NDArray, curvature: Band):
     """Return the Cholesky factor of stiffness + curvature, or None where it is not stable."""
     tangent = stiffness.copy(order="F")

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
+from typing import Any
 
 import numpy as np
 
@@ -46,19 +47,21 @@ def march(
     settings: Settings,
     *,
     until: str,
+    growing: Any = None,
     profiles: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> History:
     """Take a body at rest through the legs and return its history.
 
     `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
-    apart). The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound
-    on steps was met, "time" when that on time was, "shut" when the surfaces were pressed together
-    harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a dead load
-    has no contact that bears it.
+    apart). The law of the contact is the one at rest; `growing` is it where it grows with the
+    opening speed. The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the
+    bound on steps was met, "time" when that on time was, "shut" when the surfaces were pressed
+    together harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a
+    dead load has no contact that bears it.
     """
     history = History(least_energy=SMALLEST_ENERGY * contact.span)
-    body = Body(contact, modes, np.asarray(modes.weights))
+    body = Body(contact, modes, np.asarray(modes.weights), growing)
     run = Run(body, settings, legs, profiles, history)
     at = _first(run, start, grading)
     run.keep(at)
@@ -84,6 +87,7 @@ def _first(run: Run, start: Relaxed, grading: Grading) -> Place:
         lattice=start.lattice,
         grading=grading,
         edge=0.0 if np.isnan(start.edge) else start.edge,
+        narrows=run.body.growing is not None,
     )
     books = Books(0.0, np.zeros(len(run.body.weights)))
     return Place(state, books, mesh, leg, 0, state.seen, leg.least_step, Lowest())
@@ -163,9 +167,16 @@ def _judged(run: Run, at: Place, until: str) -> Place:
         if not last:
             return _begun(run, at, at.number + 1)
         history.outcome = "end"
-    elif at.mesh.left_by(at.seen.edge):
+    elif at.mesh.left_by(at.seen.edge) or _narrowed(run, at):
         return followed(run, at)
     return at
+
+
+def _narrowed(run: Run, at: Place) -> bool:
+    """Return whether the crack has become so short that its nodes must be finer."""
+    if not (at.mesh.narrows and at.seen.edge > 2 * at.mesh.grading.spacing):
+        return False
+    return at.mesh.too_coarse(opening(at.state, run.body.contact))
 
 
 def _share(run: Run, at: Place) -> float:

@@ -35,6 +35,10 @@ MOST_NODES = 4000
 _HEALED, _FASTEST_GROWTH = 2.0, 0.25
 
 
+# Of the first crack's zone: below which part nodes are made finer, and the smallest that there is.
+_NARROWED, _NARROWEST = 0.75, 2.0**-8
+
+
 @dataclass(frozen=True)
 class Grading:
     """How fine the nodes are, and where they end; lengths in the unit of the contact.
@@ -175,6 +179,9 @@ class Mesh:
         Grading of the present nodes.
     edge : float
         Edge for which nodes were made, or asked for in vain, the last time.
+    narrows : bool
+        Whether the zone may become shorter than that of the first crack, as it does where the
+        tension grows with the speed.
     """
 
     finest: Grading
@@ -182,6 +189,7 @@ class Mesh:
     lattice: float
     grading: Grading
     edge: float
+    narrows: bool = False
 
     def around(self, edge: float, opening: float) -> Mesh:
         """Return the mesh around an edge for the length over which the gap opens there.
@@ -190,13 +198,18 @@ class Mesh:
         """
         factor = min(opening / self.opening, edge / (3 * self.finest.half_width))
         grading = self.finest
-        if factor >= 2:
-            grading = grading.widened(2.0 ** np.floor(np.log2(factor)))
+        if factor >= 2 or (self.narrows and factor < _NARROWED):
+            grading = grading.widened(max(2.0 ** np.floor(np.log2(factor)), _NARROWEST))
         return replace(self, grading=grading, edge=edge)
 
     def nodes(self) -> npt.NDArray:
         """Return the nodes, from 0 outwards."""
         return self.grading.nodes(self.edge, self.lattice)
+
+    def too_coarse(self, opening: float) -> bool:
+        """Return whether the zone has become so short that finer nodes are there for it."""
+        now = self.grading.half_width / self.finest.half_width
+        return self.narrows and now > _NARROWEST and opening < _NARROWED * now * self.opening
 
     def left_by(self, edge: float) -> bool:
         """Return whether an edge is half out of the fine nodes, and not about to vanish."""

@@ -41,6 +41,7 @@ from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart
 from viscotack.result import Result, ShallowStart
 from viscotack.result.observables import pull_off, work_to_pull_off
+from viscotack.traction import grows
 
 # Starts up to this depth [h0] are marched as they are: that takes seconds.
 _DEEP = 1000.0
@@ -132,13 +133,13 @@ def shallower(
 def _asked(groups: Groups | PunchGroups, contact: Contact) -> float:
     """Return the depth [h0] at which a test begins, about; 0 where it must be marched as it is.
 
-    That are tests with moves before the retraction, or without one, of punches, and of shapes that
-    may have several contacts at one depth.
+    That are tests with moves before the retraction, or without one, of punches, of shapes that may
+    have several contacts at one depth, and of interfaces that grow with the opening speed.
     """
     if not isinstance(groups, Groups) or isinstance(groups.start, Apart):
         return 0.0
     known = isinstance(groups.geometry, Sphere | Cone | PowerLawProfile)
-    if groups.moves or groups.rate is None or not known:
+    if groups.moves or groups.rate is None or not known or grows(groups.traction):
         return 0.0
     return contact.deepest(groups.start)
 

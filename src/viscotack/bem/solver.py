@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -19,6 +20,7 @@ from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.estimate import COARSER, estimated
+from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
 from viscotack.bem.machine import Leg
 from viscotack.bem.march import march
@@ -34,7 +36,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeL
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
-from viscotack.traction import effective_range
+from viscotack.traction import effective_range, grows
 
 # Is told the done share of the work.
 Progress = Callable[[float], None] | None
@@ -275,6 +277,7 @@ def _run(
         grading,
         settings,
         until=until,
+        growing=groups.traction if grows(groups.traction) else None,
         profiles=fields,
         progress=progress,
     )
@@ -292,9 +295,10 @@ def _begun(
 
 
 def contact_of(groups: Groups | PunchGroups) -> Contact:
-    """Return the contact that dimensionless groups describe."""
+    """Return the contact that dimensionless groups describe, its law being the one at rest."""
+    law = _at_rest(groups.traction)
     if isinstance(groups, PunchGroups):
-        return PunchContact(groups.size, groups.thickness, groups.base, groups.traction)
+        return PunchContact(groups.size, groups.thickness, groups.base, law)
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high:
         span = effective_range(groups.traction)
@@ -305,11 +309,27 @@ def contact_of(groups: Groups | PunchGroups) -> Contact:
         )
     match groups.geometry:
         case Sphere():
-            return SphereContact(groups.tabor, groups.traction)
+            return SphereContact(groups.tabor, law)
         case Cone() | PowerLawProfile():
-            return ProfileContact(groups.tabor, groups.traction, groups.geometry.exponent)
+            return ProfileContact(groups.tabor, law, groups.geometry.exponent)
         case shape:
-            return ShapeContact(groups.tabor, groups.traction, shape)
+            return ShapeContact(groups.tabor, law, shape)
+
+
+def _at_rest(law: Any) -> Any:
+    """Return a law of the gap: of one that grows that at rest, which nodes must be able to follow.
+
+    Speeds are known at nodes, and not between them.
+    """
+    if not grows(law):
+        return law
+    if not resolved(law.base):
+        raise InputError(
+            "the law at rest of one that grows with the opening speed must be smooth enough for "
+            f"nodes, and {law.base} falls too steeply; take a wider fall (dugdale: rise 0.3, fall "
+            "1), or lennard-jones"
+        )
+    return law.base
 
 
 def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: Settings) -> Modes:
@@ -360,6 +380,7 @@ def _result(
             heat=heat.sum(axis=1),
             jumps=np.array([b.jumps for b in books]),
             transfer=np.array([b.transfer for b in books]),
+            interface_heat=np.array([b.interface for b in books]),
             mode_time=np.array(modes.times),
             mode_heat=heat[-1],
         ),

@@ -43,6 +43,12 @@ _GROWTH = 1.5
 _MOST_MISSING, _LEAST_LEFT = 25.0, 0.2
 # Round-off in the energies, of themselves.
 _ROUND_OFF = 1e-11
+# Opening speeds that change in a step may change the attraction by so many times what the force may
+# change.
+_BEND = 0.25
+# A contact whose tension grows with the opening speed runs where another jumps: steps may be this
+# part of the first one of a leg.
+_RUNNING = 1e-8
 # The end of a leg has been met within this part of the step that passes it.
 _AT_END = 1e-3
 
@@ -93,7 +99,8 @@ def instant(run: Run, s: Step) -> bool:
 
 def is_shortest(run: Run, at: Place, s: Step) -> bool:
     """Return whether nothing would change if the step were shorter still."""
-    return instant(run, s) and at.dt <= at.leg.least_step * (1 + 1e-9)
+    least = at.leg.least_step * (1.0 if run.body.growing is None else _RUNNING)
+    return instant(run, s) and at.dt <= least * (1 + 1e-9)
 
 
 def tried(run: Run, at: Place, s: Step, most_iterations: int = _MOST_ITERATIONS) -> Trial:
@@ -109,7 +116,8 @@ def weighed(run: Run, at: Place, s: Step, trial: Trial) -> Attempt:
     heat = before.surface.unit * before.memory.heat(
         s, before.relaxed, after.relaxed, before.nodal, after.nodal
     )
-    return entered(run, at, after, work_of(before.seen, after.seen), heat, _strain(run, at, trial))
+    work, friction = work_of(before.seen, after.seen), _interface_heat(before, after)
+    return entered(run, at, after, work, heat, _strain(run, at, trial), interface=friction)
 
 
 def entered(
@@ -120,6 +128,7 @@ def entered(
     heat: npt.NDArray,
     strain: float,
     *,
+    interface: float = 0.0,
     least: float = 1.0,
 ) -> Attempt:
     """Return a step with its entry in the books; energy that is missing makes it too long.
@@ -127,7 +136,7 @@ def entered(
     The least that counts is so many times what is tolerated.
     """
     before = at.state
-    first, entry = run.history.snapshots[0], at.books.entered(work, heat)
+    first, entry = run.history.snapshots[0], at.books.entered(work, heat, interface)
     so_far = at.books.imbalance(first, before.seen)
     missing = entry.imbalance(first, after.seen) - so_far
     largest = max(entry.largest(first, after.seen), run.history.least_energy)
@@ -142,6 +151,16 @@ def entered(
 def work_of(before: Snapshot, after: Snapshot) -> float:
     """Return the work of the drive in a step in which force and drive changed linearly."""
     return 0.5 * (before.force + after.force) * (after.drive - before.drive)
+
+
+def _interface_heat(before: State, after: State) -> float:
+    """Return the heat in an interface that grows with the opening speed, over a step."""
+    if before.extra is None or after.extra is None:
+        return 0.0
+    nodal = 0.5 * (before.extra.nodal + after.extra.nodal)
+    flank = 0.5 * (before.extra.flank + after.extra.flank)
+    lifted = before.seen.depth - after.seen.depth
+    return before.surface.unit * float(nodal @ (after.gap - before.gap)) + flank * lifted
 
 
 def shortened(run: Run, at: Place, attempt: Attempt | None) -> Place | None:
@@ -215,4 +234,5 @@ def _strain(run: Run, at: Place, trial: Trial) -> float:
         trial.error / (run.settings.step_error * run.body.contact.span * _looser(at) ** 2),
         changed(run, at, after),
         at.mesh.strain(at.seen.edge, after.edge),
+        (trial.bend / (_BEND * run.settings.force_change)) ** 2,
     )

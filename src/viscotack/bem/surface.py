@@ -58,7 +58,11 @@ class Surface:
         return self.unit * float(np.sum(self.nodal(law, gap))) + self.flank_force(law, gap)
 
     def flank_force(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the force [output unit] on the flank beyond the last node."""
+        """Return the force [output unit] on the flank beyond the last node.
+
+        A law that differs from node to node says what it is at the rim.
+        """
+        law = getattr(law, "rim", law)
         return self.flank * float(law.energy(gap[-1])) if self.flank else 0.0
 
     def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:

@@ -92,6 +92,8 @@ class Ahead:
 def ahead(run: Run, at: Place) -> Ahead | None:
     """Return where the edge is expected after the next step; None where not to be followed."""
     trail, edge = at.state.rates.trail, at.seen.edge
+    if run.body.growing is not None:  # its speeds are those of the gap at a place
+        return None
     if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
         return None
     contact = run.body.contact
@@ -283,7 +285,7 @@ def _after(
     )
     memory = Memory(d, d @ surface.stiffness)
     time, hold = at.seen.time + dt, at.hold(dt)
-    after = run.body.state(time, found.gap, found.depth, hold, surface, e, memory, rates)
+    after = run.body.state(time, found.gap, found.depth, hold, surface, e, memory, rates, None)
     return run.body.trailing(at.state, after), bend
 
 

@@ -33,6 +33,7 @@ from viscotack.theory import (
     unloading,
 )
 from viscotack.traction import LennardJones, effective_range, softening
+from viscotack.traction.growing import check_of_gap_alone
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9
@@ -359,6 +360,7 @@ def _check(groups: Groups) -> None:
     if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
         shape = groups.geometry.word if isinstance(groups, Groups) else "punch"
         raise InputError(f"advice is for spheres, got a {shape}; simulate others")
+    check_of_gap_alone(groups.traction, "advice")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:
         raise InputError(

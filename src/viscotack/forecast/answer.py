@@ -16,6 +16,7 @@ from viscotack.materials.conversion import slowed
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.traction import LennardJones
+from viscotack.traction.growing import check_of_gap_alone
 
 from .prediction import Prediction
 from .theory import by_crack, by_theory
@@ -189,7 +190,9 @@ def _groups(problem: Any) -> Groups | PunchGroups:
             f"predict takes a Problem or Groups, got {problem!r}; for a file give "
             "viscotack.read_case(path)"
         )
-    return problem.groups()
+    groups = problem.groups()
+    check_of_gap_alone(groups.traction, "a prediction")
+    return groups
 
 
 def _unlearned(groups: Groups | PunchGroups) -> str:

@@ -34,6 +34,7 @@ _ENERGIES = {
     "elastic": "elastic energy",
     "spring": "spring of the machine",
     "heat": "heat in the solid",
+    "interface_heat": "heat in the interface",
     "jumps": "lost in jumps",
     "transfer": "lost in mesh moves",
 }

@@ -8,13 +8,27 @@ from viscotack.cards import Field, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
 from viscotack.problem.table import OWN, Table
-from viscotack.traction import LAWS, Tabulated, Traction
+from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, grows
 from viscotack.units import finite, positive
 
 
 def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
-    """Return the law of the table [interface]; its range by equilibrium_gap or by strength."""
+    """Return the law of the table [interface]; its range by equilibrium_gap or by strength.
+
+    One that grows with the opening speed has its law at rest under ``base``, with the keys of that.
+    """
     kind: Any = laws[table.word("law", laws, OWN)]
+    if not grows(kind):
+        return _of_gap(table, kind)
+    rest = [word for word, law in laws.items() if not grows(law)]
+    base = laws[table.word("base", rest, OWN) if "base" in table.values else LennardJones.word]
+    growth = _constants(kind)
+    table.require(growth)
+    constants = {field.name: table.number(field) for field in growth}
+    return table.make(kind.of, _of_gap(table, base), **constants)
+
+
+def _of_gap(table: Table, kind: Any) -> Traction:
     if kind is Tabulated:
         return _tabulated(table.path.parent / str(table.get("file", '"table.csv"')))
     scales = cards(kind)
@@ -49,6 +63,11 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     Exponential(work_of_adhesion=1.0, equilibrium_gap=1.0, decay=0.25)
     >>> law_from_words("dugdale").strength
     1.0
+
+    One that grows with the opening speed has its law at rest behind a second colon:
+
+    >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
+    0.25
     """
     name, _, rest = words.partition(":")
     if name not in laws:
@@ -58,21 +77,27 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
         if not rest:
             raise InputError("a law of the kind table needs its file: table:FILE.csv")
         return _tabulated(rest).reduced()
+    base = None
+    if grows(kind):
+        rest, _, base = rest.partition(":")
     constants = [constant.name for constant in _constants(kind)]
     needed = [constant.name for constant in _constants(kind) if constant.needed]
     given = rest.split(",") if rest else []
     if not len(needed) <= len(given) <= len(constants):
         wanted = ",".join(constant.upper() for constant in constants)
-        raise InputError(f"write {name}{':' if wanted else ''}{wanted}, got {words!r}")
-    values = {
+        more = "" if base is None else "[:LAW AT REST]"
+        raise InputError(f"write {name}{':' if wanted else ''}{wanted}{more}, got {words!r}")
+    values: dict[str, Any] = {
         constant: finite(constant, text, "1")
         for constant, text in zip(constants, given, strict=False)
     }
+    if base:
+        values["base"] = law_from_words(base, laws)
     return kind(1.0, 1.0, **values)
 
 
 def _constants(kind: Any) -> list[Field]:
-    """Return the cards of a law beside its work and gap; all are pure numbers."""
+    """Return the cards of a law beside its work and gap; without dimensions, pure numbers."""
     return [
         field
         for name, field in cards(kind).items()

@@ -17,6 +17,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Layer
+from viscotack.problem.units import time_unit
 from viscotack.protocol import Apart, AtRadius, Start, Units
 from viscotack.protocol.words import PUNCH_UNITS
 
@@ -71,7 +72,7 @@ def fracture_length(problem: Any) -> float:
 
 def scales_of(problem: Any) -> PunchScales:
     """Return what one unit of each dimensionless output is in SI."""
-    law, time = problem.traction, problem.material.time_unit
+    law, time = problem.traction, time_unit(problem.material, problem.traction)
     return PunchScales(
         stress=law.strength,
         length=law.equilibrium_gap,

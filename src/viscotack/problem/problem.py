@@ -14,7 +14,7 @@ Tabor number as corrected in Eq. 31.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Any
 
@@ -43,6 +43,7 @@ from viscotack.problem.revolution import Scales
 from viscotack.problem.units import material_in_si
 from viscotack.protocol import Apart, Move, Retraction, Start, Units, check_moves
 from viscotack.traction import LennardJones, Traction, effective_range
+from viscotack.traction.growing import reduced, scaled
 from viscotack.units import positive
 
 Rate = Annotated[
@@ -63,7 +64,7 @@ class Problem:
     ----------
     material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
         The soft body's.
-    traction : LennardJones, Dugdale, Exponential or Tabulated
+    traction : LennardJones, Dugdale, Exponential, Tabulated, GentSchultz or Eyring
         The forces across the gap.
     geometry : Sphere, Cone, PowerLawProfile or FlatPunch
         The rigid indenter.
@@ -182,7 +183,7 @@ class Problem:
             "material": self.material.reduced(),
             "start": units.start(protocol.start),
             "rate": units.speed(protocol.speed),
-            "traction": self.traction.reduced(),
+            "traction": reduced(self.traction, unit.time),
             "moves": units.moves(protocol.moves),
             "stiffness": units.stiffness(protocol.stiffness),
         }
@@ -369,7 +370,7 @@ class Groups:
         own = isinstance(self.geometry, Sphere)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
-            traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
+            traction=scaled(self.traction, w, h0, T),
             geometry=Sphere(R) if own else self.geometry.reduced(1 / along, R / along**2),
             protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
         )
@@ -504,7 +505,7 @@ class PunchGroups:
         units = Units(h0, strength, a0, T)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
-            traction=replace(self.traction, work_of_adhesion=w, equilibrium_gap=h0),  # type: ignore[type-var]
+            traction=scaled(self.traction, w, h0, T),
             geometry=FlatPunch(half_width=self.size * a0),
             body=Layer(thickness=self.thickness * a0, base=self.base),
             protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),

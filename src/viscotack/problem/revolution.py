@@ -28,6 +28,7 @@ from scipy.optimize import brentq
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
 from viscotack.materials import Material
+from viscotack.problem.units import time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
 from viscotack.theory.elastic import indenter
@@ -102,7 +103,7 @@ def scales_of(radius: float, material: Material, traction: Traction) -> Scales:
     """Return what one unit of each dimensionless output is for a sphere of this radius [m]."""
     w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
     beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
-    force, time = 1.5 * np.pi * radius * w, material.time_unit
+    force, time = 1.5 * np.pi * radius * w, time_unit(material, traction)
     return Scales(
         force=force,
         length=h0,

@@ -15,7 +15,7 @@ from viscotack.materials import Material
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
-from viscotack.traction import Traction
+from viscotack.traction import Traction, grows
 
 _PROBLEMS = (Problem, Groups, PunchGroups)
 
@@ -97,16 +97,20 @@ class _Models:
             for field in fields(kind):
                 # a default is left out of records, so only that there is one matters
                 given = ... if field.default is MISSING else Field(default_factory=dict)
-                told[field.name] = (self._told(hints[field.name]), given)
+                told[field.name] = (self._told(hints[field.name], at_rest=grows(kind)), given)
             forbid = ConfigDict(extra="forbid")
             self._made[kind] = create_model(kind.__name__, __config__=forbid, **told)
         return self._made[kind]
 
-    def _told(self, hint: Any) -> Any:
-        """Return the type of a field, with the classes that are known in place of their kinds."""
+    def _told(self, hint: Any, *, at_rest: bool = False) -> Any:
+        """Return the type of a field, with the classes that are known in place of their kinds.
+
+        The law of a law that grows is one at rest.
+        """
+        laws = self._nouns.laws
         kinds = {
             Material: self._nouns.materials,
-            Traction: self._nouns.laws,
+            Traction: {w: k for w, k in laws.items() if not (at_rest and grows(k))},
             Shape: {w: k for w, k in self._nouns.shapes.items() if k is not FlatPunch},
         }
         if hint in kinds:

@@ -1,4 +1,4 @@
-"""From a reduced material to SI, by the units on its cards."""
+"""The unit of time of a problem; and from a reduced material to SI, by the units on its cards."""
 
 import re
 from dataclasses import replace
@@ -6,8 +6,21 @@ from typing import Any
 
 from viscotack.cards import Pairs, cards, check_carded
 from viscotack.errors import InputError
+from viscotack.materials import Elastic
+from viscotack.traction import grows
 
 _FACTOR = re.compile(r"(Pa|s)(?:\^(-?[0-9.]+))?")
+
+
+def time_unit(material: Any, traction: Any) -> float:
+    """Return the unit of dimensionless times [s]: the material's.
+
+    An elastic solid has none; where the traction law grows with the opening speed, the time in
+    which a gap opens by h_0 at its reference speed is the only one there is.
+    """
+    if isinstance(material, Elastic) and grows(traction):
+        return traction.own_time
+    return material.time_unit
 
 
 def material_in_si(material: Any, modulus: float, time: float, poisson_ratio: float) -> Any:

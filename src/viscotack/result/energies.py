@@ -1,6 +1,6 @@
 """The books of a run: where the work of the drive has gone, at every step."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,8 @@ Array = npt.NDArray[np.float64]
 class Energies:
     """Energies over a run, in the unit of work [1.5 pi R Delta-gamma_0 h_0; a punch sigma_0 h_0].
 
-    Drive work = change of spring, elastic and interface energy + heat + jumps + transfer.
+    Drive work = change of spring, elastic and interface energy + heat + interface heat + jumps +
+    transfer.
 
     Attributes
     ----------
@@ -26,6 +27,8 @@ class Energies:
         Lost so far in jumps, and in moving from mesh to mesh.
     mode_time, mode_heat : ndarray, shape (m,)
         Retardation time of each mode [time unit], and the heat it made in all.
+    interface_heat : ndarray, shape (n,)
+        Made so far in an interface that grows with the opening speed, summed from its tensions.
     """
 
     drive: Array
@@ -37,9 +40,12 @@ class Energies:
     transfer: Array
     mode_time: Array
     mode_heat: Array
+    interface_heat: Array = field(default_factory=lambda: np.empty(0))  # of older results
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            values = np.array(getattr(self, field.name), dtype=float)
+        if np.size(self.interface_heat) == 0:
+            object.__setattr__(self, "interface_heat", np.zeros(np.shape(self.drive)))
+        for one in fields(self):
+            values = np.array(getattr(self, one.name), dtype=float)
             values.setflags(write=False)
-            object.__setattr__(self, field.name, values)
+            object.__setattr__(self, one.name, values)

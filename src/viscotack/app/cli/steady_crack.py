@@ -11,7 +11,7 @@ from viscotack.errors import InputError
 from viscotack.problem.law_table import law_from_words
 from viscotack.theory.crack.steady import Comparison, SteadyCrack, compared
 from viscotack.theory.crack.steady.comparison import THESIS_RATIO
-from viscotack.traction import LennardJones
+from viscotack.traction import LennardJones, grows
 from viscotack.units import finite, parse, positive
 
 from .commands import AsJson, PlotFile, wrong_input
@@ -130,9 +130,12 @@ def _answer(
     gamma = np.asarray(crack.amplification(v))
     profiles = [crack.at(speed) for speed in v]
     zone = np.array([profile.zone_length for profile in profiles])
-    found = compared(crack, np.where(v > 0, v, 1.0), strength_ratio=strength_ratio)
-    # the other theories are of cracks that open
-    off = {name: np.where(v > 0, found.off(name), np.nan) for name in _THEORIES}
+    law: Any = crack.traction
+    # the other theories are of cracks that open, with an interface at rest
+    rest = SteadyCrack(crack.material, law.at_rest) if grows(law) else crack
+    found = compared(rest, np.where(v > 0, v, 1.0), strength_ratio=strength_ratio)
+    comparable = (v > 0) & (not grows(law))
+    off = {name: np.where(comparable, found.off(name), np.nan) for name in _THEORIES}
     table: dict[str, np.ndarray] = {
         "speed": v,
         "amplification": gamma,
@@ -140,6 +143,8 @@ def _answer(
         "zone_length": zone,
         "heat": np.array([profile.heat for profile in profiles]),
     }
+    if grows(law):
+        table["interface_heat"] = np.array([profile.interface_heat for profile in profiles])
     if units is not None:
         table |= {"speed_m_per_s": v * units[1], "zone_length_m": zone * units[0]}
     table |= {f"{name}_off": values for name, values in off.items()}

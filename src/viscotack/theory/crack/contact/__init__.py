@@ -4,9 +4,10 @@ Lengths along the surface in beta, heights in beta^2/R, forces in R dg, times in
 material; :func:`viscotack.crack_contact` takes a problem in any units.
 """
 
-from . import history, recession
+from . import growing, history, recession
 from ._profile import Profile, profile_of
 from ._start import radius_at_depth, radius_at_force
+from .growing import GrowingCracks, GrowingEdges
 from .history import Contact, Curve, Drive
 from .recession import Curves, recede
 
@@ -15,7 +16,10 @@ __all__ = [
     "Curve",
     "Curves",
     "Drive",
+    "GrowingCracks",
+    "GrowingEdges",
     "Profile",
+    "growing",
     "history",
     "profile_of",
     "radius_at_depth",

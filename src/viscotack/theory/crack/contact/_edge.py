@@ -16,16 +16,26 @@ Array = npt.NDArray[np.float64]
 
 # ln of the odds of Gamma at both ends of the table, and its rows.
 _ODDS, _ROWS = (-14.0, 12.0), 8000
+# What is gained by the slowest crack of an interface that grows with the opening speed.
+_GAINED = 1e-6
 
 
 class Edge:
     """Gamma against ln V of a crack that opens (sign 1) or closes (-1)."""
 
     def __init__(self, crack: SteadyCrack, sign: int) -> None:
-        k = 1 / crack.largest
-        self.limit, self.sign = (1 / k if sign > 0 else k), sign
-        self.elastic = k == 1
+        k = crack.modes.instantaneous
+        self.limit, self.sign = (crack.largest if sign > 0 else k), sign
+        # an interface that grows with the opening speed has no such limit
+        grown = sign > 0 and crack.largest != 1 / k
+        self.elastic = k == 1 and not grown
         if self.elastic:
+            return
+        if grown:
+            ends = 1 + np.array([_GAINED, (1 - 1e-9) * (crack.largest - 1)])
+            first, last = np.log(np.asarray(crack.speed(ends)))
+            speed = np.exp(np.linspace(first, last, _ROWS))
+            self._gamma = Even(first, last, np.asarray(crack.amplification(speed)))
             return
         odds = np.exp(np.array(_ODDS))
         ends = (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)

@@ -24,6 +24,7 @@ from ._edge import Edge
 from ._even import Even
 from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
+from .growing import GrowingEdges
 
 Array = npt.NDArray[np.float64]
 
@@ -68,7 +69,7 @@ class Curves(NamedTuple):
 
 
 def recede(
-    crack: SteadyCrack,
+    crack: SteadyCrack | GrowingEdges,
     profile: Profile,
     *,
     radius: Array,
@@ -81,7 +82,7 @@ def recede(
     Parameters
     ----------
     crack : SteadyCrack
-        Of the solid and the reduced law, for all of the cases.
+        Of the solid and the reduced law, for all of the cases; or an edge for each of them.
     profile : Profile
         Of the reduced shape.
     radius, rate, tabor : ndarray
@@ -92,7 +93,7 @@ def recede(
     """
     a0, r, mu = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (radius, rate, tabor)))
     chain = chain_of(crack.modes)
-    edge = Edge(crack, 1)
+    edge = crack if isinstance(crack, GrowingEdges) else Edge(crack, 1)
     travel = _Travel(chain, profile, a0, r, mu)
     start = profile.relaxed_depth(a0)
     # what the smallest, elastic contact has at pull-off, not to end above any of them
@@ -138,7 +139,7 @@ def _parts(radii: int) -> Array:
 def _marched(
     a: Array,
     profile: Profile,
-    edge: Edge,
+    edge: Edge | GrowingEdges,
     travel: _Travel,
     *,
     start: Array,

@@ -25,12 +25,47 @@ _FLAT, _FLAT_SLOPE = 1e-6, 1e-5
 
 
 class Law(NamedTuple):
-    """A reduced traction law and the gap at which the crack is pinned to place 0."""
+    """A reduced traction law and the gap at which the crack is pinned to place 0.
+
+    Of a law that grows with the opening speed: the law at rest, its growth with the derivative of
+    that, the speed of the crack, and by what all tractions are divided. An element opens with the
+    speed of the crack times the slope there, and its mean tension grows as much (:func:`slopes`).
+    """
 
     traction: Callable[[Array], Array]
     energy: Callable[[Array], Array]
     stiffness: Callable[[Array], Array]
     pinned: float
+    growing: Any = None
+    speed: float = 0.0
+    strength: float = 1.0
+
+    def means(self, gap: Array, mesh: Mesh) -> tuple[Array, Array, Array, Array | None]:
+        """Return the mean traction of each element, and its derivatives.
+
+        By the gaps at its ends, and by its slope; None where that does not matter.
+        """
+        mean, first, last = self.mean(gap)
+        if self.growing is None:
+            return mean, first, last, None
+        pull, pull_first, pull_last = self._attracting().mean(gap)
+        opening = self.speed * slopes(mesh, gap)
+        growth = self.growing.growth(opening)
+        return (
+            (mean + growth * pull) / self.strength,
+            (first + growth * pull_first) / self.strength,
+            (last + growth * pull_last) / self.strength,
+            self.growing.growth_slope(opening) * self.speed * pull / self.strength,
+        )
+
+    def _attracting(self) -> Law:
+        """Return the part of the law that attracts."""
+        return self._replace(
+            traction=lambda gap: np.maximum(self.traction(gap), 0.0),
+            energy=lambda gap: np.where(gap > 1, self.energy(gap), -1.0),
+            stiffness=lambda gap: np.where(gap > 1, self.stiffness(gap), 0.0),
+            growing=None,
+        )
 
     def mean(self, gap: Array) -> tuple[Array, Array, Array]:
         """Return the mean traction of each element over its gaps, and its two derivatives.
@@ -59,6 +94,19 @@ class Law(NamedTuple):
             between(self.stiffness, other.stiffness),
             (1 - part) * self.pinned + part * other.pinned,
         )
+
+
+def slopes(mesh: Mesh, gap: Array) -> Array:
+    """Return the slopes at the elements: means of those over two elements around both ends.
+
+    An element alone may open where its neighbours close, so that a gap that goes to and fro from
+    node to node would feel the growth of a crack that opens.
+    """
+    x, around = mesh.x, np.empty_like(gap)
+    wide = (x[2:] - x[:-2]).reshape(-1, *(1,) * (gap.ndim - 1))
+    around[1:-1] = (gap[2:] - gap[:-2]) / wide
+    around[0], around[-1] = (gap[1] - gap[0]) / mesh.dx[0], (gap[-1] - gap[-2]) / mesh.dx[-1]
+    return (around[1:] + around[:-1]) / 2
 
 
 class System(NamedTuple):
@@ -102,7 +150,7 @@ def solved(system: System, guess: Array) -> Solution | None:
 
     def state(u: Array) -> tuple[Array, Array, float, Any]:
         gap = 1 + system.opening @ u
-        parts = system.law.mean(np.maximum(gap, _LEAST_GAP / 2))
+        parts = system.law.means(np.maximum(gap, _LEAST_GAP / 2), mesh)
         right = parts[0] if system.spread is None else system.spread @ parts[0]
         if system.inflow is not None:
             right = right + system.inflow(u[-1])
@@ -117,8 +165,10 @@ def solved(system: System, guess: Array) -> Solution | None:
     for _ in range(_ITERATIONS):
         if size_now < _CLOSE:
             return Solution(u, gap, parts[0][0], parts[1])
-        _, first, last = parts[0]
+        _, first, last, steeper = parts[0]
         slope = first[:, None] * system.opening[:-1] + last[:, None] * system.opening[1:]
+        if steeper is not None:
+            slope += steeper[:, None] * slopes(mesh, system.opening)
         matrix[:-2] = kernel - (slope if system.spread is None else system.spread @ slope)
         try:
             step = np.linalg.solve(matrix, -misfit)

@@ -38,7 +38,7 @@ _STATED = 0.25
 
 
 @cache
-def _pools() -> ThreadpoolController:
+def pools() -> ThreadpoolController:
     """Return the threads of the libraries that are loaded; to look for them takes longer."""
     return ThreadpoolController()
 
@@ -148,7 +148,7 @@ class Branch:
         while at != aim:
             towards = aim if abs(aim - at) <= abs(step) else at + step
             # the matrices are small: more threads only wait for each other
-            with _pools().limit(limits=1, user_api="blas"):
+            with pools().limit(limits=1, user_api="blas"):
                 found = solved(self._system(np.exp(towards)), crack.u)
             if found is not None:
                 at, crack, step = towards, found, 1.5 * step

@@ -18,6 +18,7 @@ from scipy.optimize import minimize_scalar
 from viscotack.errors import InputError
 from viscotack.theory._checks import positive
 from viscotack.theory.crack import greenwood, persson_brener
+from viscotack.traction.growing import check_of_gap_alone
 
 from .cracks import SteadyCrack
 
@@ -79,6 +80,7 @@ def compared(
     >>> f"Persson-Brener {found.off('persson_brener'):+.1%}"
     'Persson-Brener +6.4%'
     """
+    check_of_gap_alone(crack.traction, "a comparison of theories")
     v, alpha = positive(speed=speed, strength_ratio=strength_ratio)
     law = crack.traction.reduced()
     case = {"contact_modulus": 1.0, "work_of_adhesion": 1.0, "strength": law.strength}

@@ -31,9 +31,10 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory._checks import Number, plain
-from viscotack.traction import Dugdale, Traction, effective_range
+from viscotack.traction import Dugdale, Traction, effective_range, grows
+from viscotack.traction.growing import reduced
 
-from . import _branch, _mesh, _start
+from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
 
 Array = npt.NDArray[np.floating[Any]]
@@ -72,6 +73,9 @@ class Profile:
         Gap [h0].
     middle, traction : ndarray, shape (n - 1,)
         Places between, and mean tractions there [dg/h0], tension positive.
+    interface_heat : float
+        Dissipated in an interface that grows with the opening speed [works of adhesion]: what a
+        crack that opens costs beside 1 + heat.
     """
 
     speed: float
@@ -82,6 +86,7 @@ class Profile:
     gap: Array
     middle: Array
     traction: Array
+    interface_heat: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -94,7 +99,8 @@ class SteadyCrack:
         Its creep in proportion; its contact modulus gives :attr:`speed_unit`.
     traction : LennardJones, Exponential, Dugdale, Tabulated or a law of the user's
         In SI or reduced. Of Dugdale's a rise below 0.02 and a fall below 0.5 are taken as that;
-        the stated error says what it may change.
+        the stated error says what it may change. A law that grows with the opening speed makes a
+        crack that opens cost more; one that closes is that of the law at rest.
 
     Notes
     -----
@@ -140,20 +146,38 @@ class SteadyCrack:
 
     @property
     def largest(self) -> float:
-        """Return the amplification at infinite speed, glassy over rubbery modulus."""
-        return 1 / self.modes.instantaneous
+        """Return the amplification at infinite speed, glassy over rubbery modulus.
+
+        Of an interface that grows, which has no such limit, that of the last crack that was found.
+        """
+        return 1 / self.modes.instantaneous if self._grown is None else self._grown.largest
 
     def amplification(self, speed: npt.ArrayLike) -> Number:
         """Return the energy over the work of adhesion at speeds [E0* h0^2/(dg tau)], any sign."""
         v = _finite("speed", speed)
         gamma = np.ones(v.shape)
+        opening = v > 0
+        if self._grown is not None:
+            gamma[opening] = self._grown.gamma(np.log(v[opening]))
+            opening = np.zeros_like(opening)
         if self.modes.times:
-            for sign, moving in ((1, v > 0), (-1, v < 0)):
+            for sign, moving in ((1, opening), (-1, v < 0)):
                 if np.any(moving):
                     branch = self._branch(sign)
                     odds = np.exp(branch.odds(np.log(np.abs(v[moving]))))
                     gamma[moving] = self._of_odds(odds, sign)
         return plain(gamma)
+
+    def interface_work(self, speed: npt.ArrayLike) -> Number:
+        """Return what the interface takes of the energy at speeds [works of adhesion].
+
+        1 for a law of the gap alone; else more by the heat in the interface of a crack that opens.
+        """
+        v = _finite("speed", speed)
+        work = np.ones(v.shape)
+        if self._grown is not None:
+            work[v > 0] = self._grown.work(np.log(v[v > 0]))
+        return plain(work)
 
     def speed(self, amplification: npt.ArrayLike) -> Number:
         """Return speeds [E0* h0^2/(dg tau)]: opening above an amplification of 1, else closing.
@@ -161,13 +185,18 @@ class SteadyCrack:
         The amplification must lie between k and 1/k.
         """
         gamma, k = _finite("amplification", amplification), self.modes.instantaneous
-        if np.any((gamma <= k) | (gamma >= 1 / k)) and np.any(gamma != 1):
+        most = self.largest
+        if np.any((gamma <= k) | (gamma >= most)) and np.any(gamma != 1):
             raise InputError(
-                f"amplification must lie between {k:.6g} and {1 / k:.6g}, which infinite speeds "
-                f"have, got {gamma[(gamma <= k) | (gamma >= 1 / k)].flat[0]:g}"
+                f"amplification must lie between {k:.6g} and {most:.6g}, which infinite speeds "
+                f"have, got {gamma[(gamma <= k) | (gamma >= most)].flat[0]:g}"
             )
         v = np.zeros(gamma.shape)
-        for sign, moving in ((1, gamma > 1), (-1, gamma < 1)):
+        opening = gamma > 1
+        if self._grown is not None:
+            v[opening] = np.exp(self._grown.log_speed(gamma[opening]))
+            opening = np.zeros_like(opening)
+        for sign, moving in ((1, opening), (-1, gamma < 1)):
             if np.any(moving):
                 of = gamma[moving]
                 ratio = (of - 1) / (1 / k - of) if sign > 0 else (1 - of) / (of - k)
@@ -177,11 +206,15 @@ class SteadyCrack:
     def error(self, speed: npt.ArrayLike) -> Number:
         """Return the part by which :meth:`amplification` may be off: mesh, steps and softening."""
         v = _finite("speed", speed)
-        if not self.modes.times:
+        if not self.modes.times and self._grown is None:
             return plain(np.zeros(v.shape))
         of_odds = np.zeros(v.shape)
         self.amplification(v)
-        for sign, moving in ((1, v > 0), (-1, v < 0)):
+        opening = v > 0
+        if self._grown is not None:
+            of_odds[opening] = self._grown.interpolation_error(np.log(v[opening]))
+            opening = np.zeros_like(opening)
+        for sign, moving in ((1, opening), (-1, v < 0)):
             if np.any(moving):
                 log = np.log(np.abs(v[moving]))
                 # d ln Gamma/d ln odds is below a quarter of ln(1/k), and below 1
@@ -192,6 +225,8 @@ class SteadyCrack:
     def at(self, speed: float) -> Profile:
         """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
         v, found = float(speed), self._elastic
+        if v > 0 and self._grown is not None:
+            return self._grown_profile(v, *self._grown.at(float(np.log(v))))
         if v != 0 and self.modes.times:
             found = self._branch(1 if v > 0 else -1).at(float(np.log(abs(v))))
         return self._profile(v, found)
@@ -220,11 +255,20 @@ class SteadyCrack:
 
     @property
     def _reduced(self) -> Any:
-        return _start.softened(self.traction.reduced())
+        law: Any = self.traction
+        return _start.softened((law.at_rest if grows(law) else law).reduced())
+
+    @cached_property
+    def _grown(self) -> _grown.Grown | None:
+        if not grows(self.traction):
+            return None
+        law = reduced(self.traction, self.material.time_unit)
+        return _kept(_grown_of, self._reduced, self.modes, law)
 
     @cached_property
     def _softening(self) -> float:
-        law = self.traction
+        law: Any = self.traction
+        law = law.base if grows(law) else law
         if not isinstance(law, Dugdale):
             return 0.0
         rise = max(_start.LEAST_RISE - law.rise, 0.0) * _RISE_ERROR
@@ -248,6 +292,24 @@ class SteadyCrack:
     def _of_odds(self, odds: Array, sign: int) -> Array:
         k = self.modes.instantaneous
         return (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
+
+    def _grown_profile(self, speed: float, found: Solution, work: float) -> Profile:
+        """Return a crack that opens with an interface that grows, solved in its own units."""
+        mesh, law = self._grid, self._law
+        calibrated = work * found.amplification / self._elastic.amplification
+        at_rest, _, _ = law.mean(found.gap)
+        interface = float(np.sum((work * found.traction - at_rest) * np.diff(found.gap)))
+        return Profile(
+            speed=speed,
+            amplification=calibrated,
+            heat=calibrated - 1 - interface,
+            zone_length=_zone_length(mesh, found.gap, self._reduced, law) / work,
+            position=mesh.x / work,
+            gap=found.gap,
+            middle=(mesh.x[1:] + mesh.x[:-1]) / 2 / work,
+            traction=found.traction * work,
+            interface_heat=interface,
+        )
 
     def _profile(self, speed: float, found: Solution) -> Profile:
         mesh, law = self._grid, self._law
@@ -328,6 +390,13 @@ def _branch_of(law: Traction, modes: Modes, sign: int) -> _branch.Branch:
     grid = _grid_of(law, modes.instantaneous)
     slow = float(np.dot(modes.weights, modes.times)) * _slow_of(start, grid)
     return _branch.Branch(grid, _start.pinned(law), modes, start, slow, sign)
+
+
+@lru_cache(maxsize=64)
+def _grown_of(law: Traction, modes: Modes, growing: Any) -> _grown.Grown:
+    start = _kept(_elastic_of, law, modes.instantaneous)
+    grid = _grid_of(law, modes.instantaneous)
+    return _grown.Grown(grid, _start.pinned(law), modes, growing, start)
 
 
 def _slow_of(elastic: Solution, grid: _mesh.Mesh) -> float:

@@ -1,0 +1,181 @@
+r"""The energy that an edge takes against the speed it had: read off a simulated retraction.
+
+A contact that recedes from rest carries the pressure of the relaxed solid at some hereditary depth,
+whatever its bulk remembers (:mod:`viscotack.theory.crack.contact`). So force and radius alone tell
+the energy at the edge, as JKR has it for the relaxed solid,
+
+.. math:: \frac{G}{\Delta\gamma_0} = \frac{1}{2 \pi a}
+          \left( \frac{2 a^2}{3} - \frac{P}{2 a} \right)^2
+
+with a in :math:`(R^2 \Delta\gamma_0/E_0^*)^{1/3}` and P in R dg, compression positive; and the
+simulation tells the speed of the edge, for which fits stand in elsewhere (Eq. 4.24 of Maghami, PhD
+thesis (2025)). The steady crack of the law at rest says which part of it the bulk takes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.optimize import least_squares
+
+from viscotack.errors import InputError
+from viscotack.geometry import Sphere
+from viscotack.problem import Groups, Problem
+from viscotack.protocol import Apart
+from viscotack.theory import SteadyCrack
+from viscotack.traction import grows
+
+from . import Outcome, Result
+
+Array = npt.NDArray[np.float64]
+
+# Zones that an edge must have gone for its crack to be steady, and how far beyond the force minimum
+# it is read: while the radius is this part of that at the pull-off.
+_ZONES, _BEYOND = 3.0, 0.5
+# Strain at the edge above which a linear solid is doubtful.
+LARGEST_STRAIN = 0.1
+_ROOT, _LOAD = np.pi ** (1 / 3), 1.5 * np.pi
+_FEWEST = 8
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeEnergy:
+    """What the edge of a contact takes, against its speed.
+
+    Attributes
+    ----------
+    speed : ndarray
+        Of the edge [m/s]; of a dimensionless problem in (R^2 dg/E0*)^(1/3) per time unit.
+    amplification : ndarray
+        Energy at the edge over the work of adhesion, by force and radius.
+    bulk : ndarray
+        What the steady crack of the law at rest takes at that speed.
+    interface : ndarray
+        The rest as a factor, amplification over bulk: 1 for a law of the gap alone, about.
+    reference_speed, exponent : float
+        Of the Gent-Schultz relation 1 + (v/v0)^n through the amplification, v0 as `speed`.
+    strain : float or None
+        Largest slope of the surface at the edge at the pull-off; None without scales.
+    words : tuple of str
+        What is to be said of it.
+    """
+
+    speed: Array
+    amplification: Array
+    bulk: Array
+    interface: Array
+    reference_speed: float
+    exponent: float
+    strain: float | None
+    words: tuple[str, ...]
+
+
+def edge_energy(result: Result) -> EdgeEnergy:
+    """Return the energy at the edge of a sphere that is pulled off, against its simulated speed.
+
+    Parameters
+    ----------
+    result : Result
+        A retraction of a sphere from a relaxed contact, without moves before it.
+
+    Raises
+    ------
+    ValueError
+        If it is another test, a run that failed, or an edge that was never steady.
+
+    Examples
+    --------
+    >>> import viscotack as vt
+    >>> solid = vt.StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = vt.Groups(tabor=10.0, material=solid, start=vt.AtDepth(60.0), rate=30.0)
+    >>> found = edge_energy(vt.solve(test, until="pull-off", estimate_error=False))
+    >>> f"{found.amplification[-1]:.1f} of the edge, {found.bulk[-1]:.1f} by the steady crack"
+    '7.3 of the edge, 7.1 by the steady crack'
+    """
+    groups = _checked(result)
+    crack = SteadyCrack(groups.material, groups.traction)
+    rest = SteadyCrack(groups.material, _at_rest(groups.traction))
+    a, P = result.contact_radius * _ROOT, result.force * _LOAD
+    with np.errstate(invalid="ignore"):
+        energy = (2 * a**2 / 3 - P / (2 * a)) ** 2 / (2 * np.pi * a)
+        steady = _steady(result, a, rest.zone_length / groups.tabor**2) & (energy > 1)
+    if np.count_nonzero(steady) < _FEWEST:
+        raise InputError(
+            "the edge was hardly ever a steady crack that opens: it went too few zones; begin "
+            "deeper, pull faster, or take forces of shorter range"
+        )
+    speed, gamma = result.edge_speed[steady], energy[steady]
+    bulk = np.asarray(rest.amplification(speed * groups.tabor**2 * groups.material.time_unit))
+    v0, n = _gent_schultz(speed, gamma)
+    scales: Any = result.scales
+    strain = None if scales is None else _strain(result, crack, speed, steady)
+    unit = 1.0 if scales is None else scales.edge_speed
+    said = _words(gamma[-1], bulk[-1], strain, grows(groups.traction))
+    return EdgeEnergy(speed * unit, gamma, bulk, gamma / bulk, v0 * unit, n, strain, said)
+
+
+def _checked(result: Result) -> Groups:
+    groups = result.groups
+    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
+        raise InputError("the energy at an edge is read of spheres; this is another indenter")
+    if groups.moves or groups.rate is None or isinstance(groups.start, Apart):
+        raise InputError(
+            "the energy at an edge is read of a retraction from a relaxed contact, without moves "
+            "before it"
+        )
+    if result.outcome is Outcome.STOPPED:
+        raise InputError(f"the run failed and has no energies: {result.status}")
+    return groups
+
+
+def _at_rest(law: Any) -> Any:
+    return law.at_rest if grows(law) else law
+
+
+def _steady(result: Result, a: Array, zone: float) -> npt.NDArray[np.bool_]:
+    """Return where the edge is a crack that opens and has gone so many zones."""
+    lowest = int(np.argmin(result.force))
+    gone = a[0] - a > _ZONES * zone
+    near = (np.arange(a.size) <= lowest) | (a > _BEYOND * a[lowest])
+    return gone & near & (result.edge_speed > 0) & (result.force < 0)
+
+
+def _gent_schultz(speed: Array, gamma: Array) -> tuple[float, float]:
+    """Return reference speed and exponent of 1 + (v/v0)^n through energies."""
+    log_v, log_g = np.log(speed), np.log(gamma)
+    middle = float(np.median(log_v))
+
+    def misfit(x: Array) -> Array:
+        return np.logaddexp(0.0, x[1] * (log_v - x[0])) - log_g
+
+    found = least_squares(misfit, [middle, 0.4], bounds=([-np.inf, 0.01], [np.inf, 3.0]))
+    return float(np.exp(found.x[0])), float(found.x[1])
+
+
+def _strain(result: Result, crack: SteadyCrack, speed: Array, steady: npt.NDArray) -> float:
+    """Return the largest slope of the surface at the pull-off: gap over length, in SI."""
+    groups, problem = result.groups, result.problem
+    assert isinstance(problem, Problem)
+    at = int(np.argmin(result.force[steady]))
+    found = crack.at(float(speed[at]) * groups.tabor**2 * groups.material.time_unit)
+    law = problem.traction
+    # h0 over the length E0* h0^2/dg
+    unit = law.work_of_adhesion / (problem.material.contact_modulus * law.equilibrium_gap)
+    return unit * float(np.max(np.diff(found.gap) / np.diff(found.position)))
+
+
+def _words(gamma: float, bulk: float, strain: float | None, grown: bool) -> tuple[str, ...]:
+    said = [
+        f"the edge takes up to {gamma:.3g} works of adhesion, of which the bulk explains {bulk:.3g}"
+    ]
+    if grown:
+        said.append(f"the interface multiplies them by {gamma / bulk:.3g}")
+    if strain is not None and strain > LARGEST_STRAIN:
+        said.append(
+            f"the surface is as steep as {strain:.2g} at the edge: above {LARGEST_STRAIN:g} a "
+            "linear solid is doubtful"
+        )
+    return tuple(said)

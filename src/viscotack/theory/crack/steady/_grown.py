@@ -1,0 +1,238 @@
+r"""Cracks that open with an interface that grows with the opening speed.
+
+Along a steady crack the gap opens with :math:`\dot h = v \, dh/dx`, so that the balance is that of
+the law at rest with more tension where the slope is steep (:class:`._balance.Law`). What grows
+makes the crack shorter, by as much as the work Q that the interface takes, and a mesh made for the
+crack at rest is soon too coarse. So each crack is solved in its own units: tractions over Q,
+lengths times Q, and with :math:`y = Q v` for the speed,
+
+.. math:: \sigma' = \frac{\sigma_0 + \sigma_0^+ G(y \, dh/dx')}{Q}, \quad
+          \Gamma = Q \, \Gamma', \quad v = y/Q .
+
+The modes of the solid have the lengths :math:`y \tau_j` there. Q is foreseen from those before.
+
+From y to y the energy goes as :math:`\ln(\Gamma - 1)`, the speed as :math:`\ln Q`; both are cubic
+splines in ln y. Where growth is all, :math:`Q \sim (Q v)^n`: the energy goes towards
+:math:`v^{n/(1-n)}` while the solid is elastic, more steeply than tension at a place, because the
+crack becomes shorter; and an interface that grows in proportion to the speed has a crack of a
+largest speed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from viscotack.errors import InputError
+from viscotack.materials import Modes
+
+from ._balance import Law, Solution, System, slopes, solved
+from ._branch import pools
+from ._memory import lengths_of, opening_matrix
+from ._mesh import Mesh
+
+Array = npt.NDArray[np.floating[Any]]
+
+STEP = np.log(10) / 4
+_SHORTEST_STEP = STEP / 64
+# Gained by the first crack that is solved, and by the last one; and how many there may be.
+_FIRST, _LAST, _MOST = 1e-4, 300.0, 100
+# What has been gained where there may be no crack any more: a shorter table will do.
+_ENOUGH = 4.0
+# Points of the inverse between two speeds that are solved.
+_FINE = 16
+# The part of the difference to the coarser spline that is stated.
+_STATED = 0.25
+
+
+class Grown:
+    """Cracks that open, of a solid and a growing law.
+
+    Parameters
+    ----------
+    mesh, law, modes
+        Of the crack at rest; times of the modes in the unit of time.
+    growing : law that grows
+        Reduced, speeds in h0 per unit of time.
+    start : Solution
+        The elastic crack of the law at rest.
+    """
+
+    def __init__(self, mesh: Mesh, law: Law, modes: Modes, growing: Any, start: Solution) -> None:
+        self._mesh, self._law, self._modes, self._growing = mesh, law, modes, growing
+        self._elastic, self._ended = start, False
+        self._log_y: list[float] = []
+        self._log_work: list[float] = []
+        self._log_gained: list[float] = []
+        self._works: list[float] = []
+        self._cracks: list[Solution] = []
+        self._table: tuple[int, Array, Array] | None = None
+
+    def gamma(self, log_speed: Array) -> Array:
+        """Return amplifications at ln of speeds; that of the last crack beyond it."""
+        self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
+        speed, gained = self._curve()
+        slope = (gained[1] - gained[0]) / (speed[1] - speed[0])
+        below = slope * np.minimum(log_speed - speed[0], 0.0)
+        return 1 + np.exp(np.interp(log_speed, speed, gained) + below)
+
+    def work(self, log_speed: Array) -> Array:
+        """Return what the interface takes at ln of speeds [works of adhesion]."""
+        self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
+        at = np.array(self._log_y) - np.array(self._log_work)
+        return np.interp(log_speed, np.maximum.accumulate(at), self._works)
+
+    def log_speed(self, gamma: Array) -> Array:
+        """Return ln of the speeds of amplifications above 1."""
+        wanted = np.log(gamma - 1)
+        self._reach(gained=float(np.max(wanted, initial=-np.inf)))
+        speed, gained = self._curve()
+        slope = (gained[1] - gained[0]) / (speed[1] - speed[0])
+        below = np.minimum(wanted - gained[0], 0.0) / slope
+        return np.interp(wanted, gained, speed) + below
+
+    @property
+    def largest(self) -> float:
+        """The amplification of the last crack there is, or of the last that is looked for."""
+        self._reach(gained=np.inf)
+        return float(1 + np.exp(self._curve()[1][-1]))
+
+    def interpolation_error(self, log_speed: Array) -> Array:
+        """Return by which part amplifications may be off for being interpolated."""
+        y = np.array(self._log_y)
+        every = np.unique(np.append(np.arange(0, y.size, 2), y.size - 1))
+        between = (y[1:] + y[:-1]) / 2
+        worst = np.zeros(between.size)
+        gained = np.array(self._log_gained)
+        share = np.exp(np.interp(between, y, gained - np.logaddexp(0, gained)))
+        for values, weight in ((gained, share), (np.array(self._log_work), share)):
+            fine, coarse = CubicSpline(y, values), CubicSpline(y[every], values[every])
+            worst += weight * np.abs(fine(between) - coarse(between))
+        at = np.interp(between, y, y - np.array(self._log_work))
+        near = [
+            float(np.max(worst[np.abs(at - u) < 3 * STEP], initial=0.0)) for u in log_speed.flat
+        ]
+        return _STATED * np.reshape(near, log_speed.shape)
+
+    def at(self, log_speed: float) -> tuple[Solution, float]:
+        """Return the crack at ln of a speed, solved, and the work by which it is divided.
+
+        In its own units: lengths over 1/work, tractions over work.
+        """
+        self._reach(speed=log_speed)
+        speed, _ = self._curve()
+        places = np.interp(np.arange(speed.size) / _FINE, np.arange(len(self._log_y)), self._log_y)
+        y = float(np.interp(log_speed, speed, places))
+        i = int(np.argmin(np.abs(np.array(self._log_y) - y)))
+        work = float(np.exp(y - log_speed))
+        found = solved(self._system(float(np.exp(y)), work), self._cracks[i].u)
+        if found is None:
+            raise InputError(
+                f"no steady crack was found at the speed {np.exp(log_speed):.4g}; ask one nearby"
+            )
+        return found, work
+
+    @property
+    def _complete(self) -> bool:
+        return bool(self._log_gained) and (
+            self._ended or self._log_gained[-1] > np.log(_LAST) or len(self._log_gained) >= _MOST
+        )
+
+    def _reach(self, *, speed: float = -np.inf, gained: float = -np.inf) -> None:
+        """Solve the cracks up to ln of a speed, or of what is gained, and one beyond."""
+        while not self._complete and (
+            len(self._log_y) < 6
+            or self._log_y[-1] - self._log_work[-1] < speed + STEP
+            or self._log_gained[-1] < gained
+        ):
+            self._append()
+
+    def _append(self) -> None:
+        if self._cracks:
+            before, crack = self._log_y[-1], self._cracks[-1]
+            y = before + STEP
+        else:
+            y = self._slowest()
+            before, crack = y, self._elastic
+        walked = self._walk(before, crack, y)
+        if walked is None and self._log_gained and self._log_gained[-1] > np.log(_ENOUGH):
+            self._ended = True
+            return
+        if walked is None:
+            raise InputError(
+                "no steady crack was found with an interface that grows so fast "
+                f"({self._growing}); simulate the contact"
+            )
+        found, work = walked
+        gained = work * found.amplification / self._elastic.amplification - 1
+        if not gained > 0:
+            raise InputError(
+                "no steady crack was found at rest: the interface grows by too little to be told; "
+                "take the law at rest"
+            )
+        self._log_y.append(y)
+        self._log_work.append(float(np.log(work)))
+        self._log_gained.append(float(np.log(gained)))
+        self._works.append(self._work(found, float(np.exp(y))))
+        self._cracks.append(found)
+
+    def _slowest(self) -> float:
+        """Return ln of the first y: where next to nothing is gained."""
+        y = np.linspace(np.log(1e-30), np.log(1e30), 1201)
+        modes = float(np.dot(self._modes.weights, self._modes.times))
+        slow = np.array([self._work(self._elastic, float(np.exp(u))) - 1 for u in y])
+        some = slow + modes * np.exp(y)
+        return float(y[int(np.argmax(some > _FIRST))])
+
+    def _work(self, crack: Solution, y: float) -> float:
+        """Return the work of the interface along a crack in its own units."""
+        energy = np.where(crack.gap > 1, self._law.energy(crack.gap), -1.0)
+        opening = y * slopes(self._mesh, crack.gap)
+        return 1 + float(np.sum(self._growing.growth(opening) * np.diff(energy)))
+
+    def _foreseen(self, crack: Solution, y: float) -> float:
+        """Return by what the tractions of a crack are divided: its work, from those before."""
+        if len(self._log_y) < 2:
+            return self._work(crack, float(np.exp(y)))
+        slope = (self._log_work[-1] - self._log_work[-2]) / (self._log_y[-1] - self._log_y[-2])
+        # solved with another y the divisor is the same function of it
+        last = np.log(self._work(self._cracks[-1], float(np.exp(self._log_y[-1]))))
+        return float(np.exp(max(last + slope * (y - self._log_y[-1]), 0.0)))
+
+    def _walk(self, before: float, crack: Solution, aim: float) -> tuple[Solution, float] | None:
+        """Return the crack at ln y, from one at another, and its work; in steps that succeed."""
+        at, step = before, aim - before
+        while True:
+            towards = aim if abs(aim - at) <= abs(step) else at + step
+            work = self._foreseen(crack, towards)
+            # the matrices are small: more threads only wait for each other
+            with pools().limit(limits=1, user_api="blas"):
+                found = solved(self._system(float(np.exp(towards)), work), crack.u)
+            if found is not None:
+                at, crack, step = towards, found, 1.5 * step
+                if at == aim:
+                    return crack, work
+                continue
+            step /= 2
+            if abs(step) < _SHORTEST_STEP:
+                return None
+
+    def _system(self, y: float, work: float) -> System:
+        weights, times = np.array(self._modes.weights), np.array(self._modes.times)
+        modes = lengths_of(self._mesh, self._modes.instantaneous, weights, y * times)
+        law = self._law._replace(growing=self._growing, speed=y, strength=work)
+        return System(self._mesh, law, opening_matrix(self._mesh, modes))
+
+    def _curve(self) -> tuple[Array, Array]:
+        """Return ln of speeds and of what is gained there, both rising."""
+        if self._table is None or self._table[0] != len(self._log_y):
+            y = np.array(self._log_y)
+            fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
+            speed = fine - CubicSpline(y, self._log_work)(fine)
+            gained = CubicSpline(y, self._log_gained)(fine)
+            rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
+            self._table = (y.size, *rising)
+        return self._table[1:]

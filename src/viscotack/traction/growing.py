@@ -1,0 +1,286 @@
+r"""Laws whose tension grows with the speed at which the gap opens.
+
+A growing law has a law of the gap for its shape at rest, :math:`\sigma_0(h)`, and a growth G of the
+opening speed:
+
+.. math:: \sigma(h, \dot h) = \sigma_0(h) + \max(\sigma_0(h), 0) \, G(\max(\dot h, 0)), \quad
+          G(0) = 0, \quad G' > 0 .
+
+Only surfaces that attract each other and open feel it: what closes, and what repels, is at rest's.
+So the tension is continuous in both, it falls to that of the law at rest as all becomes slow, and
+the interface makes heat, :math:`(\sigma - \sigma_0) \dot h \geq 0`, and never cold. It has no
+potential: the energy that it stores is that of the law at rest, all else is heat.
+
+As functions of the gap alone these classes are the law at rest, which is what relaxed contacts and
+starts are made of; :func:`grows` tells them apart.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, ClassVar, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.cards import Quantity, conform
+from viscotack.errors import InputError, OutOfRange
+from viscotack.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
+from viscotack.traction.lennard_jones import LennardJones
+from viscotack.units import positive
+
+Array = npt.NDArray[np.float64]
+
+# Part of the reference speed below which a power law grows in proportion to the speed.
+_SLOW = 1e-6
+
+ReferenceSpeed = Annotated[
+    float,
+    Quantity(
+        "m/s", "v0", "opening speed by which growth is measured", above=0, example="213.5 um/s"
+    ),
+]
+
+
+class _Growing:
+    """What growing laws have in common: all but their numbers and their growth."""
+
+    work_of_adhesion: Any
+    equilibrium_gap: Any
+    reference_speed: Any
+    base: Any
+
+    @classmethod
+    def of(cls, base: Traction, **constants: float) -> Self:
+        """Return the law that is this one at rest, with the constants of its growth in SI."""
+        kind: Any = cls
+        return kind(
+            work_of_adhesion=base.work_of_adhesion,
+            equilibrium_gap=base.equilibrium_gap,
+            base=base.reduced(),
+            **constants,
+        )
+
+    def __post_init__(self) -> None:
+        conform(self)
+        base = self.base
+        if grows(base) or not hasattr(base, "energy_beyond"):
+            raise InputError(
+                f"base must be a law of the gap alone, got {base!r}; for example LennardJones(1, 1)"
+            )
+        if base.work_of_adhesion != 1 or base.equilibrium_gap != 1:
+            raise InputError(
+                "base must be a reduced law, of work 1 and gap 1, got "
+                f"{base!r}; {type(self).__name__}.of(law, ...) takes one in SI"
+            )
+
+    @property
+    def at_rest(self) -> Any:
+        """The law of the gap that this is while nothing opens."""
+        return replace(
+            self.base,
+            work_of_adhesion=self.work_of_adhesion,
+            equilibrium_gap=self.equilibrium_gap,
+        )
+
+    def growth(self, opening_speed: npt.ArrayLike) -> Array:
+        """Return by which part tension grows at opening speeds [m/s]; 0 where the gap closes."""
+        return self._growth(np.maximum(np.asarray(opening_speed, float) / self.reference_speed, 0))
+
+    def growth_slope(self, opening_speed: npt.ArrayLike) -> Array:
+        """Return the derivative of the growth by the speed [s/m]; 0 where the gap closes."""
+        u = np.asarray(opening_speed, float) / self.reference_speed
+        return np.where(u > 0, self._slope(np.maximum(u, 0)), 0.0) / self.reference_speed
+
+    def traction(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
+        """Return the traction [Pa], positive in tension, at gaps [m] that open so fast [m/s]."""
+        tension = self.at_rest.traction(gap)
+        return tension + np.maximum(tension, 0) * self.growth(opening_speed)
+
+    def stiffness(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
+        """Return the derivative of the traction by the gap at a speed [Pa/m]."""
+        law = self.at_rest
+        attracts = law.traction(gap) > 0
+        return law.stiffness(gap) * (1 + attracts * self.growth(opening_speed))
+
+    def damping(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike) -> Array:
+        """Return the derivative of the traction by the opening speed at a gap [Pa s/m]."""
+        return np.maximum(self.at_rest.traction(gap), 0) * self.growth_slope(opening_speed)
+
+    def energy(self, gap: npt.ArrayLike) -> Array:
+        """Return the energy of unit area that is stored [J/m^2], that of the law at rest."""
+        return self.at_rest.energy(gap)
+
+    def energy_beyond(self, gap: npt.ArrayLike) -> Array:
+        """Return the integral of that energy from a gap [m] to infinity [J/m]."""
+        return self.at_rest.energy_beyond(gap)
+
+    @property
+    def strength(self) -> float:
+        """Largest tension at rest [Pa]."""
+        return self.base.strength * self.work_of_adhesion / self.equilibrium_gap
+
+    @property
+    def edge_gap(self) -> float:
+        """Gap of the largest tension at rest [m]; the contact edge is there."""
+        return self.base.edge_gap * self.equilibrium_gap
+
+    def reduced(self, time_unit: float = 1.0) -> Self:
+        """Return the law with work 1, gap 1, and speeds in h_0 per time unit [s]."""
+        speed = self.reference_speed * time_unit / self.equilibrium_gap
+        law: Any = self
+        return replace(law, work_of_adhesion=1.0, equilibrium_gap=1.0, reference_speed=speed)
+
+    def scaled(self, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Self:
+        """Return a reduced law in SI."""
+        law: Any = self
+        return replace(
+            law,
+            work_of_adhesion=work_of_adhesion,
+            equilibrium_gap=equilibrium_gap,
+            reference_speed=self.reference_speed * equilibrium_gap / time_unit,
+        )
+
+    @property
+    def own_time(self) -> float:
+        """The time in which a gap opens by h_0 at the reference speed [s]."""
+        return self.equilibrium_gap / self.reference_speed
+
+    def _growth(self, u: Array) -> Array:
+        raise NotImplementedError
+
+    def _slope(self, u: Array) -> Array:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class GentSchultz(_Growing):
+    r"""Tension that grows like a power of the opening speed, after Gent and Schultz.
+
+    .. math:: G(v) = \left( \frac{v}{v_0} \right)^n \left( \frac{v}{v + v_c} \right)^{1-n},
+              \quad v_c = 10^{-6} \, v_0
+
+    Parameters
+    ----------
+    work_of_adhesion, equilibrium_gap : float
+        Of the law at rest [J/m^2] and [m]; positive.
+    reference_speed : float
+        v_0 [m/s], positive: the tension has doubled where the gap opens so fast.
+    exponent : float
+        n, in (0, 1].
+    base : LennardJones, Exponential, Dugdale or Tabulated
+        The reduced law at rest. :meth:`of` takes one in SI.
+
+    Notes
+    -----
+    A power below 1 has an infinite slope at speed 0. Bonds that open by thermal activation are
+    slower than that: far below the speed at which force helps them they let go as often as they
+    form, and resist in proportion to the speed. So the second factor, which is 1 but for speeds of
+    some 10^-6 v_0 and less; above 10^-3 v_0 it changes G by less than 10^-3.
+
+    Gent and Schultz found the power in the energy of a crack against ITS speed. Here it is one of
+    the gap's speed at each place, of which a crack's energy follows: the power is then the same
+    while the bulk is elastic, the reference speed another (docs/growing_interface.md).
+
+    References
+    ----------
+    Gent & Schultz (1972), J. Adhesion 3, 281; Maghami, PhD thesis (2025), Eq. 2.19 and 4.28.
+
+    Examples
+    --------
+    >>> rest = LennardJones(work_of_adhesion=0.1523, equilibrium_gap=200e-9)
+    >>> law = GentSchultz.of(rest, reference_speed=1e-3, exponent=0.5)
+    >>> float(law.growth(1e-3).round(4)), float(law.growth(-1e-3))
+    (1.0, 0.0)
+    """
+
+    word: ClassVar[str] = "gent-schultz"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+    reference_speed: ReferenceSpeed
+    exponent: Annotated[
+        float, Quantity("1", "n", "power of the opening speed", above=0, most=1, example="0.4154")
+    ]
+    base: Traction = LennardJones(1.0, 1.0)
+
+    def _growth(self, u: Array) -> Array:
+        return u * (u + _SLOW) ** (self.exponent - 1)
+
+    def _slope(self, u: Array) -> Array:
+        return (u + _SLOW) ** (self.exponent - 2) * (self.exponent * u + _SLOW)
+
+
+@dataclass(frozen=True)
+class Eyring(_Growing):
+    r"""Tension that grows with the logarithm of the opening speed, as that of activated bonds.
+
+    .. math:: G(v) = s \, \mathrm{arsinh} \frac{v}{v_0}
+
+    In proportion to the speed below v_0, by s for every factor of e above it.
+
+    Parameters
+    ----------
+    work_of_adhesion, equilibrium_gap : float
+        Of the law at rest [J/m^2] and [m]; positive.
+    reference_speed : float
+        v_0 [m/s], positive: where thermal activation gives way to force.
+    sensitivity : float
+        s, positive.
+    base : LennardJones, Exponential, Dugdale or Tabulated
+        The reduced law at rest. :meth:`of` takes one in SI.
+
+    References
+    ----------
+    Eyring (1936), doi:10.1063/1.1749836; of bonds, Evans & Ritchie (1997),
+    doi:10.1016/S0006-3495(97)78802-7.
+
+    Examples
+    --------
+    >>> rest = LennardJones(work_of_adhesion=0.1523, equilibrium_gap=200e-9)
+    >>> law = Eyring.of(rest, reference_speed=1e-6, sensitivity=0.2)
+    >>> f"{law.growth(1e-3):.2f}"
+    '1.52'
+    """
+
+    word: ClassVar[str] = "eyring"
+
+    work_of_adhesion: WorkOfAdhesion
+    equilibrium_gap: EquilibriumGap
+    reference_speed: ReferenceSpeed
+    sensitivity: Annotated[
+        float, Quantity("1", "s", "growth for every factor of e in speed", above=0, example="0.2")
+    ]
+    base: Traction = LennardJones(1.0, 1.0)
+
+    def _growth(self, u: Array) -> Array:
+        return self.sensitivity * np.arcsinh(u)
+
+    def _slope(self, u: Array) -> Array:
+        return self.sensitivity / np.sqrt(1 + u * u)
+
+
+def grows(law: Any) -> bool:
+    """Return whether a law, or a class of laws, is one of the opening speed too."""
+    return hasattr(law, "growth_slope")
+
+
+def reduced(law: Traction, time_unit: float) -> Any:
+    """Return a law without dimensions, its speeds in h_0 per time unit [s]."""
+    return law.reduced(time_unit) if isinstance(law, _Growing) else law.reduced()
+
+
+def scaled(law: Any, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Any:
+    """Return a reduced law in SI."""
+    if isinstance(law, _Growing):
+        return law.scaled(work_of_adhesion, equilibrium_gap, positive("time_unit", time_unit, "s"))
+    return replace(law, work_of_adhesion=work_of_adhesion, equilibrium_gap=equilibrium_gap)
+
+
+def check_of_gap_alone(law: Any, what: str) -> None:
+    """Refuse a law that grows with the opening speed where what is asked does not know it."""
+    if grows(law):
+        raise OutOfRange(
+            f"the law {type(law).word} grows with the opening speed, and {what} knows laws of the "
+            "gap alone; simulate it, or take its law at rest"
+        )

@@ -1,0 +1,228 @@
+"""Cracks and contacts whose interface grows with the opening speed: limits, heat, simulation."""
+
+import json
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from typer.testing import CliRunner
+
+import viscotack as vt
+from viscotack.app.cli import application
+from viscotack.errors import OutOfRange
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import AtDepth
+from viscotack.result.edge_energy import edge_energy
+from viscotack.result.observables import pull_off_force
+from viscotack.theory import SteadyCrack
+from viscotack.theory.crack.contact import GrowingCracks, profile_of, recede
+from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
+from viscotack.traction import Eyring, GentSchultz, LennardJones
+
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+REST = LennardJones(1.0, 1.0)
+POWER = GentSchultz(1, 1, 1.0, 0.5)
+solids = pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "solid"])
+
+
+@solids
+def test_without_growth_the_crack_is_that_of_the_law_at_rest(solid):
+    grown = SteadyCrack(solid, GentSchultz(1, 1, 1e8, 1.0))
+    speed = np.array([0.1, 1.0, 10.0])
+    plain = np.asarray(SteadyCrack(solid, REST).amplification(speed))
+    np.testing.assert_allclose(grown.amplification(speed), plain, rtol=2e-4)
+    np.testing.assert_array_equal(
+        grown.amplification(-speed), SteadyCrack(solid, REST).amplification(-speed)
+    )
+
+
+def test_a_little_growth_adds_the_heat_of_the_crack_at_rest():
+    # first order: the tensions beyond those at rest do work along the crack of the law at rest
+    rest = SteadyCrack(ELASTIC, REST).at(0.0)
+    slope, x = np.diff(rest.gap) / np.diff(rest.position), rest.gap
+    energy = np.where(x > 1, REST.energy(x), -1.0)
+    for law in (GentSchultz(1, 1, 1.0, 0.4), Eyring(1, 1, 0.01, 0.1)):
+        speed = 1e-4
+        heat = float(np.sum(law.growth(speed * slope) * np.diff(energy)))
+        found = SteadyCrack(ELASTIC, law).amplification(speed)
+        assert found - 1 == pytest.approx(heat, rel=0.02, abs=0)
+
+
+@pytest.mark.parametrize("speed", [0.01, 1.0, 30.0])
+def test_in_an_elastic_solid_the_energy_is_work_of_adhesion_and_heat_of_the_interface(speed):
+    found = SteadyCrack(ELASTIC, POWER).at(speed)
+    assert found.amplification == pytest.approx(1 + found.interface_heat, rel=2e-3, abs=0)
+    assert found.amplification == pytest.approx(
+        SteadyCrack(ELASTIC, POWER).amplification(speed), rel=2e-3, abs=0
+    )
+
+
+def test_the_zone_of_a_stronger_interface_is_shorter():
+    crack = SteadyCrack(ELASTIC, POWER)
+    assert crack.at(30.0).zone_length < 0.5 * crack.zone_length
+    assert crack.interface_work(30.0) == pytest.approx(crack.amplification(30.0), rel=0.01)
+
+
+def test_growth_of_an_elastic_interface_hangs_on_speed_over_reference_speed_alone():
+    slow, fast = GentSchultz(1, 1, 0.01, 0.5), GentSchultz(1, 1, 100.0, 0.5)
+    speed = np.array([1e-3, 0.1, 10.0])
+    np.testing.assert_allclose(
+        SteadyCrack(ELASTIC, slow).amplification(speed),
+        SteadyCrack(ELASTIC, fast).amplification(1e4 * speed),
+        rtol=1e-3,
+    )
+
+
+@solids
+def test_a_finer_mesh_confirms_the_amplification(solid):
+    usual = SteadyCrack(solid, POWER)
+    grid = _mesh.mesh(1.0, 3e4 / usual.modes.instantaneous, refined=2.0)
+    fine = _grown.Grown(grid, _start.pinned(REST), usual.modes, POWER, _start.elastic(REST, grid))
+    speed = np.array([0.1, 3.0])
+    np.testing.assert_allclose(usual.amplification(speed), fine.gamma(np.log(speed)), rtol=3e-3)
+
+
+def test_speeds_and_amplifications_are_inverse_and_do_not_depend_on_units():
+    crack = SteadyCrack(SOLID, POWER)
+    gamma = np.array([1.01, 2.0, 20.0])
+    np.testing.assert_allclose(crack.amplification(crack.speed(gamma)), gamma, rtol=1e-6)
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.02, poisson_ratio=0.5)
+    law = GentSchultz(0.1, 1e-7, 1e-7 / 0.02, 0.5)
+    assert SteadyCrack(solid, law).amplification(2.0) == pytest.approx(
+        crack.amplification(2.0), rel=1e-9
+    )
+    with pytest.raises(OutOfRange, match="knows laws of the gap alone"):
+        comparison.compared(crack, 1.0)
+
+
+def test_a_receding_contact_solves_its_ordinary_differential_equation():
+    # the plain twin: JKR with an energy that hangs on the speed of the edge, an elastic solid
+    crack, tabor, rate, start = SteadyCrack(ELASTIC, POWER), 50.0, 0.02, 3.0
+    depth = start**2 - np.sqrt(2 * np.pi * start)
+    gamma = np.geomspace(1 + 1e-6, 200, 4000)
+    speeds = np.log(np.asarray(crack.speed(gamma)))
+
+    def speed_of(time, a):
+        lifted = depth - rate * time - a**2
+        energy = max(min(lifted, 0.0) ** 2 / (2 * np.pi * a), 1 + 2e-6)
+        return -float(np.exp(np.interp(np.log(energy), np.log(gamma), speeds))) / tabor**2
+
+    done = solve_ivp(
+        lambda t, y: [speed_of(t, y[0])],
+        (0, 4000.0),
+        [start],
+        method="LSODA",
+        rtol=1e-8,
+        max_step=5.0,
+        events=_vanished,
+    )
+    a, t = done.y[0], done.t
+    force = 2 * (a * (depth - rate * t) - a**3 / 3)
+    found = recede(
+        crack,
+        profile_of(vt.Sphere(1.0)),
+        radius=np.array([start]),
+        rate=np.array([rate]),
+        tabor=np.array([tabor]),
+    )
+    assert float(found.force.min()) == pytest.approx(float(force.min()), rel=2e-3, abs=0)
+
+
+def _vanished(time, y):
+    return y[0] - 0.3
+
+
+_vanished.terminal = True
+
+
+@pytest.mark.parametrize(
+    ("solid", "tabor", "depth", "rate", "law", "within"),
+    [
+        (ELASTIC, 3.24, 10.0, 1.0, GentSchultz(1, 1, 1.0, 0.5), 0.03),
+        pytest.param(
+            *(SOLID, 10.0, 60.0, 30.0, GentSchultz(1, 1, 10.0, 0.5), 0.015), marks=pytest.mark.slow
+        ),
+        (SOLID, 10.0, 60.0, 30.0, Eyring(1, 1, 0.1, 0.2), 0.015),
+    ],
+    ids=["elastic", "power", "bonds"],
+)
+def test_simulation_and_crack_agree(solid, tabor, depth, rate, law, within):
+    groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate, traction=law)
+    answer = vt.crack_contact(groups)
+    simulated = pull_off_force(vt.solve(groups, until="pull-off", estimate_error=False))
+    assert answer.pull_off_force == pytest.approx(simulated, rel=within, abs=0)
+    assert abs(answer.pull_off_force / simulated - 1) < answer.band
+    # growth matters: the law at rest has another force
+    plain = _at_rest(solid, tabor, depth, rate)
+    assert answer.pull_off_force > 1.5 * plain
+
+
+@lru_cache(maxsize=4)
+def _at_rest(solid, tabor, depth, rate):
+    groups = Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate)
+    return vt.crack_contact(groups).pull_off_force
+
+
+def test_solve_hands_a_short_range_over_to_the_crack_with_its_growth():
+    law = GentSchultz(1, 1, 1e3, 0.5)
+    groups = Groups(tabor=500.0, material=ELASTIC, start=AtDepth(2000.0), rate=10.0, traction=law)
+    result = vt.solve(groups)
+    assert result.method == "crack contact"
+    assert pull_off_force(result) > 1.2
+
+
+def test_the_energy_at_a_simulated_edge_is_that_of_the_steady_crack_at_its_speed():
+    law = GentSchultz(1, 1, 10.0, 0.5)
+    groups = Groups(tabor=10.0, material=SOLID, start=AtDepth(60.0), rate=30.0, traction=law)
+    problem = groups.in_si(
+        radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.1, time_unit=0.1, poisson_ratio=0.5
+    )
+    result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
+    found = edge_energy(result)
+    speed = found.speed / result.scales.edge_speed * groups.tabor**2
+    steady = np.asarray(SteadyCrack(SOLID, law).amplification(speed))
+    later = found.amplification > 3
+    np.testing.assert_allclose(found.amplification[later], steady[later], rtol=0.04)
+    np.testing.assert_allclose(found.bulk * found.interface, found.amplification, rtol=1e-12)
+    assert np.all(found.interface[later] > 1.3)
+    assert found.strain > 0.1 and any("a linear solid is doubtful" in word for word in found.words)
+    fitted = 1 + (found.speed / found.reference_speed) ** found.exponent
+    np.testing.assert_allclose(fitted, found.amplification, rtol=0.1)
+
+
+def test_the_command_splits_the_energy_of_a_crack():
+    words = "theory steady-crack --modulus-ratio 0.1 --law gent-schultz:1,0.5 --speed 1 --speed -1"
+    done = CliRunner().invoke(application(), [*words.split(), "--material", "sls", "--json"])
+    answer = json.loads(done.stdout)
+    gamma, heat, interface = (
+        np.array(answer[name]) for name in ("amplification", "heat", "interface_heat")
+    )
+    assert gamma[0] == pytest.approx(1 + heat[0] + interface[0], rel=2e-3) and interface[0] > 0.5
+    assert interface[1] == 0 and gamma[1] < 1
+    assert answer["persson_brener_off"] == [None, None]
+
+
+def test_the_energy_at_an_edge_is_not_read_of_other_tests():
+    groups = Groups(tabor=0.5, material=ELASTIC, start=AtDepth(1.0), rate=1.0)
+    result = vt.solve(groups, until="pull-off", estimate_error=False, accuracy=1e-2)
+    with pytest.raises(ValueError, match="hardly ever a steady crack"):
+        edge_energy(result)
+
+
+@pytest.mark.slow
+def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own():
+    lattice = GrowingCracks(SOLID, np.geomspace(0.1, 100.0, 4), [0.2, 0.35, 0.5, 0.65])
+    cases = [(0.3, 0.42), (30.0, 0.27), (5.0, 0.6)]
+    given = {"radius": np.full(3, 4.0), "rate": np.full(3, 5.0), "tabor": np.full(3, 20.0)}
+    edges = lattice.edges([v0 for v0, _ in cases], [n for _, n in cases])
+    together = recede(edges, profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
+    for i, (v0, n) in enumerate(cases):
+        crack = SteadyCrack(SOLID, GentSchultz(1, 1, v0, n))
+        one = {name: values[:1] for name, values in given.items()}
+        alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()
+        assert together[i] == pytest.approx(alone, rel=0.01, abs=0)
+    with pytest.raises(ValueError, match="must lie within the lattice, 0.2 to 0.65"):
+        lattice.edges(1.0, 0.9)

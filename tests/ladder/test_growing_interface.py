@@ -1,0 +1,276 @@
+"""Interfaces whose tension grows with the opening speed: laws, limits, energies, order."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import viscotack as vt
+from viscotack.bem import Settings
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups
+from viscotack.problem.law_table import law_from_words
+from viscotack.protocol import Apart, Approach, AtDepth, Dwell
+from viscotack.result.observables import pull_off_force
+from viscotack.traction import Dugdale, Exponential, Eyring, GentSchultz, LennardJones, grows
+from viscotack.traction.growing import reduced
+
+REST = LennardJones(0.1523, 200e-9)
+POWER = GentSchultz.of(REST, reference_speed=1e-3, exponent=0.4)
+BONDS = Eyring.of(REST, reference_speed=1e-6, sensitivity=0.2)
+laws = pytest.mark.parametrize("law", [POWER, BONDS], ids=["power", "bonds"])
+GAPS = np.array([0.9, 0.99, 1.01, 1.2, 1.7, 4.0]) * 200e-9
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def unloaded(law, tabor=1.0, depth=2.0, material=ELASTIC, rate=1.0, **given):
+    groups = Groups(tabor=tabor, material=material, start=AtDepth(depth), rate=rate, traction=law)
+    return vt.solve(groups, **({"until": "pull-off", "estimate_error": False} | given))
+
+
+# --- the law
+
+
+@laws
+def test_only_surfaces_that_attract_and_open_feel_the_speed(law):
+    at_rest = REST.traction(GAPS)
+    np.testing.assert_array_equal(law.traction(GAPS), at_rest)
+    np.testing.assert_array_equal(law.traction(GAPS, -1e-3), at_rest)
+    opening, attracts = law.traction(GAPS, 1e-3), at_rest > 0
+    np.testing.assert_array_equal(opening[~attracts], at_rest[~attracts])
+    np.testing.assert_allclose(
+        opening[attracts], at_rest[attracts] * (1 + law.growth(1e-3)), rtol=1e-14
+    )
+    # the power law doubles the tension at its reference speed
+    assert float(POWER.growth(1e-3)) == pytest.approx(1.0, rel=1e-6, abs=0)
+    assert float(BONDS.growth(1e-3)) == pytest.approx(0.2 * np.log(2000), rel=1e-6, abs=0)
+
+
+@laws
+def test_damping_and_stiffness_are_the_derivatives_of_the_tension(law):
+    # down to speeds at which the power law has become a proportional one
+    for speed in (1e-11, 1e-9, 1e-6, 1e-3, 1.0):
+        d = 1e-4 * speed
+        by_speed = (law.traction(GAPS, speed + d) - law.traction(GAPS, speed - d)) / (2 * d)
+        found = law.damping(GAPS, speed)
+        np.testing.assert_allclose(by_speed, found, rtol=1e-5, atol=1e-5 * found.max())
+    d = 1e-5 * GAPS
+    by_gap = (law.traction(GAPS + d, 1e-3) - law.traction(GAPS - d, 1e-3)) / (2 * d)
+    np.testing.assert_allclose(law.stiffness(GAPS, 1e-3), by_gap, rtol=1e-6)
+    assert np.all(law.damping(GAPS, -1e-3) == 0)
+
+
+@laws
+def test_growth_is_continuous_and_of_finite_slope_at_rest(law):
+    slope = float(law.growth_slope(1e-30))
+    assert np.isfinite(slope) and slope > 0
+    assert float(law.growth(1e-16)) == pytest.approx(slope * 1e-16, rel=1e-3, abs=0)
+    speeds = np.geomspace(1e-12, 1.0, 200)
+    assert np.all(np.diff(law.growth(speeds)) > 0)
+
+
+@given(st.floats(-6, 6), st.floats(-6, 6), st.floats(-6, 6))
+def test_a_growing_law_does_not_depend_on_the_units(length, load, time):
+    L, M, T = 10**length, 10**load, 10**time
+    for law in (POWER, BONDS):
+        new = replace(
+            law,
+            work_of_adhesion=law.work_of_adhesion * M / T**2,
+            equilibrium_gap=law.equilibrium_gap * L,
+            reference_speed=law.reference_speed * L / T,
+        )
+        np.testing.assert_allclose(
+            new.traction(L * GAPS, L / T * 3e-4),
+            M / (L * T**2) * law.traction(GAPS, 3e-4),
+            rtol=1e-6,
+        )
+
+
+@laws
+def test_a_reduced_law_counts_speeds_in_gaps_per_unit_of_time(law):
+    small = reduced(law, 0.02)
+    speed = 3e-4
+    np.testing.assert_allclose(
+        small.traction(GAPS / 200e-9, speed * 0.02 / 200e-9),
+        law.traction(GAPS, speed) * 200e-9 / 0.1523,
+        rtol=1e-12,
+    )
+    assert small.reduced() == small
+    back = small.scaled(0.1523, 200e-9, 0.02)
+    assert back.reference_speed == pytest.approx(law.reference_speed, rel=1e-15, abs=0)
+
+
+def test_what_is_no_growing_law_is_refused():
+    with pytest.raises(ValueError, match=r"exponent must lie in \(0, 1\], got 1.2"):
+        GentSchultz(1, 1, 1, 1.2)
+    with pytest.raises(ValueError, match="base must be a reduced law"):
+        GentSchultz(1, 1, 1, 0.5, base=REST)
+    with pytest.raises(ValueError, match="a law of the gap alone"):
+        GentSchultz(1, 1, 1, 0.5, base=GentSchultz(1, 1, 1, 0.5))
+    with pytest.raises(ValueError, match="must be smooth enough for nodes.*wider fall"):
+        unloaded(GentSchultz.of(Dugdale(1, 1), reference_speed=1, exponent=0.5))
+
+
+# --- in words, files, records
+
+
+def test_flags_files_and_records_know_a_growing_law(tmp_path):
+    law = law_from_words("gent-schultz:10,0.4:exponential:0.25")
+    assert law == GentSchultz(1, 1, 10, 0.4, base=Exponential(1, 1, 0.25))
+    with pytest.raises(ValueError, match="write eyring:REFERENCE_SPEED,SENSITIVITY"):
+        law_from_words("eyring:1")
+    path = tmp_path / "case.toml"
+    path.write_text("""
+[material]
+model = "elastic"
+rubbery_modulus = "1.458 MPa"
+poisson_ratio = 0.5
+
+[interface]
+law = "gent-schultz"
+base = "exponential"
+decay = 0.3
+work_of_adhesion = "0.1523 J/m^2"
+equilibrium_gap = "200 nm"
+reference_speed = "213.5 um/s"
+exponent = 0.4154
+
+[sphere]
+radius = "5.19 mm"
+
+[protocol]
+preload_force = "1.5 mN"
+speed = "100 um/s"
+""")
+    problem = vt.read_case(path)
+    assert grows(problem.traction) and problem.traction.base.decay == 0.3
+    assert problem.traction.reference_speed == pytest.approx(213.5e-6)
+    assert vt.from_dict(vt.to_dict(problem)) == problem
+    # an elastic solid has no time of its own, and takes that of the interface
+    assert problem.scales().time == pytest.approx(200e-9 / 213.5e-6)
+    assert problem.groups().traction.reference_speed == pytest.approx(1.0)
+    assert problem.groups().rate == pytest.approx(100 / 213.5)
+
+
+def test_groups_go_to_si_and_back():
+    law = GentSchultz(1, 1, 7.0, 0.4)
+    groups = Groups(tabor=2.0, material=SOLID, start=AtDepth(2.0), rate=3.0, traction=law)
+    problem = groups.in_si(
+        radius=5e-3,
+        contact_modulus=2e6,
+        equilibrium_gap=1e-6,
+        time_unit=0.02,
+        poisson_ratio=0.5,
+    )
+    assert problem.traction.reference_speed == pytest.approx(7.0 * 1e-6 / 0.02)
+    assert problem.groups().traction.reference_speed == pytest.approx(7.0)
+
+
+# --- limits
+
+
+def test_a_rigid_sphere_pulls_off_with_bradleys_force_and_the_growth_of_its_speed():
+    # mu -> 0: all gaps open with the speed of the sphere
+    for law in (GentSchultz(1, 1, 0.5, 0.4), Eyring(1, 1, 0.1, 0.3)):
+        result = unloaded(law, tabor=1e-5, depth=0.2, accuracy=1e-2)
+        bradley = 4 / 3 * (1 + float(law.growth(1.0)))
+        assert pull_off_force(result) == pytest.approx(bradley, rel=1e-2, abs=0)
+        assert result.energy_residual < 5e-3
+
+
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
+def test_slow_or_weak_growth_is_the_law_at_rest(material):
+    plain = pull_off_force(unloaded(LennardJones(1, 1), material=material))
+    for law in (GentSchultz(1, 1, 1e14, 1.0), Eyring(1, 1, 1.0, 1e-9)):
+        found = pull_off_force(unloaded(law, material=material))
+        assert found == pytest.approx(plain, rel=5e-4, abs=0)
+
+
+def test_closing_is_that_of_the_law_at_rest():
+    def approached(law):
+        groups = Groups(
+            tabor=1.0,
+            material=SOLID,
+            start=Apart(5.0),
+            rate=None,
+            moves=(Approach(10.0, to=AtDepth(3.0)), Dwell(5.0)),
+            traction=law,
+        )
+        return vt.solve(groups, estimate_error=False)
+
+    plain, grown = approached(LennardJones(1, 1)), approached(GentSchultz(1, 1, 1e-3, 0.5))
+    assert grown.force[-1] == pytest.approx(plain.force[-1], rel=2e-3, abs=0)
+    heat = grown.energy.interface_heat[-1]
+    assert heat < 0.02 * abs(grown.energy.interface[-1])
+
+
+# --- energy, order, stability
+
+
+@pytest.mark.parametrize("material", [ELASTIC, SOLID], ids=["elastic", "solid"])
+def test_energy_is_conserved_with_the_heat_of_the_interface(material):
+    result = unloaded(
+        GentSchultz(1, 1, 1.0, 0.5), material=material, until="detached", accuracy=5e-3
+    )
+    energy = result.energy
+    assert np.all(np.diff(energy.interface_heat) >= 0) and energy.interface_heat[-1] > 0
+    spent = (
+        energy.elastic
+        + energy.interface
+        + energy.spring
+        + energy.heat
+        + energy.interface_heat
+        + energy.jumps
+        + energy.transfer
+    )
+    missing = energy.drive - (spent - spent[0])
+    assert np.max(np.abs(missing)) < 2e-3 * energy.interface_heat[-1]
+    assert result.energy_residual < 1e-3
+    # what would jump runs: nothing is lost in it
+    assert abs(energy.jumps[-1]) < 1e-3 * energy.interface_heat[-1]
+
+
+def test_an_elastic_contact_that_would_jump_runs_at_a_finite_speed():
+    plain = unloaded(LennardJones(1, 1), tabor=2.0, until="detached", accuracy=1e-2)
+    grown = unloaded(GentSchultz(1, 1, 10.0, 0.5), tabor=2.0, until="detached", accuracy=1e-2)
+    assert [event.kind for event in plain.events] == ["jump out of contact"]
+    assert not grown.events
+    assert np.nanmax(grown.edge_speed) > 10 * grown.edge_speed[np.argmin(grown.force)]
+
+
+def test_steps_are_of_second_order():
+    usual = Settings.for_accuracy(2e-3)
+
+    def force(part):
+        settings = replace(
+            usual,
+            travel=usual.travel * part,
+            first_travel=usual.first_travel * part,
+            force_change=usual.force_change * part,
+            imbalance=usual.imbalance * part**2,
+            step_error=usual.step_error * part**2,
+        )
+        return pull_off_force(unloaded(GentSchultz(1, 1, 1.0, 0.5), settings=settings))
+
+    coarse, middle, fine = force(2.0), force(1.0), force(0.5)
+    order = np.log2(abs((coarse - middle) / (middle - fine)))
+    assert 1.6 < order < 2.8
+
+
+def test_a_finer_run_confirms_the_stated_error():
+    law = GentSchultz(1, 1, 1.0, 0.5)
+    usual = unloaded(law, tabor=2.0, depth=5.0, estimate_error=True)
+    fine = pull_off_force(unloaded(law, tabor=2.0, depth=5.0, accuracy=4e-4))
+    off = abs(pull_off_force(usual) / fine - 1)
+    assert off < usual.error_estimate["force"] < 1e-2
+
+
+def test_results_keep_the_heat_of_the_interface(tmp_path):
+    result = unloaded(GentSchultz(1, 1, 1.0, 0.5), accuracy=1e-2)
+    vt.save(result, tmp_path / "grown.npz")
+    again = vt.load(tmp_path / "grown.npz")
+    assert again.problem == result.problem
+    np.testing.assert_array_equal(again.energy.interface_heat, result.energy.interface_heat)
