@@ -42,7 +42,7 @@ def trajectories(rows: Detachments, *, seed: int, quick: bool) -> dict[str, Any]
         return {"absent": ABSENT}
     from sklearn.model_selection import train_test_split
 
-    X, Y = _inputs(rows), _targets(rows)
+    X, Y = learned_points(rows)
     train, test = train_test_split(np.arange(len(rows)), test_size=_HELD_OUT, random_state=seed)
     model = _fit(X[train], Y[train], seed, quick)
     found = model.predict(X[test])
@@ -79,6 +79,22 @@ def trajectories(rows: Detachments, *, seed: int, quick: bool) -> dict[str, Any]
         ],
         "architectures": architectures(X[train], Y[train], seed=seed, quick=quick),
     }
+
+
+def predictor(rows: Detachments, seed: int) -> Any:
+    """Return a network that has learned the six points of all rows; `points_of` asks it."""
+    X, Y = learned_points(rows)
+    return _fit(X, Y, seed, quick=False)
+
+
+def points_of(model: Any, rows: Detachments) -> Array:
+    """Return the six points, shape (n, 6), that a network gives to the inputs of rows."""
+    return _points(model.predict(_inputs(rows)), rows.tabor)
+
+
+def learned_points(rows: Detachments) -> tuple[Array, Array]:
+    """Return what the network learns from, and what it learns."""
+    return _inputs(rows), _targets(rows)
 
 
 def kept_sign(y: Array) -> Array:
