@@ -7,11 +7,16 @@ from typing import Annotated
 import typer
 from typer import Option
 
-from .bench import Hands
+from .bench import Hands, Numbers
 from .contents import CONTENTS
 from .figures.catalogue import Figure, figures
+from .gallery import GALLERY
+from .gallery import write as write_gallery
 from .kept import difference, kept, path_of
+from .ledger.contents import named
+from .ledger.page import PAGE, page
 from .making import Maker, picture
+from .whole import write_whole
 from .words import application, wrong_input
 
 app = application()
@@ -26,11 +31,19 @@ _Workers = Annotated[
 _Folder = Annotated[
     Path, Option("--out", metavar="DIR", help="Folder of the pictures; made if missing.")
 ]
+_Table = Annotated[
+    Path | None,
+    Option(
+        "--table",
+        metavar="FILE",
+        help="The whole table that the authors of the thesis published, for what is made of it.",
+        show_default=False,
+    ),
+]
 
 
 @app.callback(invoke_without_command=True, no_args_is_help=True)
 def contents(
-    context: typer.Context,
     listed: Annotated[
         bool, Option("--list", help="Each part: its command, what it says, how long it takes.")
     ] = False,
@@ -40,6 +53,7 @@ def contents(
     afresh: _Afresh = False,
     workers: _Workers = 2,
     out: _Folder = _OUT,
+    table: _Table = None,
 ) -> None:
     """Do again what others published about detachment, and say whether it holds.
 
@@ -52,7 +66,8 @@ def contents(
         parts = [part.words() for part in CONTENTS]
         typer.echo("\n\n".join([*parts, *(each.words() for each in figures())]))
     if every:
-        _all(afresh, workers, out)
+        with wrong_input():
+            _all(afresh, workers, out, table)
 
 
 @app.command(no_args_is_help=True)
@@ -60,43 +75,90 @@ def figure(
     name: Annotated[str, typer.Argument(help="Number in the thesis: 4.6, table-5.1, A.3.")],
     afresh: _Afresh = False,
     keep: Annotated[
-        bool, Option("--keep", help="Keep what was made afresh in the repository.")
+        bool, Option("--keep", help="Keep what is made afresh in the repository.")
     ] = False,
     workers: _Workers = 2,
     out: _Folder = _OUT,
     svg: Annotated[bool, Option("--svg", help="SVG instead of PNG.")] = False,
+    table: _Table = None,
 ) -> None:
     """Draw a figure or a table, and say what it claims, needs and costs.
 
     Example: python -m replication figure 4.6 --afresh
     """
     with wrong_input(), Hands(workers) as hands:
-        said = Figure(name).words()
+        drawn = Figure(name)
         before = kept(name) if path_of(name).exists() else None
-        maker = Maker(hands, afresh=afresh, store=keep, say=_progress)
+        maker = Maker(hands, afresh=afresh, store=keep, table=table, say=_progress)
         path = picture(name, maker.of(name), out, ending="svg" if svg else "png")
-    typer.echo(said)
+        typer.echo(drawn.words())
     if afresh and before is not None:
-        typer.echo(
-            f"  Numbers made now beside those that were kept: {_beside(maker, name, before)}"
-        )
+        typer.echo(f"  Beside the numbers that were kept: {_beside(maker, name, before)}")
     typer.echo(f"wrote {path}")
 
 
-def _all(afresh: bool, workers: int, out: Path) -> None:
-    """Draw all there is."""
-    began = perf_counter()
+@app.command(no_args_is_help=True)
+def claim(
+    name: Annotated[str, typer.Argument(help="As the ledger has it: alpha, reduction.")],
+    afresh: _Afresh = False,
+    workers: _Workers = 2,
+    table: _Table = None,
+) -> None:
+    """Measure a claim of the ledger, and say whether its verdict stands.
+
+    Example: python -m replication claim alpha --afresh
+    """
     with wrong_input(), Hands(workers) as hands:
-        maker = Maker(hands, afresh=afresh, say=_progress)
+        one = named(name)
+        maker = Maker(hands, afresh=afresh, table=table, say=_progress)
+        found = one.measured(maker.of)
+        typer.echo(f"{one.says} ({one.place})")
+        typer.echo(f"  thesis: {one.thesis}\n  here: {found.said()}")
+        typer.echo(f"  {one.verdict}: {one.evidence}")
+
+
+@app.command()
+def ledger(
+    written: Annotated[
+        bool, Option("--write", help="Write docs/replication.md instead of printing it.")
+    ] = False,
+) -> None:
+    """Measure all claims from theory and kept numbers, and say what became of them.
+
+    Example: python -m replication ledger --write
+    """
+    with wrong_input():
+        text = page(kept)
+        if written:
+            write_whole(PAGE, text)
+    typer.echo(f"wrote {PAGE}" if written else text)
+
+
+@app.command()
+def gallery() -> None:
+    """Write docs/gallery.md and its pictures from the kept numbers."""
+    with wrong_input():
+        write_gallery()
+    typer.echo(f"wrote {GALLERY}")
+
+
+def _all(afresh: bool, workers: int, out: Path, table: Path | None) -> None:
+    """Draw all there is, and measure all claims."""
+    began = perf_counter()
+    with Hands(workers) as hands:
+        maker = Maker(hands, afresh=afresh, table=table, say=_progress)
         for each in figures():
             path = picture(each.name, maker.of(each.name), out)
-            words = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
-            typer.echo(f"{path}{words}")
+            beside = f", {_beside(maker, each.name, kept(each.name))}" if afresh else ""
+            typer.echo(f"{path}{beside}")
+        text = page(maker.of)
+        write_whole(out / "replication.md", text)
+        typer.echo(f"{out / 'replication.md'}: every verdict stands")
         spent = hands.seconds
     typer.echo(f"{perf_counter() - began:.0f} s by the clock, {spent:.0f} s of processor time")
 
 
-def _beside(maker: Maker, name: str, before: dict[str, object]) -> str:
+def _beside(maker: Maker, name: str, before: Numbers) -> str:
     """Return how far numbers made now are from those that were kept."""
     off = difference(maker.of(name), before)
     return "of another kind" if off == float("inf") else f"they differ by {off:.1e} at most"

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from time import process_time
 from types import TracebackType
 from typing import Any
@@ -25,10 +26,13 @@ class Bench:
         Like the built-in ``map``, of one function and one iterable; in several processes or not.
     of : callable
         Returns the numbers of another figure by its name.
+    table : path or None
+        The whole table that the authors of the thesis published, where it is at hand.
     """
 
     each: Each
     of: Callable[[str], Numbers]
+    table: Path | None = None
 
 
 class Hands:

@@ -28,6 +28,8 @@ class Maker:
         Whether to make numbers that are kept already.
     store : bool
         Whether to keep what was made, in place of what was kept.
+    table : path or None
+        The whole published table; what needs it is taken as it is kept where there is none.
     say : callable
         Is told what is being made.
     """
@@ -35,6 +37,7 @@ class Maker:
     hands: Hands
     afresh: bool = False
     store: bool = False
+    table: Path | None = None
     say: Callable[[str], None] = _nothing
     made: dict[str, Numbers] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
@@ -42,13 +45,14 @@ class Maker:
     def of(self, name: str) -> Numbers:
         """Return the numbers of a figure as they are kept, to so many digits."""
         if name not in self.made:
-            self.made[name] = self._made(name) if self.afresh else kept(name)
+            lacking = Figure(name).needs_table and self.table is None
+            self.made[name] = self._made(name) if self.afresh and not lacking else kept(name)
         return self.made[name]
 
     def _made(self, name: str) -> Numbers:
         self.say(f"figure {name} ...")
         of_others, began = sum(self.seconds.values()), self.hands.seconds
-        found = rounded(Figure(name).module.numbers(Bench(self.hands.each, self.of)))
+        found = rounded(Figure(name).module.numbers(Bench(self.hands.each, self.of, self.table)))
         # what it took from other figures is counted there
         of_others = sum(self.seconds.values()) - of_others
         self.seconds[name] = self.hands.seconds - began - of_others

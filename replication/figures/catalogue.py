@@ -23,7 +23,7 @@ THESIS = (
     *("A.1", "A.3", "A.4", "A.5", "table-A.1", "A.6", "A.7", "A.8", "A.9"),
 )
 # Beside them: what the ledger asks for and no figure of the thesis shows.
-BESIDE = ("histories", "alpha", "limits", "gent-schultz")
+BESIDE = ("histories", "alpha", "limits", "gent-schultz", "published-rows", "work-bound")
 # Parts of the docstring that are said of a figure.
 _PARTS = ("Claims:", "Needs:", "Costs:")
 
@@ -68,6 +68,11 @@ class Figure:
     def note(self) -> str:
         """What must be said below its picture; nothing for most."""
         return getattr(self.module, "NOTE", "")
+
+    @property
+    def needs_table(self) -> bool:
+        """Whether it is made of the whole published table, which is not in the repository."""
+        return getattr(self.module, "NEEDS_TABLE", False)
 
     def part(self, head: str) -> str:
         """Return a paragraph of its docstring, "Claims:", "Needs:" or "Costs:", without its head.

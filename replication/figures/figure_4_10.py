@@ -4,8 +4,8 @@ Claims: linear theory with h0 = 30.8 nm follows the measured forces up to 100 um
 them beyond; a Gent-Schultz law with v0 = 213.5 um/s and xi = 0.4154 follows all of them.
 
 Needs: the measured forces are not published; the printed fits stand for them: Gent-Schultz for
-what was measured, and that over 1 + (v/v1)^(1/2) for (P_po)_lin, at the crack speed of Eq. 4.24 with
-l0 = 30.0 nm.
+what was measured, and that over 1 + (v/v1)^(1/2) for (P_po)_lin, at the crack speed of Eq. 4.24
+with l0 = 30.0 nm.
 
 Costs: 27 simulations, four minutes of processor time; the short range takes most of it.
 """

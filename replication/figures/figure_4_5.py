@@ -103,5 +103,5 @@ def draw(numbers: Numbers, figure: Figure) -> None:
     middle.set_ylabel("threshold of the start")
     right.set_xlabel("threshold of the start")
     right.set_ylabel(r"pull-off force $\hat P_{po}$ there")
-    left.legend(loc="center right", bbox_to_anchor=(1.0, 0.42))
+    middle.legend(handles=left.get_lines()[:4], loc="upper left")
     right.legend()

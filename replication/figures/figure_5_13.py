@@ -90,9 +90,9 @@ def draw(numbers: Numbers, figure: Figure) -> None:
     ):
         axes[side].set_title(title)
         axes[side].set_xlabel(DEPTH)
-        axes[side].set_ylim(-11.5, 40)
+        axes[side].set_ylim(-11.5, 60)
         axes[2 + side].set_ylim(-11.5, 40)
-        axes[side].legend(title="dots: network")
+        axes[side].legend(title="dots: network", ncols=2)
         for row in (1, 2):
             axes[2 * row + side].set_xlabel(r"time / $\tau_0$")
             axes[2 * row + side].ticklabel_format(axis="x", scilimits=(-2, 3))

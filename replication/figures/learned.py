@@ -16,7 +16,7 @@ import numpy as np
 from viscotack import datasets
 
 from ..learning.features import Descriptor, Target, crack_amplification, features, target
-from ..learning.learners import BOOSTING, FOREST, Learner, check_installed, trained
+from ..learning.learners import BOOSTING, FOREST, LEARNERS, Learner, check_installed, trained
 from ..learning.splits import random_split
 from ..learning.thesis import TABLES
 from ..learning.validation import Score, Trial, score
@@ -90,13 +90,15 @@ def of_table(number: str, each: Callable[..., Any]) -> dict[str, Any]:
 
 
 def _scored(entry: tuple[str, str]) -> Score:
-    from ..learning.learners import LEARNERS
+    return scored(rows(), *entry)
 
-    number, name = entry
+
+def scored(of: Detachments, number: str, name: str) -> Score:
+    """Return the score of a model of a table of the thesis on random folds of rows."""
     table = next(table for table in TABLES if table.number == number)
     learner = next(learner for learner in LEARNERS if learner.name == name)
     trial = Trial(table.target, table.descriptor, learner)
-    return score(rows(), trial, random_split(len(rows()), SEED), seed=SEED)
+    return score(of, trial, random_split(len(of), SEED), seed=SEED)
 
 
 def held_out(trial: tuple[Target, Descriptor, Learner], points: int) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from viscotack import InputError
 from ..table import SAMPLE, Detachments, read_detachments
 from ..words import application, wrong_input
 from .compare import compare
+from .corrected import write_corrected
 from .page import page, write
 
 app = application()
@@ -41,6 +42,14 @@ def published(
     workers: Annotated[
         int, Option("--workers", metavar="N", min=1, help="Processes of this machine.")
     ] = 2,
+    corrected: Annotated[
+        Path | None,
+        Option(
+            "--corrected",
+            metavar="FILE",
+            help="Write the corrected table: the same inputs, both forces and works, our errors.",
+        ),
+    ] = None,
     written: Annotated[
         Path | None,
         Option(
@@ -63,6 +72,8 @@ def published(
             raise InputError("--write is for the complete table: give its path by --table")
         rows = read_detachments(table)
     found = compare(drawn(rows, count, seed), out, workers=workers)
+    if corrected is not None:
+        write_corrected(found, read_detachments(SAMPLE), corrected)
     if written is None:
         typer.echo(page(found))
     else:

@@ -16,7 +16,10 @@ from ..table import Detachments
 APART = 0.02
 CONVERGED = 1e-4
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
-_SHOWN = ("pull_off_force", "work_to_pull_off", "error_estimate", "energy_residual", "wall_time_s")
+_SHOWN = (
+    *("pull_off_force", "work_to_pull_off", "error_estimate", "error_estimate_work"),
+    *("energy_residual", "wall_time_s"),
+)
 
 Row = dict[str, Any]
 Inputs = tuple[float, ...]
@@ -42,7 +45,8 @@ def compare(table: Detachments, folder: Path, *, workers: int) -> list[Row]:
         A row each: the five inputs; ``force`` and ``work`` of the table; ``ours``, numbers of the
         simulation by name; ``force_difference`` and ``work_difference``, the table's over ours,
         less one (nan where the table has no work); ``in_tension``, whether it starts so; where
-        they are apart ``table_error`` and ``our_error`` of the force, by the converged run.
+        they are apart ``table_error`` and ``our_error`` of the force, by the converged run, and
+        ``best``, its numbers.
     """
     ours = simulated(table, folder / "default", CaseSettings.accuracy, workers)
     rows = [_differences(table, i, ours) for i in range(len(table))]
@@ -93,8 +97,10 @@ def _decided(row: Row, best: dict[Inputs, dict[str, Any]]) -> Row:
     """Return a row with the errors of both programs by the converged run, where it was made."""
     if abs(row["force_difference"]) <= APART:
         return row
-    force = best[inputs_of(row)]["pull_off_force"]
+    found = best[inputs_of(row)]
+    force = found["pull_off_force"]
     return row | {
+        "best": {name: found[name] for name in _SHOWN},
         "table_error": row["force"] / force - 1,
         "our_error": row["ours"]["pull_off_force"] / force - 1,
     }

@@ -1,0 +1,114 @@
+"""A claim of the thesis, and how it is measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isnan
+
+from viscotack import InputError
+
+from ..bench import Numbers
+
+# Returns the numbers of a figure by its name.
+Of = Callable[[str], Numbers]
+
+
+class Verdict(StrEnum):
+    """What became of a claim."""
+
+    HOLDS = "holds"
+    CORRECTED = "holds with correction"
+    FAILS = "does not hold"
+    OPEN = "cannot be decided"
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured.
+
+    Attributes
+    ----------
+    value : float
+        The number on which the verdict rests.
+    words : str
+        What stands in the ledger, with its unit and error; the number alone where left out.
+    """
+
+    value: float
+    words: str = ""
+
+    def said(self) -> str:
+        """Return what stands in the ledger."""
+        return self.words or f"{self.value:.4g}"
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim.
+
+    Attributes
+    ----------
+    name : str
+        By which it is measured again.
+    place : str
+        Where it stands in the thesis.
+    says : str
+        What is claimed.
+    thesis : float or str
+        Its number, or words where it has none.
+    measure : callable
+        Measures it, from theory or from numbers of figures.
+    stands : tuple of float
+        Between these the number measured must lie for the verdict to stand.
+    verdict : Verdict
+        What became of it.
+    evidence : str
+        Why.
+    """
+
+    name: str
+    place: str
+    says: str
+    thesis: float | str
+    measure: Callable[[Of], Measured]
+    stands: tuple[float, float]
+    verdict: Verdict
+    evidence: str
+
+    def measured(self, of: Of) -> Measured:
+        """Measure it.
+
+        Raises
+        ------
+        ValueError
+            If the verdict does not stand with what was measured.
+        """
+        found = self.measure(of)
+        low, high = self.stands
+        if isnan(found.value) or not low <= found.value <= high:
+            raise InputError(
+                f"claim {self.name}: measured {found.value:.5g}, and the verdict "
+                f"'{self.verdict}' stands between {low:g} and {high:g}; look at it again"
+            )
+        return found
+
+    def row(self, of: Of) -> str:
+        """Return its line of the ledger."""
+        found = self.measured(of)
+        thesis, apart = self.thesis, "-"
+        if isinstance(thesis, float):
+            apart = f"{100 * (found.value / thesis - 1):+.3g} %" if thesis else "-"
+            thesis = f"{thesis:.6g}"
+        cells = (
+            f"`{self.name}`",
+            f"{self.says} ({self.place})",
+            thesis,
+            found.said(),
+            apart,
+            f"**{self.verdict}**",
+            self.evidence,
+            f"`claim {self.name}`",
+        )
+        return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
