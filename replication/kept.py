@@ -77,13 +77,13 @@ def difference(one: Any, other: Any) -> float:
         return max((difference(one[key], other[key]) for key in one), default=0.0)
     if isinstance(one, str | bool) or isinstance(other, str | bool) or one is None or other is None:
         return 0.0 if one == other else np.inf
-    a, b = np.asarray(one), np.asarray(other)
+    if isinstance(one, list) and isinstance(other, list) and not all(map(_is_number, one)):
+        if len(one) != len(other):
+            return np.inf
+        return max((difference(x, y) for x, y in zip(one, other, strict=True)), default=0.0)
+    a, b = np.asarray(one, dtype=float), np.asarray(other, dtype=float)
     if a.shape != b.shape:
         return np.inf
-    if a.dtype == object or a.dtype.kind in "US" or b.dtype == object:
-        return max(
-            (difference(x, y) for x, y in zip(list(one), list(other), strict=True)), default=0.0
-        )
     known = np.isfinite(a)
     if np.any(known != np.isfinite(b)):
         return np.inf

@@ -89,8 +89,8 @@ class Claim:
         low, high = self.stands
         if isnan(found.value) or not low <= found.value <= high:
             raise InputError(
-                f"claim {self.name}: measured {found.value:.5g}, and the verdict "
-                f"'{self.verdict}' stands between {low:g} and {high:g}; look at it again"
+                f"claim {self.name}: measured {found.value:.5g}, and the verdict '{self.verdict}' "
+                f"stands between {low:g} and {high:g}; look at it again"
             )
         return found
 

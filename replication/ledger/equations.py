@@ -66,8 +66,8 @@ def _greenwood(of: Of) -> Measured:
     with_relaxation = 1 / (k + (1 - k) * zone(k * alpha))
     return Measured(
         with_retardation / energy,
-        f"Γ = {with_retardation:.4f} at the speed of 2 with d/Vτ_ret; {with_relaxation:.3f} if the "
-        "k of Eq. 2.16 is kept with a retardation time",
+        f"Γ = {with_retardation:.4f} at the speed of 2 with d/Vτ_ret; {with_relaxation:.3f} if "
+        "the k of Eq. 2.16 is kept with a retardation time",
     )
 
 
@@ -343,8 +343,7 @@ CLAIMS = (
         (0.9999, 1.0001),
         Verdict.CORRECTED,
         "there τ is the relaxation time; with the retardation time of Eq. 3.26 the k falls away, "
-        "as "
-        "in Eq. 3.34; d is l0 Δγ_eff/Δγ0",
+        "as in Eq. 3.34; d is l0 Δγ_eff/Δγ0",
     ),
     Claim(
         "persson-sign",
@@ -515,8 +514,8 @@ CLAIMS = (
         _off_by_one,
         (0.9, 1.1),
         Verdict.CORRECTED,
-        "its index asks for a step to come; read as one can, it is of first order. Means of C over "
-        "the steps are exact for ramps",
+        "its index asks for a step to come; read as one can, it is of first order. Means of C "
+        "over the steps are exact for ramps",
     ),
     Claim(
         "work-scale",

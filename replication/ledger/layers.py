@@ -20,8 +20,8 @@ def _history(of: Of) -> Measured:
     error = 100 * float(np.nanmax(n["error"]))
     return Measured(
         100 * worst,
-        f"{100 * worst:.2g} % beside the relaxed start, {100 * spread:.2g} % between protocols, at "
-        f"b = {at:.3g} a0 (numerical error below {error:.2g} %)",
+        f"{100 * worst:.2g} % beside the relaxed start, {100 * spread:.2g} % between protocols, "
+        f"at b = {at:.3g} a0 (numerical error below {error:.2g} %)",
     )
 
 
@@ -32,9 +32,9 @@ def _history_of_a_sphere(of: Of) -> Measured:
     middle = n["change"][0, 1, 2]
     return Measured(
         100 * worst,
-        f"{100 * worst:.3g} ± {100 * n['error'][i]:.1g} % pressed at {n['approach'][i[2]]:.0e} and "
-        f"pulled at {n['rate'][i[1]]:g} h0/τ0, {100 * middle:.0f} % pressed at 100, below 1 % "
-        f"pulled at 10",
+        f"{100 * worst:.3g} ± {100 * n['error'][i]:.1g} % pressed at {n['approach'][i[2]]:.0e} "
+        f"and pulled at {n['rate'][i[1]]:g} h0/τ0, {100 * middle:.0f} % pressed at 100, below 1 "
+        "% pulled at 10",
     )
 
 
@@ -116,8 +116,7 @@ def _largest(of: Of) -> Measured:
     return Measured(
         off,
         f"with the whole contact within {100 * off:.2g} % up to 5 a0; with the ligament of Eq. "
-        f"3.30 "
-        f"{np.max(ligament[:, thin]):.2f} times; at b0/k {np.min(whole):.2f} times",
+        f"3.30 {np.max(ligament[:, thin]):.2f} times; at b0/k {np.min(whole):.2f} times",
     )
 
 

@@ -14,8 +14,7 @@ from .contents import CHAPTERS, every
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "replication.md"
 _HEAD = (
     "| claim | what the thesis says | thesis | here | apart | verdict | evidence | remeasured by "
-    "|\n"
-    "|---|---|---|---|---|---|---|---|"
+    "|\n|---|---|---|---|---|---|---|---|"
 )
 
 
@@ -33,12 +32,11 @@ def _opening() -> str:
     said = ", ".join(f"{counts[verdict]} {_PLURAL[verdict]}" for verdict in Verdict)
     text = (
         f"{len(every())} claims of A. Maghami, PhD thesis (2025), each beside what is measured "
-        f"here: "
-        f"{said}. `python -m replication ledger --write` writes this page from the kept numbers of "
-        "the figures and from theory; `python -m replication claim NAME` measures one of them, "
-        "with "
-        "`--afresh` from nothing. A verdict stands on a number: where that leaves its band, the "
-        "command refuses to write, and a test compares this page with what is measured."
+        f"here: {said}. `python -m replication ledger --write` writes this page from the kept "
+        "numbers of the figures and from theory; `python -m replication claim NAME` measures one "
+        "of them, with `--afresh` from nothing. A verdict stands on a number: where that leaves "
+        "its band, the command refuses to write, and a test compares this page with what is "
+        "measured."
     )
     return f"# The thesis, claim by claim\n\n{fill(text, 108)}\n\n{fill(_ERRORS, 108)}"
 
@@ -51,9 +49,10 @@ _PLURAL = {
 }
 _ERRORS = (
     "Errors of simulations are the solver's own estimates, which cover the true error in nine of "
-    "ten cases and more ([performance](performance.md)). Figures are in the [gallery](gallery.md); "
-    "the authors' rows are judged [one by one](../replication/published/README.md), and what models "
-    "learn from them [on a page of its own](../replication/learning/README.md)."
+    "ten cases and more ([performance](performance.md)). Figures are in the "
+    "[gallery](gallery.md); the authors' rows are judged [one by "
+    "one](../replication/published/README.md), and what models learn from them [on a page of its "
+    "own](../replication/learning/README.md)."
 )
 _READING = (
     "Units: P̂ is P/(πRΔγ0) as in chapter 4; rates are rτ0/h0; k P/P_JKR is k times the force in "
@@ -70,39 +69,32 @@ def _derived_twice(of: Of) -> str:
         "|---|---|---|---|---|",
         (
             f"| stress of an elastic layer at b1, in σ0 √(a0/a) | {n['at_b1_limit']:.4f}, from "
-            f"a/a0 = "
-            f"64, 256, 1024: {', '.join(f'{x:.3f}' for x in n['at_b1'])} | "
-            f"{n['at_b1_exact']:.4f}, exact "
-            f"compliance of the strip | {100 * (n['at_b1_limit'] / n['at_b1_exact'] - 1):+.2f} % "
-            f"| the crack "
-            "of a finite zone recedes by a part of the order √(a0/a) before the pull-off; what is "
-            "left is "
-            "the extrapolation by a parabola |"
+            f"a/a0 = 64, 256, 1024: {', '.join(f'{x:.3f}' for x in n['at_b1'])} | "
+            f"{n['at_b1_exact']:.4f}, exact compliance of the strip | "
+            f"{100 * (n['at_b1_limit'] / n['at_b1_exact'] - 1):+.2f} % | the crack of a finite "
+            "zone recedes by a part of the order √(a0/a) before the pull-off; what is left is the "
+            "extrapolation by a parabola |"
         ),
         (
-            f"| fast limit of k P/P_JKR at μ = 3.24, k = 0.1 | "
+            "| fast limit of k P/P_JKR at μ = 3.24, k = 0.1 | "
             f"{', '.join(f'{f:.4f} ({d:g} h0)' for d, f in zip(n['depth'], fast, strict=True))} | "
             f"{limit:.4f}, f(μk^(1/3)) by superposition | {100 * (fast[-1] / limit - 1):+.2f} % | "
-            f"the theory "
-            "is that of an infinitely large start; the difference falls with the power -1.5 of "
-            "the depth |"
+            "the theory is that of an infinitely large start; the difference falls with the power "
+            "-1.5 of the depth |"
         ),
         (
             "| pull-off of the PDMS lens with h0 = 30.8 nm at 1, 10, 100, 1000 µm/s, mN | "
             f"{', '.join(f'{x:.3f}' for x in lens['simulated'])} | "
             f"{', '.join(f'{x:.3f}' for x in lens['crack'])}, a contact whose edge is the steady "
-            f"crack | "
+            "crack | "
             f"{', '.join(f'{100 * x:+.2f}' for x in lens['simulated'] / lens['crack'] - 1)} % | "
-            f"at μ = 103 "
-            "the zone is 1e-4 of the contact: both have the same limit; the theory states a band "
-            "of "
-            f"{100 * np.max(lens['band']):.1f} % |"
+            "at μ = 103 the zone is 1e-4 of the contact: both have the same limit; the theory "
+            f"states a band of {100 * np.max(lens['band']):.1f} % |"
         ),
     ]
     return (
-        "## Three claims derived twice\n\n"
-        "Numbers of `python -m replication figure limits`; no constant is fitted on either "
-        "side.\n\n" + "\n".join(rows)
+        "## Three claims derived twice\n\nNumbers of `python -m replication figure limits`; no "
+        "constant is fitted on either side.\n\n" + "\n".join(rows)
     )
 
 

@@ -55,7 +55,7 @@ def _short(of: Of) -> Measured:
         float(off[0]),
         f"{n['force'][i][0]:.2f} ± {100 * np.nanmax(error):.1g} % mN at 1 µm/s, thesis "
         f"{n['linear'][0]:.2f}; {100 * np.min(off):+.0f} to {100 * np.max(off):+.0f} % over the "
-        f"series",
+        "series",
     )
 
 
@@ -231,8 +231,7 @@ CLAIMS = (
         (1.8, 2.2),
         Verdict.CORRECTED,
         "right if h0 = 1.55 µm (4.2 is the end of the fit, JKR); a curve with the 200 nm of the "
-        "rate "
-        "series is read as JKR, with 12 % too much work: the two tests contradict each other",
+        "rate series is read as JKR, with 12 % too much work: the two tests contradict each other",
     ),
     Claim(
         "short-range",

@@ -47,8 +47,8 @@ def _alpha(of: Of) -> Measured:
     return Measured(
         found["over f"],
         f"{found['over f']:.3f} ± {found['over f'] * float(n['over f']['left'][i]):.3f} of the "
-        f"force "
-        f"over f(μ), {found['as it is']:.3f} as it is, {found['steady']:.3f} of the steady crack",
+        f"force over f(μ), {found['as it is']:.3f} as it is, {found['steady']:.3f} of the steady "
+        "crack",
     )
 
 
@@ -119,7 +119,7 @@ def _standard(of: Of) -> Measured:
         float(np.max(np.abs(off))),
         f"theory {100 * np.min(off):+.1f} to {100 * np.max(off):+.1f} % at equal crack speed, "
         f"simulation {100 * np.min(simulated):+.1f} to {100 * np.max(simulated):+.1f} % at equal "
-        f"rate",
+        "rate",
     )
 
 
@@ -237,8 +237,7 @@ def _upper(of: Of) -> Measured:
     return Measured(
         top / float(n["glassy"]),
         f"{top:.1f} ± {100 * float(n['error'][i]):.1g} % at rate {n['simulated_rate'][i]:.3g}, "
-        f"where "
-        f"Eq. 43 is {n['glassy']:.1f}",
+        f"where Eq. 43 is {n['glassy']:.1f}",
     )
 
 
@@ -254,8 +253,8 @@ def _lower(of: Of) -> Measured:
     ends = float(np.nanmin(slow["simulated"])) / float(slow["rubbery"])
     return Measured(
         ends,
-        f"{ends:.2f} of Eq. 46 at rate 0.01 from 73 h0; but {n['rows_below_eq_46']} of {n['rows']} "
-        f"rows from shallow starts are below, down to {n['least_over_eq_46']:.2f}",
+        f"{ends:.2f} of Eq. 46 at rate 0.01 from 73 h0; but {n['rows_below_eq_46']} of "
+        f"{n['rows']} rows from shallow starts are below, down to {n['least_over_eq_46']:.2f}",
     )
 
 
@@ -263,8 +262,8 @@ def _bound(of: Of) -> Measured:
     n = of("work-bound")
     return Measured(
         float(n["largest_short"]),
-        f"{n['largest_short']:.2f} of it at most in {n['short_rows']} rows with μk^(1/3) > 1; long "
-        f"ranges leave it (μk^(1/3) = {n['largest_at_tabor']:.2g}: {n['largest']:.1f})",
+        f"{n['largest_short']:.2f} of it at most in {n['short_rows']} rows with μk^(1/3) > 1; "
+        f"long ranges leave it (μk^(1/3) = {n['largest_at_tabor']:.2g}: {n['largest']:.1f})",
     )
 
 

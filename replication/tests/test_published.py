@@ -10,6 +10,7 @@ pytest.importorskip("pyarrow", reason="comes with viscotack[campaign]")
 
 from replication.published.__main__ import app, drawn  # noqa: E402
 from replication.published.compare import APART, INPUTS, compare, inputs_of  # noqa: E402
+from replication.published.corrected import COLUMNS, corrected  # noqa: E402
 from replication.published.page import page  # noqa: E402
 from replication.table import Detachments  # noqa: E402
 from viscotack import (  # noqa: E402
@@ -144,3 +145,17 @@ def test_the_answer_at_once_tells_the_published_rows(published):
     assert told.mean() > 0.95
     off = said["pull_off_force"][told] / some.pull_off_force[told] - 1
     assert np.median(np.abs(off)) < 5e-3
+
+
+def test_the_corrected_table_has_ours_beside_theirs(rows, table):
+    """Rows that are apart have their converged run; others are there if they are in the sample."""
+    found = corrected(rows, table, accuracy=2e-3)
+    lines = [dict(zip(COLUMNS, line, strict=True)) for line in found]
+    assert len(lines) == len(CASES)
+    apart = [line for line in lines if line["accuracy"] == "0.0001"]
+    assert len(apart) == 1
+    assert float(apart[0]["force_difference"]) == pytest.approx(OFF - 1, abs=3e-3)
+    assert 0 < float(apart[0]["force_error"]) < 1e-3
+    assert lines[2]["published_work"] == "" and lines[2]["work_difference"] == ""
+    none = table.chosen(np.zeros(len(table), dtype=bool))
+    assert len(corrected(rows, none, accuracy=2e-3)) == 1
