@@ -11,6 +11,8 @@ from viscotack import InputError
 
 from ..bench import Numbers
 
+# Difference that is said [%].
+_LEAST = 0.002
 # Returns the numbers of a figure by its name.
 Of = Callable[[str], Numbers]
 
@@ -97,10 +99,13 @@ class Claim:
     def row(self, of: Of) -> str:
         """Return its line of the ledger."""
         found = self.measured(of)
-        thesis, apart = self.thesis, "-"
-        if isinstance(thesis, float):
-            apart = f"{100 * (found.value / thesis - 1):+.3g} %" if thesis else "-"
-            thesis = f"{thesis:.6g}"
+        thesis, apart = str(self.thesis), "-"
+        if isinstance(self.thesis, float):
+            thesis = f"{self.thesis:.6g}"
+            if self.thesis:
+                off = 100 * (found.value / self.thesis - 1)
+                # what is below that is round-off, which another processor has otherwise
+                apart = f"{off:+.3g} %" if abs(off) > _LEAST else "0"
         cells = (
             f"`{self.name}`",
             f"{self.says} ({self.place})",

@@ -161,6 +161,20 @@ def _arms(of: Of) -> Measured:
     )
 
 
+def _pinned(of: Of) -> Measured:
+    n = of("printed-algorithm")
+    off = n["force"] / n["expected"]
+    words = "; ".join(
+        f"N = {nodes:g}: {', '.join(f'{x:.4g}' for x in row)}"
+        for nodes, row in zip(n["nodes"], off, strict=True)
+    )
+    at = ", ".join(f"{mu:g}" for mu in n["tabor"])
+    return Measured(
+        float(np.min(off[:, -1])),
+        f"{words} times the elastic force at μ = {at} (below 1: given up)",
+    )
+
+
 CLAIMS = (
     Claim(
         "highest-gain",
@@ -242,6 +256,16 @@ CLAIMS = (
         (0.45, 0.6),
         Verdict.FAILS,
         "by simulation and by the steady crack (`lens-twice`)",
+    ),
+    Claim(
+        "printed-algorithm",
+        "App. V, Fig. 4.10",
+        "The printed algorithm, N = 500, ran the lens with 30.8 nm",
+        1.0,
+        _pinned,
+        (1.5, 20.0),
+        Verdict.FAILS,
+        "at μ = 103 a zone is 1/100 of the distance of its nodes: the edge is pinned to them",
     ),
     Claim(
         "middle-range",
