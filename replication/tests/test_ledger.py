@@ -9,7 +9,10 @@ pytest.importorskip("sklearn", reason="comes with viscotack[replication]")
 pytest.importorskip("xgboost", reason="comes with viscotack[replication]")
 pytest.importorskip("pyarrow", reason="comes with viscotack[campaign]")
 
+from typer.testing import CliRunner  # noqa: E402
+
 import viscotack as vt  # noqa: E402
+from replication.__main__ import app  # noqa: E402
 from replication.figures.catalogue import THESIS  # noqa: E402
 from replication.gallery import GALLERY, PICTURES, SEEN, text  # noqa: E402
 from replication.kept import kept  # noqa: E402
@@ -97,3 +100,36 @@ def test_the_gallery_has_a_picture_and_a_paragraph_of_each_figure():
     pictures = list(PICTURES.glob("*.png"))
     assert {path.name for path in pictures} == {f"{n.replace('.', '_')}.png" for n in SEEN}
     assert all(path.stat().st_size < LARGEST_PICTURE for path in pictures)
+
+
+def asked(*words):
+    """Return exit status and output of ``python -m replication``."""
+    answer = CliRunner().invoke(app, [*map(str, words)])
+    return answer.exit_code, answer.output
+
+
+def test_a_figure_made_afresh_says_how_far_it_is_from_the_kept_one(tmp_path):
+    code, said = asked("figure", "2.1", "--afresh", "--workers", 1, "--svg", "--out", tmp_path)
+    assert code == 0 and (tmp_path / "2_1.svg").exists()
+    assert "Claims: adhesion makes the contact larger" in said
+    assert "they differ by 0.0e+00 at most" in said
+
+
+def test_commands_refuse_in_words():
+    for words in (("figure", "9.9"), ("claim", "alfa")):
+        code, said = asked(*words)
+        assert code == 2 and "there are" in said
+
+
+def test_a_claim_is_measured_by_its_command(measured):
+    code, said = asked("claim", "upper-bound")
+    assert code == 0 and "does not hold" in said and "88.9 ± 0.6 %" in said
+    code, said = asked("ledger")
+    assert code == 0 and said.strip() == measured.strip()
+
+
+@pytest.mark.slow
+def test_everything_is_drawn_and_measured_from_kept_numbers(tmp_path):
+    code, said = asked("--all", "--workers", 1, "--out", tmp_path)
+    assert code == 0 and "every verdict stands" in said
+    assert {path.stem for path in tmp_path.glob("*.png")} == {n.replace(".", "_") for n in SEEN}
