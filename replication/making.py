@@ -45,7 +45,9 @@ class Maker:
     def of(self, name: str) -> Numbers:
         """Return the numbers of a figure as they are kept, to so many digits."""
         if name not in self.made:
-            lacking = Figure(name).needs_table and self.table is None
+            lacking = self.afresh and Figure(name).needs_table and self.table is None
+            if lacking:
+                self.say(f"figure {name} needs the whole published table (--table): as it is kept")
             self.made[name] = self._made(name) if self.afresh and not lacking else kept(name)
         return self.made[name]
 

@@ -115,6 +115,11 @@ def test_a_figure_made_afresh_says_how_far_it_is_from_the_kept_one(tmp_path):
     assert "they differ by 0.0e+00 at most" in said
 
 
+def test_what_is_taken_as_it_is_kept_though_asked_for_afresh_is_said():
+    code, said = asked("claim", "random-rows", "--afresh", "--workers", 1)
+    assert code == 0 and "published-rows needs the whole published table (--table)" in said
+
+
 def test_commands_refuse_in_words():
     for words in (("figure", "9.9"), ("claim", "alfa")):
         code, said = asked(*words)
