@@ -81,7 +81,6 @@ def of_table(number: str, each: Callable[..., Any]) -> dict[str, Any]:
         "r2": [float(s.r2.mean()) for s in scores],
         "r2_spread": [float(s.r2.std()) for s in scores],
         "size": [int(round(float(s.sizes.mean()))) for s in scores],
-        "fit_seconds": [s.train_time_s for s in scores],
         "thesis_mse": [printed.entries[name].mse for name in learners],
         "thesis_mse_spread": [printed.entries[name].mse_spread for name in learners],
         "thesis_r2": [printed.entries[name].r2 for name in learners],
