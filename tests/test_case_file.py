@@ -1,8 +1,10 @@
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
 
+from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import (
     Elastic,
@@ -12,7 +14,7 @@ from viscotack.materials import (
     StandardSolid,
 )
 from viscotack.problem import Problem
-from viscotack.problem.case_file import read_case
+from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.prony_file import read_prony
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import LennardJones
@@ -284,3 +286,22 @@ def test_the_documented_case_is_the_lens(tmp_path):
 def test_all_that_is_missing_is_named_at_once(edit, said, tmp_path):
     with pytest.raises(ValueError, match=said):
         read_case(written(tmp_path, edit(POWER_LAW)))
+
+
+def test_tables_that_were_sent_state_what_the_file_states():
+    assert case_of_tables(tomllib.loads(POWER_LAW)) == LENS
+
+
+@pytest.mark.parametrize(
+    ("table", "replaced"),
+    [
+        ("material", {"passport": "pdms.toml"}),
+        ("material", {"model": "prony", "rubbery_modulus": "1 MPa", "file": "/etc/passwd"}),
+        ("interface", {"law": "table", "file": "law.csv"}),
+        ("protocol", {"history": "drive.csv"}),
+    ],
+)
+def test_tables_that_were_sent_name_no_file(table, replaced):
+    tables = tomllib.loads(POWER_LAW) | {table: replaced}
+    with pytest.raises(InputError, match=r"the case, \[.*a case that is sent can name none"):
+        case_of_tables(tables)

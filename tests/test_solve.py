@@ -204,6 +204,20 @@ def test_fields_are_kept_on_request_and_agree_with_the_force():
     assert solve(case(), until="pull-off", estimate_error=False).fields is None
 
 
+def test_what_watches_a_run_is_told_its_curve_and_ends_it():
+    steps = []
+    result = solve(case(), watch=lambda *step: steps.append(step))
+    told = np.array(steps).T
+    for name, seen in zip(("time", "depth", "force", "contact_radius"), told, strict=True):
+        np.testing.assert_array_equal(seen, getattr(result, name)[1:])
+
+    def enough(*step):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve(case(), watch=enough)
+
+
 def test_progress_goes_from_zero_to_one():
     seen = []
     solve(case(), progress=seen.append, estimate_error=False)

@@ -50,6 +50,7 @@ def march(
     growing: Any = None,
     profiles: bool = False,
     progress: Callable[[float], None] | None = None,
+    watch: Callable[[Snapshot], None] | None = None,
 ) -> History:
     """Take a body at rest through the legs and return its history.
 
@@ -73,6 +74,8 @@ def march(
                 at = _judged(run, at, until)
             if progress is not None:
                 progress(_share(run, at))
+            if watch is not None:
+                watch(history.snapshots[-1])
     except TimeUp as limit:
         history.outcome, history.reason = "time", str(limit)
     return history

@@ -11,7 +11,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from viscotack.bem import by_crack
-from viscotack.bem.books import History
+from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, limited, met
 from viscotack.bem.contacts.contact import Contact, Relaxed
@@ -40,6 +40,8 @@ from viscotack.traction import effective_range, grows
 
 # Is told the done share of the work.
 Progress = Callable[[float], None] | None
+# Is told time, depth, force and contact radius of each step, as a `Result` has them.
+Watch = Callable[[float, float, float, float], None] | None
 
 _UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
@@ -74,6 +76,7 @@ def solve(
     fields: bool = False,
     throw: bool = True,
     progress: Progress = None,
+    watch: Watch = None,
     time_limit: float | None = None,
 ) -> Result:
     """Simulate the detachment of a rigid indenter from a viscoelastic solid.
@@ -110,6 +113,10 @@ def solve(
     progress : callable, optional
         Called after every step with the done share of the way, from 0 to 1, that of the coarser
         companion being the last part.
+    watch : callable, optional
+        Called after every step of the run itself with its time, depth, force and contact radius,
+        dimensionless as the series of a result: a curve to be drawn while it grows. What it raises
+        ends the run and is raised here.
     time_limit : float, optional
         Longest time [s] for the run and its companion. A run that meets it is stopped: it keeps
         what there is, and its status says so.
@@ -178,7 +185,9 @@ def solve(
         try:
             beginning = None if whole else _beginning(groups, contact, chosen, light)
             marched = groups if beginning is None else _from(groups, beginning.start.depth)
-            result = _run(problem, marched, chosen, until, fields, _part(progress, 0.0, share))
+            result = _run(
+                problem, marched, chosen, until, fields, _part(progress, 0.0, share), watch
+            )
         except TimeUp as limit:
             raise InputError(
                 f"{limit} before the relaxed start was found; give more time, or ask for less "
@@ -257,6 +266,7 @@ def _run(
     until: str,
     fields: bool,
     progress: Progress,
+    watch: Watch = None,
 ) -> Result:
     contact = contact_of(groups)
     start, legs = _begun(groups, contact, settings)
@@ -269,6 +279,11 @@ def _run(
     grading = contact.grading(settings, max(depths))
     if not modes.weights:
         grading = replace(grading, scar_half_width=0.0)
+
+    def seen(step: Snapshot) -> None:
+        if watch is not None:
+            watch(step.time, step.depth, step.force, step.edge / contact.edge_unit)
+
     history = march(
         contact,
         start,
@@ -280,6 +295,7 @@ def _run(
         growing=groups.traction if grows(groups.traction) else None,
         profiles=fields,
         progress=progress,
+        watch=None if watch is None else seen,
     )
     return _result(problem, groups, contact, history, modes, fields)
 

@@ -1,5 +1,6 @@
 """TOML files, with errors that show the line."""
 
+import json
 import os
 import re
 import tomllib
@@ -70,6 +71,23 @@ def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
     shown = f"{shown[:_SHOWN]} ..." if len(shown) > _SHOWN else shown
     words = words[:1].lower() + words[1:]
     raise InputError(f"{os.fspath(path)} is not a TOML file, line {number}, `{shown}`: {words}")
+
+
+def toml_value(value: Any) -> str:
+    """Return a value as TOML writes it: text, a number, or a list of them or of lists.
+
+    Examples
+    --------
+    >>> toml_value(["5 MPa", 0.5])
+    '["5 MPa", 0.5]'
+    """
+    if isinstance(value, list | tuple) and value and isinstance(value[0], list | tuple):
+        return "[\n" + "".join(f"    {toml_value(row)},\n" for row in value) + "]"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(toml_value(entry) for entry in value) + "]"
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)
 
 
 def _place(words: str, text: str) -> tuple[str, int]:

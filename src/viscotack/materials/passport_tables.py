@@ -1,9 +1,9 @@
 """A passport as the text of its TOML file: the tables, and every number with all its digits."""
 
-import json
 from dataclasses import fields
 from typing import Any
 
+from viscotack.files.toml import toml_value
 from viscotack.materials.conversion import prony_form, relaxation_form, retardation_series
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import WLF, Arrhenius, FittedShift, Shift, TabulatedShift
@@ -32,13 +32,14 @@ def passport_text(passport: Passport) -> str:
     lines = [
         "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
         f"passport = {VERSION}",
-        f"name = {_quoted(passport.name)}",
+        f"name = {toml_value(passport.name)}",
     ]
     for name, values in _tables(passport).items():
         if values:
-            lines += ["", f"[{name}]", *(f"{key} = {_toml(v)}" for key, v in values.items())]
+            lines += ["", f"[{name}]", *(f"{key} = {toml_value(v)}" for key, v in values.items())]
     for solid in passport.allowed:
-        lines += ["", "[[allowed]]", *(f"{key} = {_toml(v)}" for key, v in _solid(solid).items())]
+        rows = _solid(solid).items()
+        lines += ["", "[[allowed]]", *(f"{key} = {toml_value(v)}" for key, v in rows)]
     return "\n".join(lines) + "\n"
 
 
@@ -150,17 +151,3 @@ def _quantity(value: float, unit: str) -> Any:
 
 def _pairs(pairs: Any, first: str, second: str) -> list[list[str]]:
     return [[_quantity(a, first), _quantity(b, second)] for a, b in pairs]
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, list | tuple) and value and isinstance(value[0], list | tuple):
-        return "[\n" + "".join(f"    {_toml(row)},\n" for row in value) + "]"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(_toml(entry) for entry in value) + "]"
-    if isinstance(value, str):
-        return _quoted(value)
-    return repr(value)
-
-
-def _quoted(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

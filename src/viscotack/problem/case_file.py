@@ -57,8 +57,55 @@ def read_case(
         If it is not TOML, a table or key is missing, unknown or of the wrong kind, or the problem
         is impossible; with file, table and key.
     """
-    path, nouns = Path(path), known(also)
-    tables = read_toml(path)
+    path = Path(path)
+    return _stated(path, read_toml(path), known(also), temperature)
+
+
+def case_of_tables(
+    tables: Mapping[str, Any], *, where: str = "the case", also: Iterable[Any] = ()
+) -> Problem:
+    """Return the problem that the tables of a case file state, without the file.
+
+    Parameters
+    ----------
+    tables : mapping
+        As :func:`read_case` has them; none may name a file.
+    where : str
+        What errors call it.
+    also : iterable of classes
+        Laws, materials and shapes of the user's own that it may name by their words.
+
+    Raises
+    ------
+    ValueError
+        As :func:`read_case`; and if a table names a file.
+
+    Examples
+    --------
+    >>> problem = case_of_tables(
+    ...     {
+    ...         "material": {
+    ...             "model": "elastic", "rubbery_modulus": "1 MPa", "poisson_ratio": 0.5
+    ...         },
+    ...         "interface": {
+    ...             "law": "lennard-jones",
+    ...             "work_of_adhesion": "50 mJ/m^2",
+    ...             "equilibrium_gap": "1 um",
+    ...         },
+    ...         "sphere": {"radius": "1 mm"},
+    ...         "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
+    ...     }
+    ... )
+    >>> problem.geometry
+    Sphere(radius=0.001)
+    """
+    return _stated(where, tables, known(also), None)
+
+
+def _stated(
+    path: Path | str, tables: Mapping[str, Any], nouns: Nouns, temperature: float | None
+) -> Problem:
+    """Return the problem of tables that stand in a file, or were sent."""
     shape = _shape_table(path, tables, nouns)
     plain = nouns.shapes[shape].symmetry == "plane"
     names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))
@@ -93,7 +140,7 @@ def read_case(
         raise InputError(f"{path}: {error}") from None
 
 
-def _shape_table(path: Path, tables: Mapping[str, Any], nouns: Nouns) -> str:
+def _shape_table(path: Path | str, tables: Mapping[str, Any], nouns: Nouns) -> str:
     """Return the name of the table that states the indenter."""
     given = [name for name in tables if name in nouns.shapes]
     if len(given) > 1:
@@ -166,7 +213,7 @@ def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material
 
 def _passport(table: Table, temperature: float | None) -> tuple[Passport, float | None]:
     """Return the passport beside the file, and the temperature [K] that is asked for."""
-    passport = read_passport(table.path.parent / str(table.get("passport", '"pdms.toml"')))
+    passport = read_passport(table.beside("passport", '"pdms.toml"'))
     stated = None
     if "temperature" in table.values:
         stated = table.quantity("temperature", "K", '"20 degC"')
@@ -175,7 +222,7 @@ def _passport(table: Table, temperature: float | None) -> tuple[Passport, float 
 
 def _prony(table: Table) -> Prony:
     """Return a Prony series whose branches are in a file, in moduli over the rubbery one."""
-    ratios, unit = read_prony(table.path.parent / str(table.get("file", '"prony.csv"')))
+    ratios, unit = read_prony(table.beside("file", '"prony.csv"'))
     if unit == "1":
         raise InputError(
             f"{table.name} file: its times have no unit; name the column relaxation_time_s"

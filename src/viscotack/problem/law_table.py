@@ -30,7 +30,7 @@ def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
 
 def _of_gap(table: Table, kind: Any) -> Traction:
     if kind is Tabulated:
-        return _tabulated(table.path.parent / str(table.get("file", '"table.csv"')))
+        return _tabulated(table.beside("file", '"table.csv"'))
     scales = cards(kind)
     table.require(
         field

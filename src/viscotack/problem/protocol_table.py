@@ -54,7 +54,7 @@ def _history(
             raise InputError(
                 f"{table.name} history states the start and the moves; leave out {key}"
             )
-    return history_from_file(table.path.parent / str(table.get("history")), equilibrium_gap)
+    return history_from_file(table.beside("history", '"drive.csv"'), equilibrium_gap)
 
 
 def _start(table: Table, units: Mapping[str, str]) -> Start | Apart:

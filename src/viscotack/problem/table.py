@@ -19,7 +19,7 @@ OWN = "; one of your own comes --with FILE.py"
 class Table:
     """A table of a file: hands out its keys, and knows which were never asked for."""
 
-    def __init__(self, path: Path, name: str, tables: Mapping[str, Any]) -> None:
+    def __init__(self, path: Path | str, name: str, tables: Mapping[str, Any]) -> None:
         self.path, self.name = path, f"{path}, [{name}]"
         if not isinstance(tables.get(name), dict):
             raise InputError(f"{path}: the table [{name}] is missing; see docs/input.md")
@@ -35,6 +35,20 @@ class Table:
                 f"{key} = {example}"
             )
         return self.values[key]
+
+    def beside(self, key: str, example: str) -> Path:
+        """Return the file that a key names, beside the file that the table stands in.
+
+        Tables that were sent and stand in no file, so that `path` is a word, can name none: nobody
+        reads this machine's files by sending a case.
+        """
+        name = self.get(key, example)
+        if not isinstance(self.path, Path):
+            raise InputError(
+                f"{self.name} {key} names a file, {name!r:.60}, and a case that is sent can name "
+                "none; write the numbers themselves"
+            )
+        return self.path.parent / str(name)
 
     def require(self, fields: Iterable[Field]) -> None:
         """Name all at once where several of the keys are missing that some cards describe."""
