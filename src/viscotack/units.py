@@ -76,6 +76,8 @@ def parse(value: str | float, unit: str) -> float:
     return finite(repr(value), number, unit)
 
 
+# a page asks for the same words at every move of a slider, and each costs a millisecond
+@lru_cache(maxsize=4096)
 def _converted(text: str, number: float, words: str, unit: str) -> float:
     import pint
 

@@ -277,6 +277,59 @@ def advise(problem: Problem | Groups) -> Advice:
     )
 
 
+def edge_curve(problem: Problem | Groups) -> tuple[unloading.Unloading, Estimate] | None:
+    """Return the unloading curve of a moving edge on a relaxed bulk, and whether it applies.
+
+    Some milliseconds; what :func:`advise` calls "unloading".
+
+    Parameters
+    ----------
+    problem : Problem or Groups
+        As for :func:`advise`.
+
+    Returns
+    -------
+    (Unloading, Estimate) or None
+        The curve without dimensions: depth [h0], force [1.5 pi R dg0], contact radius
+        [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result, time in the time unit; force and
+        pull-off without the correction for the range of the forces that the estimate has. None for
+        elastic solids and for starts at which JKR has no contact.
+
+    Raises
+    ------
+    ValueError
+        As :func:`advise`.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid
+    >>> material = StandardSolid(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(20), rate=1)
+    >>> curve, estimate = edge_curve(case)
+    >>> f"{-min(curve.force):.2f}, {estimate.applies}"
+    '1.92, True'
+    """
+    asked = problem.groups()
+    _check(asked)
+    groups = lennard_jones_alike(asked)
+    depth = _start_depth(groups)
+    curve = None if depth is None else _unloading(groups, depth)
+    if curve is None:
+        return None
+    slowest = float(np.asarray(lennard_jones.pull_off_ratio(groups.tabor)))
+    scaled = unloading.Unloading(
+        time=curve.time,
+        depth=curve.depth * asked.tabor,
+        contact_radius=curve.contact_radius / _TIP,
+        force=curve.force / _JKR_FORCE,
+        edge_speed=curve.edge_speed,
+        amplification=curve.amplification,
+    )
+    return scaled, _of_law(_unloaded(groups, slowest, curve), asked)
+
+
 def threshold_contact_radius(
     problem: Problem | Groups, *, slope: float, accuracy: float = 2e-3
 ) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.conversion import slowed
@@ -91,10 +91,54 @@ def predict(
     if unlearned := _unlearned(groups):
         return by_crack(problem, unlearned)
     assert isinstance(groups, Groups), "others were not learned"
-    learned = _learned()
-    rows, out = _inputs(groups, learned, problem)
+    rows, out = _inputs(groups, _learned(), problem)
     if out:
         return by_theory(problem, groups, "; ".join(out), confidence)
+    return _answered(problem, rows, confidence)
+
+
+def learned_prediction(
+    problem: Problem | Groups | PunchGroups, *, confidence: float = 0.9
+) -> Prediction:
+    """Return what the surrogate says, in some milliseconds whatever the problem.
+
+    Parameters and returns are those of :func:`predict`, which asks the theories where this has no
+    answer; they may take seconds.
+
+    Raises
+    ------
+    OutOfRange
+        If the problem lies outside of what was learned: which input is out, and the range.
+    ValueError
+        If the confidence is not one of those that were measured.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, OutOfRange, StandardSolid
+    >>> material = StandardSolid(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
+    >>> try:
+    ...     learned_prediction(groups)
+    ... except OutOfRange as error:
+    ...     print(error)
+    the material is StandardSolid, and RetardationPowerLaw alone was learned from
+    """
+    groups = _groups(problem)
+    check_confidence(confidence)
+    out = [_unlearned(groups)]
+    rows = np.empty((1, 0))
+    if isinstance(groups, Groups) and not out[0]:
+        rows, out = _inputs(groups, _learned(), problem)
+    if any(out):
+        raise OutOfRange("; ".join(words for words in out if words))
+    return _answered(problem, rows, confidence)
+
+
+def _answered(problem: Any, rows: Array, confidence: float) -> Prediction:
+    """Return what was learned of a problem, of which these are the inputs, shape (1, 5)."""
+    learned = _learned()
     answers = learned.evaluate(rows)
     held = learned.intervals(rows, answers, confidence=confidence)
     curves = learned.curves(rows, answers)

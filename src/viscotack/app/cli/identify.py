@@ -1,7 +1,6 @@
 """The commands ``viscotack identify ...``: from measured curves to the interface."""
 
 import json
-from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -9,6 +8,7 @@ from typing import Annotated, Any
 import typer
 from typer import Option
 
+from viscotack.app.records import rates_record, slow_record
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.units import parse
@@ -165,7 +165,9 @@ def slow_command(
     write.picture(plot_file, lambda: draw_slow_test(fit))
     for path, why in found.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
-    write.answer(_as_json(fit) if as_json else _words(fit))
+    write.answer(
+        json.dumps(slow_record(fit), indent=2, allow_nan=False) if as_json else _words(fit)
+    )
     write.end()
 
 
@@ -313,7 +315,7 @@ def rates_command(
     for path, why in found.survey.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
     if as_json:
-        write.answer(json.dumps(_rates(fit), indent=2, allow_nan=False))
+        write.answer(json.dumps(rates_record(fit), indent=2, allow_nan=False))
     else:
         rows = [
             f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
@@ -321,26 +323,6 @@ def rates_command(
         ]
         write.answer("\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"]))
     write.end()
-
-
-def _rates(fit: Any) -> dict[str, Any]:
-    return {
-        "work_of_adhesion_J_m2": fit.work_of_adhesion,
-        "equilibrium_gap_m": fit.equilibrium_gap,
-        "tabor": fit.tabor,
-        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
-        "scatter": fit.scatter,
-        "series": [
-            {
-                "speed_m_s": one.speed,
-                "pull_off_force_N": one.force.value,
-                "pull_off_force_N_uncertainty": one.force.uncertainty,
-                "fitted_N": force,
-            }
-            for one, force in zip(fit.series, fit.forces, strict=True)
-        ],
-        "words": list(fit.words),
-    }
 
 
 def _pair(flag: str, words: tuple[str | None, str | None], unit: str) -> tuple[float, float] | None:
@@ -351,30 +333,6 @@ def _pair(flag: str, words: tuple[str | None, str | None], unit: str) -> tuple[f
     if value is None or uncertainty is None:
         return None
     return parse(value, unit), parse(uncertainty, unit)
-
-
-def _as_json(fit: Any) -> str:
-    fits = [
-        {
-            "model": one.model,
-            "work_of_adhesion_J_m2": one.work_of_adhesion,
-            "contact_modulus_Pa": one.contact_modulus,
-            "tabor": one.tabor,
-            "scatter_N": one.scatter,
-            "criterion": one.criterion,
-            "intervals": {name: asdict(interval) for name, interval in one.intervals.items()},
-        }
-        for one in fit.fits
-    ]
-    answer = {
-        "against": fit.test.against,
-        "points": int(fit.test.force.size),
-        "level": fit.level,
-        "evidence": fit.evidence,
-        "fits": fits,
-        "words": list(fit.words),
-    }
-    return json.dumps(answer, indent=2, allow_nan=False)
 
 
 def _words(fit: Any) -> str:

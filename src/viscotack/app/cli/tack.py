@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 from typer import Argument, Option
 
+from viscotack.app.records import cycle_row, tests_record
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.units import parse
@@ -24,23 +25,6 @@ tests = typer.Typer(
 application.add_typer(tests, name="test")
 
 _SIGNS = {"+": 1, "-": -1, None: 0}
-# name in Python -> name in tables, with the unit
-_MEASURED = {
-    "pull_off_force": "pull_off_force_N",
-    "pull_off_depth": "pull_off_depth_m",
-    "work_to_pull_off": "work_to_pull_off_J",
-    "work_of_separation": "work_of_separation_J",
-    "preload": "preload_N",
-    "preload_depth": "preload_depth_m",
-    "speed": "speed_m_s",
-    "mean_speed": "mean_speed_m_s",
-}
-_PLAIN = {
-    "pull_off_raw": "pull_off_raw_N",
-    "dwell_time": "dwell_time_s",
-    "approach_speed": "approach_speed_m_s",
-    "noise": "noise_N",
-}
 
 TestFiles = Annotated[
     list[Path],
@@ -183,7 +167,7 @@ def read_command(
             raise InputError(nothing(found))
     write = Writing()
     rows = [
-        {"file": one.record.source.path, **_row(cycle)}
+        {"file": one.record.source.path, **cycle_row(cycle)}
         for one in found.evaluations
         for cycle in one.cycles
     ]
@@ -191,7 +175,9 @@ def read_command(
     write.picture(plot_file, lambda: draw_tests(found.cycles))
     for path, why in found.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
-    write.answer(_as_json(found) if as_json else _words(found))
+    write.answer(
+        json.dumps(tests_record(found), indent=2, allow_nan=False) if as_json else _words(found)
+    )
     write.end()
 
 
@@ -243,36 +229,12 @@ def nothing(found: Any) -> str:
     return f"no cycle of a tack test could be read:\n  {reasons}"
 
 
-def _row(cycle: Any) -> dict[str, Any]:
-    """Return the numbers of a cycle by their names with units."""
-    row: dict[str, Any] = {"cycle": cycle.number}
-    for name, column in _MEASURED.items():
-        one = getattr(cycle, name)
-        row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
-    return row | {column: getattr(cycle, name) for name, column in _PLAIN.items()}
-
-
 def _as_csv(rows: list[dict[str, Any]]) -> bytes:
     stream = io.StringIO(newline="")
     writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     writer.writerows(rows)
     return stream.getvalue().encode()
-
-
-def _as_json(found: Any) -> str:
-    tests = [
-        {
-            "file": one.record.source.path,
-            "sha256": one.record.source.sha256,
-            "format": one.record.source.format,
-            "cycles": [_row(cycle) | {"notes": list(cycle.source.notes)} for cycle in one.cycles],
-            "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
-        }
-        for one in found.evaluations
-    ]
-    unread = [{"file": one.path, "reason": one.reason} for one in found.unread]
-    return json.dumps({"tests": tests, "unread": unread}, indent=2, allow_nan=False)
 
 
 def _words(found: Any) -> str:

@@ -26,6 +26,7 @@ from __future__ import annotations
 import bisect
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -210,6 +211,13 @@ def retraction(
 
 def _log_speed(law: CrackLaw) -> Callable[[float], float]:
     """Return ln of the dimensionless speed as a function of ln(Gamma - 1), tabulated once."""
+    return _tabulated(law.reduced())
+
+
+# half of the work, and the same at every load, speed and size
+@lru_cache(maxsize=32)
+def _tabulated(law: CrackLaw) -> Callable[[float], float]:
+    """Return that function of a law with dimensionless speeds."""
     k = law.material.modulus_ratio
     speeds, odds = _table(law)
     spline = CubicSpline(odds, speeds)

@@ -1,0 +1,1 @@
+"""What page and API ask: states, quick answers, and jobs in processes that can be ended."""

@@ -1,0 +1,183 @@
+"""What the page asks, read from the cards: a new law, solid or shape is in it by itself.
+
+The answer is plain data: the page draws fields from it and knows no noun by name.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from viscotack.cards import Field, Pairs, Quantity, card_of, cards
+from viscotack.geometry import Bonded, Frictionless, Layer, PowerLawProfile
+from viscotack.problem import plane, revolution
+from viscotack.problem.accuracy import Accuracy
+from viscotack.problem.nouns import Nouns, known
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
+from viscotack.traction import Tabulated
+
+# What a field that has no example begins with, by its unit.
+_SUGGESTED = {
+    "Pa": "2 kPa",
+    "s": "100 ms",
+    "m": "1 mm",
+    "m/s": "100 um/s",
+    "N": "1 mN",
+    "N/m": "500 N/m",
+    "Pa/m": "1 GPa/m",
+    "J/m^2": "0.05 J/m^2",
+    "1": "0.5",
+}
+# A power-law tip is stated by one point of its flank, as in a file.
+_POINT = {
+    "height": Quantity("m", "z", "height of the flank at that radius", above=0, example="10 um"),
+    "at_radius": Quantity(
+        "m", "r", "radius at which it has that height", above=0, example="0.2 mm"
+    ),
+}
+_STRENGTH = Quantity("Pa", "sigma0", "largest tension of the law", above=0, example="100 kPa")
+# Ways to begin, by what a force is measured in: that of a punch is a mean stress.
+_DEPTH = ("preload_depth", AtDepth, "pressed to a depth")
+_STARTS = {
+    "N": (
+        ("preload_force", AtForce, "pressed by a force"),
+        _DEPTH,
+        ("preload_radius", AtRadius, "to a contact radius"),
+    ),
+    "Pa": (("preload_stress", AtForce, "pressed by a mean stress"), _DEPTH),
+}
+
+
+def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
+    """Return all that can be asked, by the tables of a case file.
+
+    Parameters
+    ----------
+    also : iterable of classes
+        Laws, materials and shapes of the user's own.
+
+    Returns
+    -------
+    dict
+        ``material``, ``interface``, ``shape``: a list of choices, each with its word, title, words
+        and fields; ``layer``; ``protocol`` with its starts, by symmetry; ``accuracy``.
+
+    Examples
+    --------
+    >>> [choice["word"] for choice in forms()["shape"]]
+    ['sphere', 'cone', 'profile', 'punch']
+    """
+    nouns = known(also)
+    return {
+        "material": [_choice(word, kind) for word, kind in nouns.materials.items()],
+        "interface": _laws(nouns),
+        "shape": [_shape(word, kind) for word, kind in nouns.shapes.items()],
+        "layer": {
+            "fields": _fields(Layer),
+            "bases": [
+                {"word": base.word, "words": _first(base)} for base in (Frictionless, Bonded)
+            ],
+        },
+        "protocol": {"revolution": _protocol(revolution.SI), "plane": _protocol(plane.SI)},
+        "accuracy": _asked("accuracy", card_of(Accuracy)),
+    }
+
+
+def _choice(word: str, kind: Any, extra: Iterable[dict[str, Any]] = ()) -> dict[str, Any]:
+    return {
+        "word": word,
+        "words": _first(kind),
+        "fields": [*_fields(kind), *extra],
+    }
+
+
+def _laws(nouns: Nouns) -> list[dict[str, Any]]:
+    """Return the laws that numbers state; one that is a file's table cannot be typed."""
+    found = []
+    for word, kind in nouns.laws.items():
+        if kind is Tabulated:
+            continue
+        choice = _choice(word, kind)
+        for field in choice["fields"]:
+            if field["key"] == "equilibrium_gap":
+                field["or"] = _asked("strength", _STRENGTH)
+        found.append(choice)
+    return found
+
+
+def _shape(word: str, kind: Any) -> dict[str, Any]:
+    choice = _choice(word, kind) | {"symmetry": kind.symmetry}
+    if kind is PowerLawProfile:
+        exponent = [field for field in choice["fields"] if field["key"] == "exponent"]
+        choice["fields"] = [*exponent, *(_asked(name, card) for name, card in _POINT.items())]
+    return choice
+
+
+def _protocol(units: Mapping[str, str]) -> dict[str, Any]:
+    """Return what a machine does, in the units of a geometry."""
+    test = cards(Retraction)
+    starts = []
+    for key, kind, words in _STARTS[units["force"]]:
+        (field,) = cards(kind).values()
+        starts.append(_asked(key, field.card, units[field.card.measure]) | {"title": words})
+    (gap,) = cards(Apart).values()
+    apart = _asked("start", gap.card) | {"title": "apart", "prefix": "apart "}
+    return {
+        "starts": [*starts, apart],
+        "speed": _asked("speed", test["speed"].card),
+        "stiffness": _asked("stiffness", test["stiffness"].card, units["stiffness"], optional=True),
+        "moves": [
+            "approach 10 um/s to force 1.5 mN",
+            "dwell 60 s",
+            "hold force 60 s",
+            "retract 10 um/s to depth -5 um",
+            "move to 2 um in 1 s",
+            "load to 1 mN in 1 s",
+        ],
+    }
+
+
+def _fields(kind: Any) -> list[dict[str, Any]]:
+    found = [_field(field) for field in cards(kind).values()]
+    return found + [_listed(field) for field in cards(kind, Pairs).values()]
+
+
+def _field(field: Field) -> dict[str, Any]:
+    return _asked(field.name, field.card, optional=not field.needed)
+
+
+def _asked(
+    key: str, card: Quantity, unit: str | None = None, *, optional: bool = False
+) -> dict[str, Any]:
+    """Return a field as plain data."""
+    unit = unit or card.unit
+    example = card.example if unit == card.unit else ""
+    return {
+        "key": key,
+        "kind": "number",
+        "unit": unit,
+        "symbol": card.symbol,
+        "words": card.words,
+        "above": card.above,
+        "least": card.least,
+        "most": card.most,
+        "range": card.range if card.bounded else "",
+        "optional": optional,
+        "example": example or _SUGGESTED.get(unit, "1" if unit == "1" else f"1 {unit}"),
+    }
+
+
+def _listed(field: Field) -> dict[str, Any]:
+    card = field.card
+    return {
+        "key": field.name,
+        "kind": "pairs",
+        "units": list(card.units),
+        "symbol": card.symbol,
+        "words": card.words,
+        "optional": not field.needed,
+        "example": card.example,
+    }
+
+
+def _first(kind: Any) -> str:
+    """Return the first sentence of a class's docstring."""
+    return (kind.__doc__ or "").strip().partition("\n")[0].removeprefix("Describe ")

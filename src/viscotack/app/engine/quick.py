@@ -1,0 +1,302 @@
+"""What is known of a case at once: closed forms, a moving edge, and what was learned.
+
+Every part takes milliseconds whatever the case, so that numbers may be dragged: nothing here
+simulates, and no theory is asked that may take seconds. Curves are in SI, force (of a punch the
+mean stress) positive in compression, depth positive into the solid.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from viscotack.errors import InputError, OutOfRange
+from viscotack.forecast.advice import edge_curve
+from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.table import predict_table
+from viscotack.geometry import FlatPunch, Layer
+from viscotack.problem import Groups, Problem
+from viscotack.problem.outputs import PLANE, REVOLUTION
+from viscotack.problem.problem import PunchGroups
+from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
+from viscotack.surrogate import store
+from viscotack.theory.elastic import indenter
+from viscotack.theory.punch import Pad, unloading
+
+from .plain import drawn, plain
+from .state import State
+
+# Speeds of the picture of force against speed, and how many decades around the present one.
+_SPEEDS, _DECADES = 41, 4.0
+_POINTS = 80
+# A contact of an indenter of revolution is looked for up to this multiple of the radius (pi R^2
+# dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
+_LARGEST, _USUAL = 300.0, 2.0
+_INPUTS = {AtDepth: "preload", AtForce: "preload_force", AtRadius: "preload_radius"}
+
+
+def quick(state: State, *, confidence: float = 0.9) -> dict[str, Any]:
+    """Return what is known of a case at once, as plain data.
+
+    Parameters
+    ----------
+    state : State
+        The case.
+    confidence : float
+        Of the intervals of what was learned.
+
+    Returns
+    -------
+    dict
+        ``axes``: names and units; ``groups``: the dimensionless numbers; ``curves``: name ->
+        ``depth`` and ``force``, what it is in ``words``, whether it ``applies`` and ``why``;
+        ``numbers``: pull-off and work with their intervals; ``speeds``: pull-off against retraction
+        speed; ``start``: depth, force and radius of the relaxed start; ``notes``: what has no
+        answer, and why.
+
+    Raises
+    ------
+    ValueError
+        If the state states no case, or an impossible one.
+    """
+    problem = state.problem
+    found = {
+        "axes": _axes(problem),
+        "groups": plain(problem.groups().inputs),
+        "curves": {},
+        "numbers": [],
+        "speeds": None,
+        "start": None,
+        "notes": [],
+    }
+    if isinstance(problem.geometry, FlatPunch):
+        _pad(problem, found)
+    else:
+        _elastic(problem, found)
+        _edge(problem, found)
+        _learned(problem, found, confidence)
+    return found
+
+
+def _axes(problem: Problem) -> dict[str, Any]:
+    kind = PLANE if isinstance(problem.geometry, FlatPunch) else REVOLUTION
+    scales = problem.scales()
+    force, depth, edge = (kind.of(name) for name in ("force", "depth", "contact_radius"))
+    named = {"force": force, "depth": depth, "radius": edge, "time": kind.of("time")}
+    axes = {name: {"words": x.words, "unit": x.unit.si} for name, x in named.items()}
+    # a punch's tension is drawn as every force is, compression upwards
+    axes["force"]["words"] = "mean stress" if kind is PLANE else "force"
+    pull = "pull-off stress" if kind is PLANE else "pull-off force"
+    work = kind.energy.si
+    return axes | {
+        "pull_off": {"words": pull, "unit": force.unit.si},
+        "work": {"words": "work to pull-off", "unit": work},
+        "speed": {"words": "retraction speed", "unit": "m/s"},
+        "pressure": {"words": "pressure", "unit": "Pa"},
+        "gap": {"words": "gap", "unit": "m"},
+        "length": float(scales.length),
+    }
+
+
+def _curve(words: str, depth: Any, force: Any, **more: Any) -> dict[str, Any]:
+    return {"words": words, "depth": drawn(depth), "force": drawn(force), "applies": True} | more
+
+
+def _elastic(problem: Problem, found: dict[str, Any]) -> None:
+    """Put in the curve of the relaxed solid, from the start to where a rigid drive lets go."""
+    solid = {
+        "contact_modulus": problem.material.contact_modulus,
+        "work_of_adhesion": problem.traction.work_of_adhesion,
+    }
+    shape, unit = problem.geometry, problem.scales().radius
+    a = unit * np.geomspace(1e-3, _LARGEST, 240)
+    depth = np.asarray(indenter.depth(a, shape=shape, **solid))
+    force = np.asarray(indenter.force(a, shape=shape, **solid))
+    lowest = int(np.argmin(depth))
+    a, depth, force = a[lowest:], depth[lowest:], force[lowest:]
+    end = _end_of(problem, a, depth, force)
+    if end is None:
+        found["notes"].append("JKR has no contact at the start: adhesion does not hold it there")
+        end = _USUAL * unit
+    radii = np.linspace(end, a[0], _POINTS)
+    found["curves"]["elastic"] = _curve(
+        "infinitely slow, short range (JKR)",
+        indenter.depth(radii, shape=shape, **solid),
+        indenter.force(radii, shape=shape, **solid),
+        radius=drawn(radii),
+    )
+    if isinstance(problem.protocol.start, Start):
+        at = [
+            float(np.asarray(f(end, shape=shape, **solid)))
+            for f in (indenter.depth, indenter.force)
+        ]
+        found["start"] = {"depth": at[0], "force": at[1], "radius": float(end)}
+
+
+def _end_of(problem: Problem, a: Any, depth: Any, force: Any) -> float | None:
+    """Return the largest contact radius that the test asks for; None where JKR has none."""
+    largest = []
+    for state in states(problem.protocol):
+        match state:
+            case AtDepth(depth=value):
+                along = depth
+            case AtForce(force=value):
+                # the branch that a dead load keeps
+                first = int(np.argmin(force))
+                a, along = a[first:], force[first:]
+            case AtRadius(contact_radius=value):
+                along = a
+        if along[0] <= value <= along[-1]:
+            largest.append(float(np.interp(value, along, a)))
+    return max(largest, default=None)
+
+
+def _edge(problem: Problem, found: dict[str, Any]) -> None:
+    """Put in the curve of a moving edge on a relaxed bulk, and whether it applies."""
+    try:
+        answer = edge_curve(problem)
+    except InputError as error:
+        found["notes"].append(f"moving edge: {error}")
+        return
+    if answer is None:
+        return
+    curve, estimate = answer
+    scales = problem.scales()
+    keep = np.unique(np.linspace(0, len(curve.depth) - 1, 2 * _POINTS).astype(int))
+    found["curves"]["edge"] = _curve(
+        "relaxed bulk, edge a viscoelastic crack",
+        curve.depth[keep] * scales.length,
+        curve.force[keep] * scales.force,
+        radius=drawn(curve.contact_radius[keep] * scales.radius),
+        applies=estimate.applies,
+        why=estimate.why,
+    )
+    if estimate.applies and estimate.pull_off_force is not None and estimate.error is not None:
+        value = estimate.pull_off_force * scales.force
+        error = estimate.error * value
+        found["numbers"].append(
+            _number("pull_off", value, (value - error, value + error), "moving edge", 0.9)
+        )
+
+
+def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None:
+    """Put in what was learned from simulations, where the case lies in their range."""
+    try:
+        answer = learned_prediction(problem, confidence=confidence)
+    except OutOfRange as error:
+        found["notes"].append(f"surrogate: {error}")
+        return
+    scales, curve = problem.scales(), answer.curve
+    assert curve is not None and answer.work_to_pull_off is not None
+    assert answer.work_interval is not None
+    low, high = (x * scales.force for x in answer.interval)
+    found["curves"]["surrogate"] = _curve(
+        "learned from 30,000 simulations",
+        curve.depth * scales.length,
+        curve.force * scales.force,
+        radius=drawn(curve.contact_radius * scales.radius),
+        interval=[low, high],
+        confidence=confidence,
+    )
+    work = [x * scales.work for x in answer.work_interval]
+    found["numbers"] = [
+        _number("pull_off", answer.value * scales.force, (low, high), "surrogate", confidence),
+        _number("work", answer.work_to_pull_off * scales.work, work, "surrogate", confidence),
+        *found["numbers"],
+    ]
+    found["speeds"] = _speeds(problem, confidence)
+
+
+def _number(name: str, value: float, pair: Any, method: str, confidence: float) -> dict[str, Any]:
+    return {
+        "name": name,
+        "value": float(value),
+        "interval": [float(x) for x in pair],
+        "method": method,
+        "confidence": confidence,
+    }
+
+
+def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
+    """Return the pull-off force at other speeds, all at once, as far as it was learned."""
+    groups, scales = problem.groups(), problem.scales()
+    assert isinstance(groups, Groups) and groups.rate is not None
+    low, high = store.shipped().limits["rate"]
+    least = max(low * 1.0001, groups.rate * 10**-_DECADES)
+    most = min(high / 1.0001, groups.rate * 10**_DECADES)
+    rates = np.geomspace(least, most, _SPEEDS)
+    (field,) = vars(groups.start).values()
+    same = {
+        "tabor": groups.tabor,
+        "modulus_ratio": groups.modulus_ratio,
+        "exponent": groups.material.exponent,  # type: ignore[union-attr]
+        _INPUTS[type(groups.start)]: field,  # type: ignore[index]
+    }
+    columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
+    answers = predict_table(columns, confidence=confidence)
+    unit = scales.length / scales.time
+    forces = ("pull_off_force", "pull_off_force_low", "pull_off_force_high")
+    value, below, above = (drawn(answers[name] * scales.force) for name in forces)
+    return {
+        "speed": drawn(rates * unit),
+        "force": value,
+        "low": below,
+        "high": above,
+        "here": problem.protocol.speed,
+        "words": "surrogate",
+    }
+
+
+def _pad(problem: Problem, found: dict[str, Any]) -> None:
+    """Put in the elastic pad, and the pull-off stress of viscoelastic edges against the speed."""
+    geometry, body, speed = problem.geometry, problem.body, problem.protocol.speed
+    assert isinstance(geometry, FlatPunch) and isinstance(body, Layer)
+    pad = Pad(
+        half_width=geometry.half_width,
+        contact_modulus=problem.material.contact_modulus,
+        work_of_adhesion=problem.traction.work_of_adhesion,
+        strength=problem.traction.strength,
+        base=body.base,
+    )
+    stress = float(np.asarray(pad.elastic_stress(body.thickness)))
+    depth = float(np.asarray(pad.elastic_depth(body.thickness)))
+    pressed = _pressed(problem, stress / -depth)
+    ways = np.array([pressed, depth])
+    found["curves"]["elastic"] = _curve(
+        "infinitely slow, short range", ways, ways * stress / -depth, words_of="pad"
+    )
+    found["start"] = {"depth": pressed, "force": pressed * stress / -depth, "radius": None}
+    if body.thickness > 5 * geometry.half_width:
+        found["notes"].append(
+            "moving edges: the theory holds for layers thinner than 5 half widths"
+        )
+        return
+    if speed is None or problem.material.modulus_ratio >= 1:
+        return
+    speeds = np.geomspace(speed * 10**-_DECADES, speed * 10**_DECADES, 17)
+    law = pad.crack_law("persson-brener", material=problem.material)
+    forces = np.asarray(unloading.pull_off(speeds, pad, law, thickness=body.thickness).stress)
+    # 1 % low to 19 % high of 35 simulations (viscotack.theory.punch.unloading)
+    here = float(np.interp(np.log(speed), np.log(speeds), forces))
+    found["speeds"] = {
+        "speed": drawn(speeds),
+        "force": drawn(forces),
+        "low": drawn(forces / 1.19),
+        "high": drawn(forces / 0.99),
+        "here": speed,
+        "words": "edges that are viscoelastic cracks",
+    }
+    found["numbers"].append(
+        _number("pull_off", here, (here / 1.19, here / 0.99), "moving edges", 0.9)
+    )
+
+
+def _pressed(problem: Problem, stiffness: float) -> float:
+    """Return the depth of the relaxed start of a punch in full contact."""
+    groups = problem.groups()
+    assert isinstance(groups, PunchGroups)
+    match problem.protocol.start:
+        case AtDepth(depth=value):
+            return value
+        case AtForce(force=value):
+            return value / stiffness
+    return 0.0

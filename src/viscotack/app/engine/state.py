@@ -1,0 +1,217 @@
+"""The state of the page: a case in words and numbers with units, and all the ways to write it.
+
+A :class:`State` is the tables of a case file. It is a link, a file, a command line and a piece of
+Python, and all of them give the same digits, because all of them make the same problem.
+"""
+
+import json
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from viscotack.errors import InputError
+from viscotack.files.toml import parse_toml, toml_value
+from viscotack.problem.accuracy import DEFAULT_ACCURACY
+from viscotack.problem.case_file import case_of_tables
+from viscotack.problem.problem import Problem
+
+# Of a case that is sent: it states a few dozen numbers, a Prony series some hundred.
+_MOST_TEXT, _MOST_KEYS = 200_000, 200
+_NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d+)?([eE][+-]?\d+)?")
+_WHERE = "the case"
+
+Tables = Mapping[str, Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class State:
+    """A case as its tables say it.
+
+    Parameters
+    ----------
+    tables : mapping
+        Name of a table -> its keys and values, as in a case file: texts with units, pure numbers,
+        lists of these.
+    also : tuple of classes
+        Laws, materials and shapes of the user's own that it may name.
+
+    Raises
+    ------
+    ValueError
+        If the tables are not tables of texts and numbers, or too many.
+
+    Examples
+    --------
+    >>> state = state_of_query("sphere.radius=1+mm&material.poisson_ratio=0.5")
+    >>> state.tables["material"]
+    {'poisson_ratio': 0.5}
+    >>> state.query
+    'sphere.radius=1+mm&material.poisson_ratio=0.5'
+    """
+
+    tables: Tables
+    also: tuple[Any, ...] = ()
+
+    def __post_init__(self) -> None:
+        tables = self.tables
+        if not isinstance(tables, Mapping) or not all(
+            isinstance(table, Mapping) for table in tables.values()
+        ):
+            raise InputError(
+                f"{_WHERE} must be tables with keys, such as {{'sphere': {{'radius': '5 mm'}}}}, "
+                f"got {tables!r:.80}"
+            )
+        if sum(len(table) for table in tables.values()) > _MOST_KEYS:
+            raise InputError(f"{_WHERE} has more than {_MOST_KEYS} keys; a case has a few dozen")
+        plain = {
+            str(name): {str(key): _plain(value) for key, value in table.items()}
+            for name, table in tables.items()
+        }
+        object.__setattr__(self, "tables", plain)
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The problem in SI; ValueError where the tables state none."""
+        return case_of_tables(self.tables, where=_WHERE, also=self.also)
+
+    @property
+    def query(self) -> str:
+        """The state as the query of a link."""
+        return urlencode(
+            [
+                (f"{name}.{key}", value if isinstance(value, str) else json.dumps(value))
+                for name, table in self.tables.items()
+                for key, value in table.items()
+            ]
+        )
+
+    @property
+    def toml(self) -> str:
+        """The state as a case file."""
+        lines = []
+        for name, table in self.tables.items():
+            lines += [f"[{_key(name)}]"]
+            lines += [f"{_key(key)} = {toml_value(value)}" for key, value in table.items()]
+            lines.append("")
+        return "\n".join(lines)
+
+    def command(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
+        """Return the command lines that simulate it, with the file they need."""
+        flags = "" if accuracy == DEFAULT_ACCURACY else f" --accuracy {accuracy!r}"
+        flags += "" if until == "detached" else f" --until {until}"
+        return (
+            f"cat > case.toml <<'END'\n{self.toml}END\n"
+            f"viscotack simulate case case.toml{flags}\n"
+            "viscotack predict case.toml\n"
+        )
+
+    def python(self, *, accuracy: float = DEFAULT_ACCURACY, until: str = "detached") -> str:
+        """Return the Python that simulates it, with every digit."""
+        flags = "" if accuracy == DEFAULT_ACCURACY else f", accuracy={accuracy!r}"
+        flags += "" if until == "detached" else f", until={until!r}"
+        if self.also:
+            return (
+                "import viscotack as vt\n\n"
+                "# a case with a noun of your own: also= has the classes of its file\n"
+                'problem = vt.read_case("case.toml", also=also)\n'
+                f"result = vt.solve(problem{flags})\nprint(vt.summary(result))\n"
+            )
+        return (
+            "import viscotack as vt\n\n"
+            f"problem = {_called(self.problem, 0)}\n"
+            f"result = vt.solve(problem{flags})\n"
+            "print(vt.summary(result))\n"
+        )
+
+
+def state_of_toml(text: str, also: Iterable[Any] = ()) -> State:
+    """Return the state that a case file states.
+
+    Raises
+    ------
+    ValueError
+        If it is not TOML, or too long.
+    """
+    _check_length(text)
+    return State(parse_toml(text, _WHERE), tuple(also))
+
+
+def state_of_query(query: str, also: Iterable[Any] = ()) -> State:
+    """Return the state that the query of a link states.
+
+    Keys without a point in them belong to the page and not to the case, and are passed over.
+    """
+    _check_length(query)
+    tables: dict[str, dict[str, Any]] = {}
+    for name, value in parse_qsl(query.removeprefix("?"), keep_blank_values=True):
+        table, point, key = name.partition(".")
+        if point:
+            tables.setdefault(table, {})[key] = _value(value)
+    return State(tables, tuple(also))
+
+
+def _check_length(text: str) -> None:
+    if len(text) > _MOST_TEXT:
+        raise InputError(
+            f"{_WHERE} has {len(text):,} characters, more than the {_MOST_TEXT:,} that one may have"
+        )
+
+
+def _value(text: str) -> Any:
+    """Return what a text in a link says: a list, a pure number, or text."""
+    if not text.startswith("[") and not _NUMBER.fullmatch(text):
+        return text
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return text
+
+
+def _plain(value: Any, depth: int = 0) -> Any:
+    """Return a value of a table; text that is a pure number becomes one, as files write it."""
+    if isinstance(value, list | tuple) and depth < 3:
+        return [_entry(entry, depth) for entry in value]
+    if isinstance(value, bool) or not isinstance(value, str | int | float):
+        raise InputError(f"{_WHERE}: a value must be text, a number or a list, got {value!r:.60}")
+    if isinstance(value, str):
+        return _value(value) if _NUMBER.fullmatch(value) else value
+    if abs(value) > 1e300 or value != value:
+        raise InputError(f"{_WHERE}: a number must be finite and below 1e300, got {value!r:.60}")
+    return value
+
+
+def _entry(value: Any, depth: int) -> Any:
+    # a move may be a table as well: {approach = "10 um/s", to = "1 mN"}
+    if isinstance(value, Mapping):
+        return " ".join(f"{str(key).replace('_', ' ')} {word}" for key, word in value.items())
+    return _plain(value, depth + 1)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else json.dumps(name)
+
+
+def _called(noun: Any, indent: int) -> str:
+    """Return how Python makes a noun, a number a line, what equals its default left out."""
+    inner = " " * (indent + 4)
+    lines = []
+    for field in fields(noun):
+        value = getattr(noun, field.name)
+        if value == field.default:
+            continue
+        lines.append(f"{inner}{field.name}={_said(value, indent + 4)},\n")
+    name = f"vt.{type(noun).__name__}"
+    return f"{name}(\n{''.join(lines)}{' ' * indent})" if lines else f"{name}()"
+
+
+def _said(value: Any, indent: int) -> str:
+    if is_dataclass(value):
+        return _called(value, indent)
+    if isinstance(value, tuple) and any(is_dataclass(entry) for entry in value):
+        inner = " " * (indent + 4)
+        rows = "".join(f"{inner}{_said(entry, indent + 4)},\n" for entry in value)
+        return f"(\n{rows}{' ' * indent})"
+    return repr(value)

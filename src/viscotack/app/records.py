@@ -1,0 +1,94 @@
+"""What a laboratory's files say, as one object: for ``--json`` and for the API alike."""
+
+from dataclasses import asdict
+from typing import Any
+
+# name in Python -> name in tables, with the unit
+_MEASURED = {
+    "pull_off_force": "pull_off_force_N",
+    "pull_off_depth": "pull_off_depth_m",
+    "work_to_pull_off": "work_to_pull_off_J",
+    "work_of_separation": "work_of_separation_J",
+    "preload": "preload_N",
+    "preload_depth": "preload_depth_m",
+    "speed": "speed_m_s",
+    "mean_speed": "mean_speed_m_s",
+}
+_PLAIN = {
+    "pull_off_raw": "pull_off_raw_N",
+    "dwell_time": "dwell_time_s",
+    "approach_speed": "approach_speed_m_s",
+    "noise": "noise_N",
+}
+
+
+def cycle_row(cycle: Any) -> dict[str, Any]:
+    """Return the numbers of a cycle by their names with units."""
+    row: dict[str, Any] = {"cycle": cycle.number}
+    for name, column in _MEASURED.items():
+        one = getattr(cycle, name)
+        row[column], row[f"{column}_uncertainty"] = one.value, one.uncertainty
+    return row | {column: getattr(cycle, name) for name, column in _PLAIN.items()}
+
+
+def tests_record(found: Any) -> dict[str, Any]:
+    """Return what a survey of tack tests found, and what it refused."""
+    tests = [
+        {
+            "file": one.record.source.path,
+            "sha256": one.record.source.sha256,
+            "format": one.record.source.format,
+            "cycles": [
+                cycle_row(cycle) | {"notes": list(cycle.source.notes)} for cycle in one.cycles
+            ],
+            "refused": [{"cycle": bad.number, "reason": bad.reason} for bad in one.refused],
+        }
+        for one in found.evaluations
+    ]
+    unread = [{"file": one.path, "reason": one.reason} for one in found.unread]
+    return {"tests": tests, "unread": unread}
+
+
+def slow_record(fit: Any) -> dict[str, Any]:
+    """Return what a slow test says of the interface."""
+    fits = [
+        {
+            "model": one.model,
+            "work_of_adhesion_J_m2": one.work_of_adhesion,
+            "contact_modulus_Pa": one.contact_modulus,
+            "tabor": one.tabor,
+            "scatter_N": one.scatter,
+            "criterion": one.criterion,
+            "intervals": {name: asdict(interval) for name, interval in one.intervals.items()},
+        }
+        for one in fit.fits
+    ]
+    return {
+        "against": fit.test.against,
+        "points": int(fit.test.force.size),
+        "level": fit.level,
+        "evidence": fit.evidence,
+        "fits": fits,
+        "words": list(fit.words),
+    }
+
+
+def rates_record(fit: Any) -> dict[str, Any]:
+    """Return what a rate series says of the interface."""
+    return {
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "equilibrium_gap_m": fit.equilibrium_gap,
+        "tabor": fit.tabor,
+        "intervals": {name: asdict(interval) for name, interval in fit.intervals.items()},
+        "scatter": fit.scatter,
+        "series": [
+            {
+                "speed_m_s": one.speed,
+                "pull_off_force_N": one.force.value,
+                "pull_off_force_N_uncertainty": one.force.uncertainty,
+                "fitted_N": force,
+            }
+            for one, force in zip(fit.series, fit.forces, strict=True)
+        ],
+        "words": list(fit.words),
+    }
