@@ -1,0 +1,208 @@
+"""What is asked and answered at once or in seconds: states, predictions, advice, materials."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, replace
+from typing import Any
+
+import numpy as np
+
+from viscotack.bem import crack_contact
+from viscotack.cards import Pairs, cards
+from viscotack.errors import InputError
+from viscotack.forecast import advise, predict, prediction_summary
+from viscotack.geometry import FlatPunch
+from viscotack.materials.library import MATERIALS, published
+from viscotack.materials.passport_words import in_words
+from viscotack.materials.words import word_of
+from viscotack.problem import Groups, Problem, PunchGroups
+from viscotack.problem.record import from_dict
+
+from .examples import EXAMPLES, FIRST
+from .forms import forms
+from .plain import drawn, plain
+from .quick import quick
+from .state import State, state_of_query, state_of_toml
+
+Tell = Callable[[dict[str, Any]], None]
+Asked = Mapping[str, Any]
+
+# Speeds of the theories' picture, and how many decades around the present one.
+_SPEEDS, _DECADES = 9, 3.0
+
+
+def warm() -> None:
+    """Do once what takes longer the first time."""
+    quick(State(FIRST))
+
+
+def problem_of(given: Any, also: tuple[Any, ...] = ()) -> Any:
+    """Return the problem of a request: a record, which has a type, or the tables of a case file.
+
+    Raises
+    ------
+    ValueError
+        If it is neither, or impossible.
+    """
+    if isinstance(given, Mapping) and "type" in given:
+        problem = from_dict(given, also)
+        if not isinstance(problem, Problem | Groups | PunchGroups):
+            raise InputError(
+                "problem must be a Problem, Groups or PunchGroups, got a "
+                f"{type(problem).__name__}, which is a part of one"
+            )
+        return problem
+    return State(given, also).problem
+
+
+def ask_forms(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return what can be asked, the published materials, and cases to begin from."""
+    return forms(also) | {"materials": _published(), "examples": EXAMPLES}
+
+
+def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return a state in every form, from a file's text, a link's query or tables."""
+    given = [name for name in ("toml", "query", "tables") if asked.get(name) is not None]
+    if len(given) != 1:
+        raise InputError(f"give one of toml, query and tables, got {', '.join(given) or 'none'}")
+    if given == ["toml"]:
+        state = state_of_toml(asked["toml"], also)
+        state.problem  # noqa: B018  # a file that states no case is refused
+    elif given == ["query"]:
+        state = state_of_query(asked["query"], also)
+    else:
+        state = State(asked["tables"], also)
+    return {"tables": plain(dict(state.tables)), "toml": state.toml, "query": state.query}
+
+
+def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return what is known of a state at once, and the state in every form."""
+    state = State(asked["tables"], also)
+    run = {"accuracy": asked["accuracy"], "until": asked["until"]}
+    return quick(state, confidence=asked["confidence"]) | {
+        "toml": state.toml,
+        "query": state.query,
+        "command": state.command(**run),
+        "python": state.python(**run),
+    }
+
+
+def ask_predict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return a prediction as ``viscotack predict --json`` prints it."""
+    problem = problem_of(asked["problem"], also)
+    return plain(prediction_summary(predict(problem, confidence=asked["confidence"])))
+
+
+def ask_advise(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return which answer may be trusted, as data and in words."""
+    advice = advise(problem_of(asked["problem"], also))
+    return plain(asdict(advice) | {"sentences": list(advice.sentences)})
+
+
+def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return the advisor's words, and the theories that may take seconds, part by part."""
+    problem = State(asked["tables"], also).problem
+    try:
+        advice = advise(problem)
+        words, use = list(advice.sentences), advice.use
+        tiers = [plain(asdict(estimate)) for estimate in advice.estimates]
+    except InputError as error:
+        words, use, tiers = [f"{str(error)[:1].upper()}{str(error)[1:]}."], "simulation", []
+    found: dict[str, Any] = {"words": words, "use": use, "tiers": tiers}
+    tell(found)
+    found["crack"] = _crack(problem)
+    tell(found)
+    if asked["speeds"]:
+        found["speeds"] = _speeds(problem)
+    return found
+
+
+def ask_materials(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return the published materials of the library."""
+    return {"materials": _published()}
+
+
+def material_table(material: Any) -> dict[str, Any]:
+    """Return a material as the table [material] of a case file, with all its digits.
+
+    Examples
+    --------
+    >>> from viscotack import Elastic
+    >>> material_table(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
+    {'model': 'elastic', 'rubbery_modulus': '1000000.0 Pa', 'poisson_ratio': 0.5}
+    """
+    kind = type(material)
+    table: dict[str, Any] = {"model": word_of(material)}
+    for name, field in cards(kind).items():
+        table[name] = _said(getattr(material, name), field.card.unit)
+    for name, field in cards(kind, Pairs).items():
+        first, second = field.card.units
+        table[name] = [[_said(a, first), _said(b, second)] for a, b in getattr(material, name)]
+    return table
+
+
+def _said(value: float, unit: str) -> Any:
+    return float(value) if unit == "1" else f"{float(value)!r} {unit}"
+
+
+def _published() -> list[dict[str, Any]]:
+    found = []
+    for name in MATERIALS:
+        passport = published(name)
+        table = material_table(passport.material)
+        found.append(
+            {
+                "name": name,
+                "title": passport.name,
+                "table": table,
+                "source": passport.origin.reference,
+                "doi": passport.origin.doi,
+                "words": in_words(passport),
+            }
+        )
+    return found
+
+
+def _crack(problem: Problem) -> dict[str, Any] | None:
+    """Return the curve of the contact whose edge is a steady crack, where it holds."""
+    if isinstance(problem.geometry, FlatPunch):
+        return None
+    try:
+        found = crack_contact(problem)
+    except (InputError, OverflowError):
+        return None
+    scales = problem.scales()
+    return {
+        "words": "edge a steady crack, bulk remembers",
+        "depth": drawn(found.depth * scales.length),
+        "force": drawn(found.force * scales.force),
+        "radius": drawn(found.contact_radius * scales.radius),
+        "applies": found.inside,
+        "why": found.why,
+        "band": found.band,
+    }
+
+
+def _speeds(problem: Problem) -> dict[str, Any] | None:
+    """Return the pull-off force at other speeds by the theories, as far as one answers."""
+    protocol, scales = problem.protocol, problem.scales()
+    if protocol.speed is None:
+        return None
+    speeds = protocol.speed * np.logspace(-_DECADES, _DECADES, _SPEEDS)
+    rows = []
+    for speed in speeds.tolist():
+        try:
+            answer = predict(replace(problem, protocol=replace(protocol, speed=speed)))
+        except (InputError, OverflowError):
+            continue
+        rows.append((speed, answer.value, *answer.interval))
+    if len(rows) < 2:
+        return None
+    speed, force, low, high = np.array(rows).T
+    return {
+        "speed": drawn(speed),
+        "force": drawn(force * scales.force),
+        "low": drawn(low * scales.force),
+        "high": drawn(high * scales.force),
+        "here": protocol.speed,
+        "words": "the best theory of each speed",
+    }

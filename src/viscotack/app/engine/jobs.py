@@ -1,0 +1,263 @@
+"""The engine of page and API: what may be asked, how much at once, and the jobs that go on.
+
+It belongs to one event loop. All that is computed is computed in the processes of :mod:`.crew`.
+"""
+
+import asyncio
+import json
+import re
+import secrets
+import zlib
+from collections.abc import AsyncIterator, Iterable
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import monotonic
+from typing import Any
+
+from .crew import Crew, Defect, Halted, Lane, Refused
+
+# Finished jobs are kept for those who come back, so many and so long [s].
+_KEPT, _KEPT_FOR = 64, 900.0
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a server gives to those who ask.
+
+    Attributes
+    ----------
+    jobs : int
+        Simulations and campaigns that wait or go on, of everybody together.
+    workers : int
+        Of them so many at once.
+    job_time : float
+        Longest time of a job [s].
+    ask_time : float
+        Longest time of a question that is no job [s].
+    cases : int
+        Most cases of a campaign.
+    body : int
+        Longest request [bytes]; one with files may be twenty times as long.
+    """
+
+    jobs: int = 120
+    workers: int = 2
+    job_time: float = 600.0
+    ask_time: float = 60.0
+    cases: int = 1000
+    body: int = 1_000_000
+
+    @property
+    def uploads(self) -> int:
+        """Longest request with files [bytes]."""
+        return 20 * self.body
+
+
+class TooMany(Refused):
+    """There are as many jobs as there may be."""
+
+
+class Unknown(Refused):
+    """There is no such job, or no more."""
+
+
+# Task -> its lane; each lane has processes of its own, so that no simulation holds up a slider.
+_LANES = {
+    "quick": ("quick", "state", "forms"),
+    "ask": ("predict", "advise", "verdict", "materials", "fit", "tests", "slow", "rates"),
+    "work": ("simulate", "campaign"),
+}
+_LANE_OF = {task: lane for lane, tasks in _LANES.items() for task in tasks}
+
+
+@dataclass(eq=False)
+class Job:
+    """A simulation or a campaign, and what is known of it so far.
+
+    Attributes
+    ----------
+    id : str
+        By which whoever started it, and nobody else, asks for it.
+    kind : str
+        "simulate" or "campaign".
+    state : str
+        "queued", "running", "done", "refused", "failed" or "cancelled".
+    share : float
+        Of the work that is done.
+    points, rows : list
+        Of the curve that grows, and of the table.
+    error : str
+        Why it has no answer.
+    """
+
+    id: str
+    kind: str
+    state: str = "queued"
+    share: float = 0.0
+    points: list[Any] = field(default_factory=list)
+    rows: list[Any] = field(default_factory=list)
+    error: str = ""
+    ended: float | None = None
+    stop: asyncio.Event = field(default_factory=asyncio.Event)
+    news: asyncio.Event = field(default_factory=asyncio.Event)
+    task: asyncio.Task[None] | None = None
+    _answer: bytes = b""
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more will come of it."""
+        return self.ended is not None
+
+    @property
+    def answer(self) -> dict[str, Any] | None:
+        """What came out, None while there is nothing."""
+        return json.loads(zlib.decompress(self._answer)) if self._answer else None
+
+    def tell(self, told: dict[str, Any]) -> None:
+        """Take what the task tells of itself."""
+        self.share = max(self.share, told.get("share", 0.0))
+        self.points += told.get("points", [])
+        self.rows += told.get("rows", [])
+        self.changed()
+
+    def changed(self) -> None:
+        """Wake those who wait for news."""
+        news, self.news = self.news, asyncio.Event()
+        news.set()
+
+    def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
+        """Say what became of it."""
+        self.state, self.error, self.ended = state, error, monotonic()
+        if answer is not None:
+            self.share = 1.0
+            self._answer = zlib.compress(json.dumps(answer).encode(), 1)
+        self.changed()
+
+
+class Engine:
+    """Everything that can be asked, within limits.
+
+    Parameters
+    ----------
+    limits : Limits
+        How much.
+    own : iterable of str
+        Python files of whoever runs the server, with nouns of their own.
+    """
+
+    def __init__(self, limits: Limits | None = None, own: Iterable[str] = ()) -> None:
+        self.limits = Limits() if limits is None else limits
+        self._own = tuple(own)
+        self._jobs: dict[str, Job] = {}
+        self._crews: dict[str, Crew] = {}
+
+    async def begin(self) -> None:
+        """Start the first process of each lane; Refused where the user's own files are wrong."""
+        lanes = (
+            Lane("quick", 2, ("quick",)),
+            Lane("ask", 2, ("verdict",), nice=3),
+            Lane("work", self.limits.workers, ("simulate",), nice=5),
+        )
+        self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
+        await asyncio.gather(*(crew.begin() for crew in self._crews.values()))
+
+    async def end(self) -> None:
+        """End all jobs and all processes."""
+        for job in self._jobs.values():
+            job.stop.set()
+        tasks = [job.task for job in self._jobs.values() if job.task is not None]
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await asyncio.gather(*(crew.end() for crew in self._crews.values()))
+
+    async def ask(self, task: str, asked: dict[str, Any], **more: Any) -> dict[str, Any]:
+        """Return the answer of a question that is no job; keywords as of :meth:`Crew.ask`."""
+        crew = self._crews[_LANE_OF[task]]
+        return await crew.ask(task, asked, seconds=self.limits.ask_time, **more)
+
+    @asynccontextmanager
+    async def uploaded(self, files: Iterable[tuple[str, bytes]]) -> AsyncIterator[list[str]]:
+        """Hold files that were sent in a folder of their own, which is gone after the block."""
+        with TemporaryDirectory(prefix="viscotack-") as folder:
+            paths: list[str] = []
+            for name, content in files:
+                path = Path(folder, _harmless(name))
+                if str(path) in paths:
+                    raise Refused(f"two files are called {path.name}; rename one")
+                path.write_bytes(content)
+                paths.append(str(path))
+            try:
+                yield paths
+            except Refused as error:
+                raise type(error)(str(error).replace(f"{folder}/", "")) from None
+
+    def start(self, kind: str, asked: dict[str, Any]) -> Job:
+        """Return a job that has been put in the queue; TooMany where it is full."""
+        self._forget()
+        waiting = sum(not job.over for job in self._jobs.values())
+        if waiting >= self.limits.jobs:
+            raise TooMany(
+                f"{waiting} jobs wait or go on, as many as this server takes; cancel one, or come "
+                "back when some have ended"
+            )
+        job = Job(secrets.token_urlsafe(16), kind)
+        self._jobs[job.id] = job
+        job.task = asyncio.get_running_loop().create_task(self._run(job, asked))
+        return job
+
+    def job(self, id: str) -> Job:
+        """Return a job by its id; Unknown where there is none."""
+        self._forget()
+        if id not in self._jobs:
+            raise Unknown("there is no such job: it was cancelled, or ended long ago")
+        return self._jobs[id]
+
+    async def cancel(self, id: str) -> Job:
+        """End a job, and forget one that has ended; returns it when its process is free."""
+        job = self.job(id)
+        if job.over:
+            del self._jobs[id]
+            return job
+        job.stop.set()
+        while not job.over:
+            await job.news.wait()
+        del self._jobs[id]
+        return job
+
+    def processes(self) -> list[int]:
+        """Return the numbers of all processes that live."""
+        return [pid for crew in self._crews.values() for pid in crew.processes()]
+
+    async def _run(self, job: Job, asked: dict[str, Any]) -> None:
+        def begun() -> None:
+            job.state = "running"
+            job.changed()
+
+        crew = self._crews[_LANE_OF[job.kind]]
+        options = {"told": job.tell, "stop": job.stop, "begun": begun}
+        try:
+            answer = await crew.ask(job.kind, asked, seconds=self.limits.job_time, **options)
+            job.close("done", answer=answer)
+        except Halted:
+            job.close("cancelled", error="it was cancelled")
+        except Refused as error:
+            job.close("refused", error=str(error))
+        except Defect as error:
+            job.close("failed", error=f"this is a defect of viscotack: {error}")
+        except asyncio.CancelledError:
+            job.close("cancelled", error="the server ends")
+            raise
+
+    def _forget(self) -> None:
+        """Forget jobs that ended long ago, and the oldest of many."""
+        over = sorted((j for j in self._jobs.values() if j.over), key=lambda j: j.ended or 0.0)
+        old = [job for job in over if monotonic() - (job.ended or 0.0) > _KEPT_FOR]
+        for job in {*old, *over[: max(len(over) - _KEPT, 0)]}:
+            del self._jobs[job.id]
+
+
+def _harmless(name: str) -> str:
+    """Return the name of a file without anything that a path, or a shell, would understand."""
+    bare = re.split(r"[/\\]", name)[-1]
+    return re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")[-100:] or "file"

@@ -1,0 +1,204 @@
+"""What takes seconds to minutes and tells how far it is: simulations, and campaigns of them."""
+
+from collections.abc import Mapping
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from viscotack.bem import solve
+from viscotack.campaign.case import CaseSettings, Unsolved, measure
+from viscotack.campaign.columns import kind_of_problem
+from viscotack.errors import InputError
+from viscotack.problem import Problem
+from viscotack.problem.accuracy import LOOSEST_ACCURACY
+from viscotack.problem.outputs import Kind
+from viscotack.problem.record import run_id
+from viscotack.result import Outcome, Result, columns
+from viscotack.result.observables import summary
+
+from .asks import Asked, Tell, problem_of
+from .examples import FIRST
+from .plain import drawn, plain
+
+# Seconds between two tellings of a curve that grows.
+_EVERY = 0.04
+# Profiles that are kept of a run, and nodes of each.
+_PROFILES, _NODES = 60, 160
+# Of the largest contact, what is drawn of the surface.
+_SEEN = 2.5
+
+
+def warm() -> None:
+    """Do once what takes longer the first time."""
+    solve(problem_of(FIRST), accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)
+
+
+def run_simulate(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Simulate a problem, telling its curve as it grows.
+
+    Tells ``share`` of the work and the new ``points``: time, depth, force, contact radius, in SI
+    where the problem is. Answers ``summary`` and ``columns`` as ``viscotack simulate`` writes them,
+    ``energy``, and on request ``profiles`` of pressure and gap.
+    """
+    problem = problem_of(asked["problem"], also)
+    told = _Told(tell, _units_of(problem))
+    options = {
+        "accuracy": asked["accuracy"],
+        "until": asked["until"],
+        "time_limit": asked["time_limit"],
+        "throw": False,
+        "progress": told.progress,
+        "watch": told.watch,
+    }
+    result = _solved(problem, options, bool(asked["profiles"]))
+    told.flush()
+    return {
+        "summary": plain(summary(result)),
+        "columns": {name: drawn(values) for name, values in columns(result).items()},
+        "energy": _energy(result),
+        "profiles": _profiles(result),
+        "failed": result.outcome is Outcome.STOPPED,
+    }
+
+
+def run_campaign(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Simulate a problem with some of its numbers replaced, a row for each case.
+
+    Tells ``share`` and the new ``rows``. A case that fails has a row with its inputs, no numbers,
+    and why.
+    """
+    base = problem_of(asked["problem"], also)
+    inputs: list[Mapping[str, float]] = asked["cases"]
+    names = set(inputs[0])
+    if any(set(row) != names for row in inputs):
+        raise InputError("every case of a campaign must replace the same numbers of the problem")
+    kind = kind_of_problem(base, names, also)
+    settings = CaseSettings(
+        accuracy=asked["accuracy"], until=asked["until"], time_limit=asked["time_limit"]
+    )
+    rows = []
+    for number, row in enumerate(inputs, start=1):
+        answer = _case(kind, row, settings)
+        rows.append(answer)
+        tell({"share": number / len(inputs), "rows": [answer]})
+    return {"rows": rows, "failed": sum(bool(row["reason"]) for row in rows)}
+
+
+def _case(kind: Any, row: Mapping[str, float], settings: CaseSettings) -> dict[str, Any]:
+    """Return one row of a campaign: its inputs, its numbers, and why it failed if it did."""
+    began = perf_counter()
+    answer: dict[str, Any] = {"inputs": dict(row), "outputs": None, "reason": ""}
+    try:
+        problem = kind.problem(row)
+        outputs = {k: v for k, v in measure(problem, settings).items() if not _is_list(v)}
+        answer |= {"run_id": run_id(problem), "outputs": plain(outputs)}
+    except (InputError, Unsolved) as error:
+        answer["reason"] = str(error)
+    except OverflowError:
+        answer["reason"] = "a number is too large or too small to compute with; check its unit"
+    return answer | {"wall_time_s": perf_counter() - began}
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list | tuple | dict)
+
+
+def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
+    """Return the result, with profiles where they are wanted and there are any."""
+    if profiles:
+        try:
+            return solve(problem, fields=True, **options)
+        except InputError as error:
+            # a contact too sharp to be simulated is answered by a theory, which has no profiles
+            if "profiles" not in str(error):
+                raise
+    return solve(problem, **options)
+
+
+class _Told:
+    """What a run tells of itself, some twenty times a second."""
+
+    def __init__(self, tell: Tell, units: tuple[float, float, float, float]) -> None:
+        self._tell, self._units = tell, units
+        self._points: list[list[float | None]] = []
+        self._share, self._last = 0.0, 0.0
+
+    def progress(self, share: float) -> None:
+        self._share = max(self._share, share)
+        self._now_and_then()
+
+    def watch(self, *step: float) -> None:
+        self._points.append(drawn([x * u for x, u in zip(step, self._units, strict=True)]))
+        self._now_and_then()
+
+    def flush(self) -> None:
+        self._tell({"share": self._share, "points": self._points})
+        self._points = []
+
+    def _now_and_then(self) -> None:
+        now = perf_counter()
+        if now - self._last > _EVERY:
+            self._last = now
+            self.flush()
+
+
+def _units_of(problem: Any) -> tuple[float, float, float, float]:
+    """Return what turns time, depth, force and contact radius of a result into what is told."""
+    kind: Kind = problem.outputs
+    groups, scales = problem.groups(), problem.scales()
+
+    def factor(source: str) -> float:
+        series = kind.of(source)
+        # forces are told positive in compression, those of a punch too
+        sign = 1.0 if source == "force" else series.factor(groups)
+        return sign * (1.0 if scales is None else getattr(scales, series.unit.scale))
+
+    return factor("time"), factor("depth"), factor("force"), factor("contact_radius")
+
+
+def _energy(result: Result) -> dict[str, Any] | None:
+    """Return where the work of the drive went, as changes since the start, in SI where known."""
+    if result.energy is None:
+        return None
+    kind, scales, energy = result.problem.outputs, result.scales, result.energy
+    factor = kind.energy_factor(result.groups)
+    factor *= 1.0 if scales is None else getattr(scales, kind.energy.scale)
+    names = ("drive", "interface", "elastic", "spring", "heat", "jumps", "transfer")
+    series = {name: np.asarray(getattr(energy, name)) for name in names}
+    changes = {name: drawn((x - x[0]) * factor) for name, x in series.items()}
+    return {
+        "unit": kind.energy.text if scales is None else kind.energy.si,
+        "series": {name: x for name, x in changes.items() if name == "drive" or any(x)},
+        "mode_time": drawn(energy.mode_time * (1.0 if scales is None else scales.time)),
+        "mode_heat": drawn(energy.mode_heat * factor),
+    }
+
+
+def _profiles(result: Result) -> list[dict[str, Any]] | None:
+    """Return pressure and gap over the radius at some steps, in SI where the problem is."""
+    fields = result.fields
+    if fields is None:
+        return None
+    _, depth, _, along = _units_of(result.problem)
+    pressure = 1.0
+    if isinstance(result.problem, Problem):
+        law = result.problem.traction
+        pressure = law.work_of_adhesion / law.equilibrium_gap
+    seen = _SEEN * float(np.nanmax(result.contact_radius, initial=0.0))
+    steps = np.unique(np.linspace(0, len(result.time) - 1, _PROFILES).astype(int))
+    lowest = int(np.argmin(result.force))
+    found = []
+    for step in sorted({*steps.tolist(), lowest}):
+        radius = fields["radius"][step]
+        known = np.flatnonzero(np.isfinite(radius) & ((radius <= seen) | (seen == 0)))
+        every = known[np.unique(np.linspace(0, len(known) - 1, _NODES).astype(int))]
+        found.append(
+            {
+                "step": step,
+                "radius": drawn(radius[every] * along),
+                "gap": drawn(fields["gap"][step][every] * depth),
+                "pressure": drawn(fields["pressure"][step][every] * pressure),
+            }
+        )
+    return found
