@@ -181,7 +181,7 @@ class Crew:
         """Wait for a process that is free; Halted where nobody wants the answer by then."""
         while True:
             if self._idle.empty():
-                self._grow()
+                self.grow()
             turn = asyncio.ensure_future(self._idle.get())
             try:
                 await _first(turn, stop)
@@ -201,7 +201,7 @@ class Crew:
                 return found
             self._all.discard(found)  # ended while it waited
 
-    def _grow(self) -> None:
+    def grow(self) -> None:
         """Start one more process, if there may be one more."""
         if len(self._all) + len(self._starting) < self.lane.workers:
             starting = asyncio.ensure_future(self._add())
@@ -259,7 +259,7 @@ class Crew:
             return
         self._all.discard(worker)
         await worker.end()
-        self._grow()
+        self.grow()
 
     async def _start(self) -> _Worker:
         settings = {"own": self._own, "first": self.lane.first, "nice": self.lane.nice}

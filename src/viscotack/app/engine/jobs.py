@@ -154,14 +154,17 @@ class Engine:
         self._crews: dict[str, Crew] = {}
 
     async def begin(self) -> None:
-        """Start the first process of each lane; Refused where the user's own files are wrong."""
+        """Start a process of each lane; Refused where the user's own files are wrong."""
         lanes = (
             Lane("quick", 2, ("quick",)),
             Lane("ask", 2, ("verdict",), nice=3),
             Lane("work", self.limits.workers, ("simulate",), nice=5),
         )
         self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
-        await asyncio.gather(*(crew.begin() for crew in self._crews.values()))
+        # files of the user's own that are wrong are found out by the first of them
+        await self._crews["quick"].begin()
+        for crew in self._crews.values():
+            crew.grow()
 
     async def end(self) -> None:
         """End all jobs and all processes."""

@@ -16,15 +16,18 @@ from viscotack import __version__
 from viscotack.app.cli.superposing import Shifting, stepped, swept
 from viscotack.app.records import rates_record, reasons_of, slow_record, tests_record
 from viscotack.errors import InputError
+from viscotack.files.toml import parse_toml
 from viscotack.identify import fitted_force, identify_rates, identify_slow, pull_offs, slow_test
 from viscotack.lab import FrequencySweeps, allow_for_shifts, fit, issued, read
 from viscotack.lab.fit_report import FitReport
 from viscotack.lab.tack import Survey, survey
+from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import TabulatedShift
 from viscotack.units import parse
 
 from .asks import Asked, Tell, material_table, problem_of
+from .examples import FIRST
 from .plain import drawn, plain
 
 # Points of a fitted curve, of a measured one, and how far it is drawn beyond [decades].
@@ -103,7 +106,7 @@ def identify_slow_test(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[
 def identify_rate_series(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Find work of adhesion and range from pull-offs at several speeds, with a known material."""
     found, options = _survey(asked), asked["options"]
-    solid = _material(asked["material"], also)
+    solid = _solid(asked["material"], also)
     series = pull_offs(found.cycles)
     begins = [float(one.force[one.segments.retract]) for one in found.cycles]
     preload = options.get("preload")
@@ -117,19 +120,18 @@ def identify_rate_series(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dic
     return plain(rates_record(series, answer))
 
 
-def _material(table: Mapping[str, Any], also: tuple[Any, ...]) -> Any:
-    """Return the solid of a table [material], by way of a case that has it."""
-    tables = {
-        "material": table,
-        "interface": {
-            "law": "lennard-jones",
-            "work_of_adhesion": "1 mJ/m^2",
-            "equilibrium_gap": "1 nm",
-        },
-        "sphere": {"radius": "1 m"},
-        "protocol": {"preload_depth": "0 m", "speed": "1 m/s"},
-    }
-    return problem_of(tables, also).material
+def _solid(words: str, also: tuple[Any, ...]) -> Any:
+    """Return the solid of a published name, or of the text of a table [material]."""
+    if words in MATERIALS:
+        return published(words).material
+    table = parse_toml(words, "the material").get("material")
+    if not isinstance(table, dict):
+        raise InputError(
+            "material must be the TOML text of a table [material] or the name of a published "
+            f"material, {', '.join(MATERIALS)}; got {words!r:.60}"
+        )
+    # by way of a case that has it: what a table may say is known in one place
+    return problem_of(FIRST | {"material": table}, also).material
 
 
 def _files(asked: Asked) -> list[Path]:

@@ -1,0 +1,91 @@
+"""The HTTP API, and the page that asks it."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING
+
+from viscotack.app.engine.jobs import Engine
+from viscotack.errors import InputError
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
+
+    from .guard import Guard
+
+
+def application(engine: Engine | None = None) -> "FastAPI":
+    """Return the application of page and API, without its guard.
+
+    Parameters
+    ----------
+    engine : Engine, optional
+        What answers; one with the usual limits when left out.
+
+    Raises
+    ------
+    ValueError
+        If the libraries of the extra ``app`` are missing.
+    """
+    FastAPI = _fastapi()
+    from viscotack import __version__
+
+    from .openapi import described
+    from .refusals import words_for
+    from .routes import routes
+
+    engine = Engine() if engine is None else engine
+
+    @asynccontextmanager
+    async def alive(app: "FastAPI") -> AsyncIterator[None]:
+        await engine.begin()
+        try:
+            yield
+        finally:
+            await engine.end()
+
+    app = FastAPI(
+        title="viscotack",
+        version=__version__,
+        summary="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
+        # their pages load scripts from elsewhere; /api/docs is our own
+        docs_url=None,
+        redoc_url=None,
+        lifespan=alive,
+    )
+    words_for(app)
+    app.include_router(routes(engine))
+    described(app)
+    return app
+
+
+def guarded(
+    engine: Engine | None = None, *, hosts: tuple[str, ...] = (), token: str = ""
+) -> "Guard":
+    """Return the application behind its guard, as a server runs it.
+
+    Parameters
+    ----------
+    engine : Engine, optional
+        What answers.
+    hosts : tuple of str
+        Names by which it may be called; any when left out.
+    token : str
+        That every request must bring; none when left out.
+    """
+    engine = Engine() if engine is None else engine
+    app = application(engine)
+    from .guard import Guard, Rules
+
+    limits = engine.limits
+    return Guard(app, Rules(hosts=hosts, token=token, body=limits.body, uploads=limits.uploads))
+
+
+def _fastapi() -> type["FastAPI"]:
+    try:
+        import multipart  # noqa: F401  # of python-multipart: files are sent with it
+        from fastapi import FastAPI
+    except ImportError as error:
+        raise InputError(
+            f"the page and the API need {error.name}; install it: pip install viscotack[app]"
+        ) from None
+    return FastAPI

@@ -1,0 +1,178 @@
+"""Who may ask, and how much at once: looked at before anything else of a request."""
+
+import json
+import secrets
+from collections.abc import Awaitable, Callable, Iterable, MutableMapping
+from dataclasses import dataclass
+from http.cookies import CookieError, SimpleCookie
+from typing import Any
+from urllib.parse import parse_qs, urlsplit
+
+Message = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[Message]]
+Send = Callable[[Message], Awaitable[None]]
+Application = Callable[[Message, Receive, Send], Awaitable[None]]
+
+_COOKIE = "viscotack"
+# Nothing of the page, or of an upload that it shows, comes from or goes to another place.
+_HEADERS = {
+    "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; style-src 'self' "
+    "'unsafe-inline'; frame-ancestors 'none'; form-action 'self'; base-uri 'none'",
+    "referrer-policy": "no-referrer",
+    "x-content-type-options": "nosniff",
+}
+
+
+@dataclass(frozen=True)
+class Rules:
+    """Who may ask, and how much.
+
+    Attributes
+    ----------
+    hosts : tuple of str
+        Names by which the server may be called, without port; () for any.
+    token : str
+        That a request must bring; "" for none.
+    body, uploads : int
+        Longest request, and longest one with files [bytes].
+    """
+
+    hosts: tuple[str, ...] = ()
+    token: str = ""
+    body: int = 1_000_000
+    uploads: int = 20_000_000
+
+
+class TooLarge(Exception):
+    """A request with more content than is taken."""
+
+
+class Guard:
+    """The application behind its rules."""
+
+    def __init__(self, application: Application, rules: Rules) -> None:
+        self._application, self._rules = application, rules
+
+    async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
+        """Let a request through, or say why not."""
+        if scope["type"] != "http":
+            await self._application(scope, receive, send)
+            return
+        headers = {k.decode("latin-1"): v.decode("latin-1") for k, v in scope["headers"]}
+        refusal = self._refusal(scope, headers)
+        if refusal is not None:
+            await _refuse(send, *refusal)
+            return
+        entered = self._entered(scope)
+        if entered:
+            await _redirect(send, scope["path"], entered)
+            return
+        limit = self._limit(headers)
+        if int(_digits(headers.get("content-length", "0"))) > limit:
+            await _refuse(send, 413, _too_large(limit))
+            return
+        began = False
+
+        async def guarded(message: Message) -> None:
+            nonlocal began
+            if message["type"] == "http.response.start":
+                began = True
+                message["headers"] = [*message["headers"], *_pairs(_HEADERS)]
+            await send(message)
+
+        try:
+            await self._application(scope, _counted(receive, limit), guarded)
+        except TooLarge:
+            if not began:
+                await _refuse(send, 413, _too_large(limit))
+
+    def _limit(self, headers: MutableMapping[str, str]) -> int:
+        is_upload = headers.get("content-type", "").startswith("multipart/form-data")
+        return self._rules.uploads if is_upload else self._rules.body
+
+    def _refusal(self, scope: Message, headers: MutableMapping[str, str]) -> tuple[int, str] | None:
+        """Return status and words for a request that may not come in, None for one that may."""
+        host = headers.get("host", "")
+        if self._rules.hosts and _bare(host) not in self._rules.hosts:
+            return 403, f"this server is called {' or '.join(self._rules.hosts)}, not {host!r}"
+        origin = headers.get("origin", "")
+        if origin and urlsplit(origin).netloc != host:
+            # a page from elsewhere, in the browser of whoever runs the server
+            return 403, "pages from elsewhere may not ask this server"
+        if not self._rules.token or self._knows(scope, headers):
+            return None
+        return 401, (
+            "this server wants its token: the header Authorization: Bearer TOKEN, or in a browser "
+            "the link that viscotack app has printed"
+        )
+
+    def _knows(self, scope: Message, headers: MutableMapping[str, str]) -> bool:
+        """Return whether a request brings the token, in a header, a cookie or the link."""
+        given = [headers.get("authorization", "").removeprefix("Bearer ")]
+        try:
+            morsel = SimpleCookie(headers.get("cookie", "")).get(_COOKIE)
+        except CookieError:
+            morsel = None
+        given += [] if morsel is None else [morsel.value]
+        given += parse_qs(scope["query_string"].decode("latin-1")).get("token", [])
+        return any(secrets.compare_digest(x.encode(), self._rules.token.encode()) for x in given)
+
+    def _entered(self, scope: Message) -> str:
+        """Return the cookie for a browser that comes by the link with the token, else nothing."""
+        query = parse_qs(scope["query_string"].decode("latin-1"))
+        if not self._rules.token or scope["path"] != "/" or "token" not in query:
+            return ""
+        return f"{_COOKIE}={self._rules.token}; Path=/; HttpOnly; SameSite=Strict"
+
+
+def _counted(receive: Receive, limit: int) -> Receive:
+    """Return what hands a request on until it has grown too large."""
+    taken = 0
+
+    async def counted() -> Message:
+        nonlocal taken
+        message = await receive()
+        taken += len(message.get("body", b""))
+        if taken > limit:
+            raise TooLarge
+        return message
+
+    return counted
+
+
+def _bare(host: str) -> str:
+    """Return the name of a host without its port."""
+    return host.rpartition("]")[0] + "]" if host.startswith("[") else host.partition(":")[0]
+
+
+def _digits(text: str) -> str:
+    return text if text.isascii() and text.isdigit() and len(text) < 20 else "0"
+
+
+def _too_large(limit: int) -> str:
+    return f"the request is longer than the {limit:,} bytes that this server takes"
+
+
+def _pairs(headers: MutableMapping[str, str]) -> Iterable[tuple[bytes, bytes]]:
+    return [(name.encode(), value.encode()) for name, value in headers.items()]
+
+
+async def _refuse(send: Send, status: int, words: str) -> None:
+    content = json.dumps({"error": words}).encode()
+    headers = {"content-type": "application/json", "content-length": str(len(content))}
+    if status == 401:
+        headers["www-authenticate"] = "Bearer"
+    await _respond(send, status, headers, content)
+
+
+async def _redirect(send: Send, path: str, cookie: str) -> None:
+    # without the token, which then stands in no history and no log
+    await _respond(send, 303, {"location": path, "set-cookie": cookie, "content-length": "0"}, b"")
+
+
+async def _respond(
+    send: Send, status: int, headers: MutableMapping[str, str], content: bytes
+) -> None:
+    pairs = [*_pairs(headers), *_pairs(_HEADERS)]
+    await send({"type": "http.response.start", "status": status, "headers": pairs})
+    await send({"type": "http.response.body", "body": content})

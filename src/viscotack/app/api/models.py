@@ -1,0 +1,169 @@
+"""What requests and answers of the API look like; limits of single numbers stand here."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, WithJsonSchema
+
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
+
+Case = Annotated[
+    dict[str, Any],
+    WithJsonSchema(
+        {
+            "description": "A problem: the tables of a case file, quantities as text with units "
+            "(docs/input.md); or a record with a type, numbers in SI or dimensionless, as --json "
+            "prints it and `viscotack schema` describes it.",
+            "anyOf": [
+                {"$ref": "#/components/schemas/Tables"},
+                {"$ref": "#/components/schemas/Problem"},
+                {"$ref": "#/components/schemas/Groups"},
+                {"$ref": "#/components/schemas/PunchGroups"},
+            ],
+        }
+    ),
+]
+TABLES_SCHEMA = {
+    "type": "object",
+    "description": "The tables of a case file.",
+    "additionalProperties": {
+        "type": "object",
+        "additionalProperties": {
+            "anyOf": [{"type": "string"}, {"type": "number"}, {"type": "array", "items": {}}]
+        },
+    },
+    "examples": [
+        {
+            "material": {
+                "model": "elastic",
+                "rubbery_modulus": "1 MPa",
+                "poisson_ratio": 0.5,
+            },
+            "interface": {
+                "law": "lennard-jones",
+                "work_of_adhesion": "50 mJ/m^2",
+                "equilibrium_gap": "1 um",
+            },
+            "sphere": {"radius": "1 mm"},
+            "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
+        }
+    ],
+}
+Accuracy = Annotated[
+    float,
+    Field(ge=1e-6, le=LOOSEST_ACCURACY, description="Accuracy wanted of the pull-off force."),
+]
+Until = Annotated[
+    Literal["pull-off", "detached"],
+    Field(description="Stop just past the force minimum, or when the surfaces are apart."),
+]
+Confidence = Annotated[
+    float, Field(description="0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98: for these it was measured.")
+]
+Seconds = Annotated[float, Field(gt=0, le=3600, description="Longest time of one simulation [s].")]
+Words = Annotated[str, StringConstraints(max_length=200)]
+
+
+class Strict(BaseModel):
+    """What is sent: a misspelt name is refused and not lost."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class Asked(Strict):
+    """A problem."""
+
+    problem: Case
+
+
+class AskedToPredict(Asked):
+    """A problem to be predicted."""
+
+    confidence: Confidence = 0.9
+
+
+class AskedToSimulate(Asked):
+    """A problem to be simulated."""
+
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    until: Until = "detached"
+    time_limit: Seconds = 120.0
+    profiles: Annotated[
+        bool, Field(description="Also keep pressure and gap along the radius at some steps.")
+    ] = False
+
+
+class AskedToRun(Asked):
+    """A campaign: a problem, and the numbers that replace its own in each case."""
+
+    cases: Annotated[
+        list[dict[str, float]],
+        Field(
+            min_length=1,
+            description="A row for each case: the path of a number in the record of the problem, "
+            'such as "protocol.speed" [SI], and its value. All rows have the same paths.',
+            examples=[[{"protocol.speed": 1e-5}, {"protocol.speed": 1e-4}]],
+        ),
+    ]
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    until: Until = "pull-off"
+    time_limit: Seconds = 120.0
+
+
+class AskedState(Strict):
+    """A state of the page in one of its forms."""
+
+    toml: Annotated[str | None, Field(max_length=200_000)] = None
+    query: Annotated[str | None, Field(max_length=200_000)] = None
+    tables: dict[str, Any] | None = None
+
+
+class AskedQuick(Strict):
+    """A state of the page whose numbers are dragged."""
+
+    tables: dict[str, Any]
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    until: Until = "detached"
+    confidence: Confidence = 0.9
+
+
+class AskedVerdict(Strict):
+    """A state of the page that is to be judged."""
+
+    tables: dict[str, Any]
+    speeds: Annotated[bool, Field(description="Ask the theories at other speeds as well.")] = False
+
+
+class Refusal(BaseModel):
+    """Why there is no answer: what was wrong, what was given, what to do."""
+
+    error: str
+
+
+class Answer(BaseModel):
+    """An answer; its names are those of ``--json`` on the command line."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+class JobAnswer(BaseModel):
+    """A job, as far as it has come."""
+
+    id: str
+    kind: Literal["simulate", "campaign"]
+    state: Literal["queued", "running", "done", "refused", "failed", "cancelled"]
+    share: Annotated[float, Field(ge=0, le=1, description="Done share of the work.")]
+    points: Annotated[
+        list[list[float | None]],
+        Field(
+            description="Of the growing curve, from `points_from` on: time, depth, force, contact "
+            "radius; in SI where the problem is."
+        ),
+    ]
+    points_from: int
+    rows: Annotated[list[dict[str, Any]], Field(description="Of a campaign, from `rows_from` on.")]
+    rows_from: int
+    error: Annotated[str, Field(description="Why there is no answer; empty else.")]
+    answer: Annotated[
+        dict[str, Any] | None,
+        Field(description="`summary` and `columns` as `viscotack simulate` writes them."),
+    ]

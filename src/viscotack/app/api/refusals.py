@@ -1,0 +1,55 @@
+"""How the API says no: one object with the words, whatever went wrong."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from starlette.exceptions import HTTPException
+
+from viscotack.app.engine.crew import Defect, Halted, Refused
+from viscotack.app.engine.jobs import TooMany, Unknown
+
+_STATUS: tuple[tuple[type[Exception], int], ...] = (
+    (Unknown, 404),
+    (TooMany, 429),
+    (Refused, 422),
+    (Halted, 422),
+)
+_MOST_SAID = 3
+
+
+def words_for(app: FastAPI) -> None:
+    """Make an application say all its refusals as ``{"error": words}``."""
+
+    async def refused(request: Request, error: Exception) -> JSONResponse:
+        status = next(status for kind, status in _STATUS if isinstance(error, kind))
+        return JSONResponse({"error": str(error) or "it was stopped"}, status)
+
+    async def malformed(request: Request, error: Exception) -> JSONResponse:
+        assert isinstance(error, RequestValidationError)
+        return JSONResponse({"error": _said(error.errors())}, 422)
+
+    async def failed(request: Request, error: Exception) -> JSONResponse:
+        return JSONResponse({"error": f"this is a defect of viscotack: {error}"}, 500)
+
+    async def plain(request: Request, error: Exception) -> JSONResponse:
+        assert isinstance(error, HTTPException)
+        return JSONResponse({"error": str(error.detail)}, error.status_code, error.headers)
+
+    for kind, _ in _STATUS:
+        app.add_exception_handler(kind, refused)
+    app.add_exception_handler(Defect, failed)
+    app.add_exception_handler(RequestValidationError, malformed)
+    app.add_exception_handler(HTTPException, plain)
+
+
+def _said(errors: Sequence[Any]) -> str:
+    """Return what is wrong with a request, the first few things of many."""
+    said = []
+    for error in errors[:_MOST_SAID]:
+        place = ".".join(str(part) for part in error["loc"] if part != "body")
+        said.append(f"{place}: {error['msg']}" if place else str(error["msg"]))
+    more = len(errors) - _MOST_SAID
+    return "; ".join(said) + (f"; and {more} more" if more > 0 else "")
