@@ -82,7 +82,7 @@ def guarded(
 
 def _fastapi() -> type["FastAPI"]:
     try:
-        import multipart  # noqa: F401  # of python-multipart: files are sent with it
+        import python_multipart  # noqa: F401  # files are sent with it
         from fastapi import FastAPI
     except ImportError as error:
         raise InputError(

@@ -130,7 +130,13 @@ class AskedVerdict(Strict):
     """A state of the page that is to be judged."""
 
     tables: dict[str, Any]
-    speeds: Annotated[bool, Field(description="Ask the theories at other speeds as well.")] = False
+
+
+class AskedTheory(AskedVerdict):
+    """A state of the page, and which theories that may take seconds are to say something."""
+
+    crack: Annotated[bool, Field(description="The contact whose edge is a steady crack.")] = True
+    speeds: Annotated[bool, Field(description="The best theory at other speeds.")] = False
 
 
 class Refusal(BaseModel):

@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
 from importlib.resources import files as files_of
+from os.path import dirname
 from typing import Annotated, Any
 
 from fastapi import APIRouter, File, Form, Path, Query, Response, UploadFile
@@ -16,6 +17,7 @@ from .models import (
     Asked,
     AskedQuick,
     AskedState,
+    AskedTheory,
     AskedToPredict,
     AskedToRun,
     AskedToSimulate,
@@ -141,7 +143,8 @@ def _laboratory(router: APIRouter, engine: Engine) -> None:
     ) -> Answer:
         given = {name: value for name, value in options.items() if value not in (None, "")}
         async with _received(engine, files) as paths:
-            return Answer(**await engine.ask(task, {"files": paths, "options": given, **more}))
+            asked = {"files": paths, "options": given, **more}
+            return Answer(**_bare(await engine.ask(task, asked), paths))
 
     @router.post("/api/materials/fit", tags=["materials"])
     async def fit(
@@ -224,6 +227,17 @@ def _laboratory(router: APIRouter, engine: Engine) -> None:
         return await ask("rates", files, options, material=material)
 
 
+def _bare(value: Any, paths: list[str]) -> Any:
+    """Return an answer in which files have their names, and not the place where they lay."""
+    if isinstance(value, dict):
+        return {key: _bare(entry, paths) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_bare(entry, paths) for entry in value]
+    if isinstance(value, str) and paths:
+        return value.replace(f"{dirname(paths[0])}/", "")
+    return value
+
+
 @asynccontextmanager
 async def _received(engine: Engine, files: list[UploadFile]) -> AsyncIterator[list[str]]:
     """Hold the files of a request in a folder for the block."""
@@ -250,10 +264,20 @@ def _page(router: APIRouter, engine: Engine) -> None:
         """Return what is known of a state in milliseconds: curves, numbers with intervals."""
         return Answer(**await engine.ask("quick", asked.model_dump()))
 
+    @router.post("/api/moduli", tags=["page"])
+    async def moduli(asked: AskedQuick) -> Answer:
+        """Return storage and loss modulus of a state's material over the frequency."""
+        return Answer(**await engine.ask("moduli", asked.model_dump()))
+
     @router.post("/api/verdict", tags=["page"])
     async def verdict(asked: AskedVerdict) -> Answer:
-        """Return the advisor's words, and the theories that may take seconds."""
+        """Return the advisor's words on a state."""
         return Answer(**await engine.ask("verdict", asked.model_dump()))
+
+    @router.post("/api/theory", tags=["page"])
+    async def theory(asked: AskedTheory) -> Answer:
+        """Return the curves of the theories that may take seconds."""
+        return Answer(**await engine.ask("theory", asked.model_dump()))
 
     @router.get("/", include_in_schema=False)
     async def page() -> Response:

@@ -17,6 +17,7 @@ _COMMANDS = (
     "forecast",
     "campaign",
     "schema",
+    "page",
 )
 
 

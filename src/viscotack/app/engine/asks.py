@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.bem import crack_contact
+from viscotack.bem.by_crack import METHOD
 from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict, prediction_summary
@@ -28,6 +29,8 @@ Asked = Mapping[str, Any]
 
 # Speeds of the theories' picture, and how many decades around the present one.
 _SPEEDS, _DECADES = 9, 3.0
+# Frequencies of the picture of a material, and how many decades around 1/its time.
+_FREQUENCIES, _WIDE = 81, 8.0
 
 
 def warm() -> None:
@@ -98,22 +101,45 @@ def ask_advise(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
     return plain(asdict(advice) | {"sentences": list(advice.sentences)})
 
 
+def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return storage and loss modulus of a state's material over the frequencies that matter."""
+    material = State(asked["tables"], also).problem.material
+    frequency = np.logspace(-_WIDE, _WIDE, _FREQUENCIES) / material.time_unit
+    modulus = np.asarray(material.complex_modulus(2 * np.pi * frequency))
+    return {
+        "frequency": drawn(frequency),
+        "storage": drawn(np.real(modulus)),
+        "loss": drawn(np.imag(modulus)),
+    }
+
+
 def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the advisor's words, and the theories that may take seconds, part by part."""
+    """Return the advisor's words on a state, and whether a steady crack at its edge may be asked.
+
+    The advisor knows spheres that are pulled off at once; other shapes and tests are asked about.
+    """
     problem = State(asked["tables"], also).problem
     try:
         advice = advise(problem)
-        words, use = list(advice.sentences), advice.use
-        tiers = [plain(asdict(estimate)) for estimate in advice.estimates]
     except InputError as error:
-        words, use, tiers = [f"{str(error)[:1].upper()}{str(error)[1:]}."], "simulation", []
-    found: dict[str, Any] = {"words": words, "use": use, "tiers": tiers}
-    tell(found)
-    found["crack"] = _crack(problem)
-    tell(found)
-    if asked["speeds"]:
-        found["speeds"] = _speeds(problem)
-    return found
+        words = f"{str(error)[:1].upper()}{str(error)[1:]}."
+        crack = not isinstance(problem.geometry, FlatPunch)
+        return {"words": [words], "use": "simulation", "tiers": [], "crack": crack}
+    return {
+        "words": list(advice.sentences),
+        "use": advice.use,
+        "tiers": [plain(asdict(estimate)) for estimate in advice.estimates],
+        "crack": any(each.tier == METHOD and each.applies for each in advice.estimates),
+    }
+
+
+def ask_theory(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return what the theories that may take seconds say of a state."""
+    problem = State(asked["tables"], also).problem
+    return {
+        "crack": _crack(problem) if asked["crack"] else None,
+        "speeds": _speeds(problem) if asked["speeds"] else None,
+    }
 
 
 def ask_materials(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
@@ -164,8 +190,6 @@ def _published() -> list[dict[str, Any]]:
 
 def _crack(problem: Problem) -> dict[str, Any] | None:
     """Return the curve of the contact whose edge is a steady crack, where it holds."""
-    if isinstance(problem.geometry, FlatPunch):
-        return None
     try:
         found = crack_contact(problem)
     except (InputError, OverflowError):

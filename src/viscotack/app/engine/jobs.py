@@ -65,8 +65,8 @@ class Unknown(Refused):
 
 # Task -> its lane; each lane has processes of its own, so that no simulation holds up a slider.
 _LANES = {
-    "quick": ("quick", "state", "forms"),
-    "ask": ("predict", "advise", "verdict", "materials", "fit", "tests", "slow", "rates"),
+    "quick": ("quick", "state", "forms", "moduli"),
+    "ask": ("predict", "advise", "verdict", "theory", "materials", "fit", "tests", "slow", "rates"),
     "work": ("simulate", "campaign"),
 }
 _LANE_OF = {task: lane for lane, tasks in _LANES.items() for task in tasks}
@@ -192,6 +192,7 @@ class Engine:
                 paths.append(str(path))
             try:
                 yield paths
+            # where they lay says nothing to whoever sent them
             except Refused as error:
                 raise type(error)(str(error).replace(f"{folder}/", "")) from None
 

@@ -10,6 +10,7 @@ from viscotack.bem import solve
 from viscotack.campaign.case import CaseSettings, Unsolved, measure
 from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError
+from viscotack.geometry import FlatPunch
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import LOOSEST_ACCURACY
 from viscotack.problem.outputs import Kind
@@ -199,6 +200,16 @@ def _profiles(result: Result) -> list[dict[str, Any]] | None:
                 "radius": drawn(radius[every] * along),
                 "gap": drawn(fields["gap"][step][every] * depth),
                 "pressure": drawn(fields["pressure"][step][every] * pressure),
+                "flank": _flank(result.problem, radius[every] * along),
             }
         )
     return found
+
+
+def _flank(problem: Any, radius: Any) -> list[float | None] | None:
+    """Return the height of an indenter above its tip, in SI; None without dimensions."""
+    if not isinstance(problem, Problem):
+        return None
+    if isinstance(problem.geometry, FlatPunch):
+        return drawn(np.zeros_like(radius))
+    return drawn(problem.geometry.gap(radius))

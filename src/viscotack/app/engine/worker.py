@@ -29,6 +29,8 @@ TASKS = {
     "predict": ("asks", "ask_predict"),
     "advise": ("asks", "ask_advise"),
     "verdict": ("asks", "ask_verdict"),
+    "theory": ("asks", "ask_theory"),
+    "moduli": ("asks", "ask_moduli"),
     "materials": ("asks", "ask_materials"),
     "simulate": ("runs", "run_simulate"),
     "campaign": ("runs", "run_campaign"),

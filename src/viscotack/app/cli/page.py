@@ -1,0 +1,114 @@
+"""The command ``viscotack app``: the page and the API, on this machine."""
+
+import os
+import secrets
+import socket
+import webbrowser
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from typer import Argument, Option
+
+from viscotack.errors import InputError
+
+from .commands import With, application, wrong_input
+
+_LOCAL = ("127.0.0.1", "localhost", "::1")
+_NAMES = ("127.0.0.1", "localhost", "[::1]")
+# A token in the environment is in no list of processes, as one in a flag would be.
+_TOKEN = "VISCOTACK_TOKEN"
+
+
+@application.command("app")
+def app_command(
+    case: Annotated[
+        Path | None,
+        Argument(metavar="CASE.toml", help="The case to begin with.", show_default=False),
+    ] = None,
+    host: Annotated[
+        str,
+        Option(metavar="ADDRESS", help="Where to listen; another than this machine needs a token."),
+    ] = "127.0.0.1",
+    port: Annotated[int, Option(metavar="N", min=0, max=65535, help="0: one that is free.")] = 8642,
+    workers: Annotated[
+        int, Option(metavar="N", min=1, max=256, help="Simulations that go on at once.")
+    ] = 2,
+    browser: Annotated[
+        bool, Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
+    own: With = None,
+) -> None:
+    """Open the page: drag numbers, and see theory, surrogate and simulation answer.
+
+    The same server answers programs: /api/docs and /openapi.json say how. It listens to this
+    machine alone. With another --host everybody who reaches it must bring a token: that in the
+    environment as VISCOTACK_TOKEN, or one that is made and printed.
+
+    Example: viscotack app examples/from_toml/lens.toml
+    """
+    with wrong_input():
+        server = _uvicorn()
+        from viscotack.app.api import guarded
+        from viscotack.app.engine.jobs import Engine, Limits
+        from viscotack.problem.nouns import own_nouns
+
+        files = [str(Path(path).resolve()) for path in own or ()]
+        query = "" if case is None else _query(case, own_nouns(files))
+        token, names = _token(host), _NAMES if host in _LOCAL else ()
+        engine = Engine(Limits(workers=workers), own=files)
+        behind = guarded(engine, hosts=names, token=token)
+        listening = _listening(host, port)
+    place = f"[{host}]" if ":" in host else host
+    link = f"http://{place}:{listening.getsockname()[1]}/"
+    more = "&".join(part for part in (f"token={token}" if token else "", query) if part)
+    link += f"?{more}" if more else ""
+    typer.echo(f"viscotack app: {link}\nCtrl-C ends it.", err=True)
+    if browser:
+        webbrowser.open(link)
+    config = server.Config(behind, log_level="warning", timeout_graceful_shutdown=2)
+    server.Server(config).run(sockets=[listening])
+
+
+def _uvicorn() -> Any:
+    try:
+        import uvicorn
+    except ImportError as error:
+        raise InputError(
+            f"the page and the API need {error.name}; install it: pip install viscotack[app]"
+        ) from None
+    return uvicorn
+
+
+def _token(host: str) -> str:
+    """Return the token that requests must bring; none on this machine, unless one is given."""
+    given = os.environ.get(_TOKEN, "")
+    if given and (len(given) < 16 or not given.isascii() or not given.isprintable()):
+        raise InputError(f"{_TOKEN} must have 16 characters or more, without accents or spaces")
+    return given if given or host in _LOCAL else secrets.token_urlsafe(24)
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family)
+    except OSError as error:
+        raise InputError(
+            f"cannot listen at {host}, port {port}: {error.strerror or error}; take another --port "
+            "or 0 for one that is free"
+        ) from None
+
+
+def _query(case: Path, also: tuple[Any, ...]) -> str:
+    """Return the link's query of a case file; a material that stands in a file of its own too."""
+    from viscotack.app.engine.asks import material_table
+    from viscotack.app.engine.state import State
+    from viscotack.files.toml import read_toml
+    from viscotack.problem.case_file import read_case
+
+    problem, tables = read_case(case, also=also), read_toml(case)
+    if tables["material"].keys() & {"passport", "file"}:
+        tables["material"] = material_table(problem.material)
+    state = State(tables, also)
+    state.problem  # noqa: B018  # what names another file, a law or a history, is refused here
+    return state.query

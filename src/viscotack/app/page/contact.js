@@ -1,0 +1,332 @@
+// The first view: load against depth, what is under the indenter, and what may be trusted.
+
+import { Plot, element } from "./plot.js";
+import { digits, said } from "./numbers.js";
+import { setUp, surface } from "./drawing.js";
+import { curveOf } from "./store.js";
+
+const ENERGY = { drive: ["work of the drive", "c6"], interface: ["interface", "c0"], elastic: ["elastic energy", "c1"], spring: ["spring of the machine", "c5"], heat: ["heat in the solid", "c2"], jumps: ["lost in jumps", "c3"], transfer: ["lost in mesh moves", "c4"] };
+const TOUR = 5000; // milliseconds of one way along the curve
+
+export class Contact {
+  constructor(host, store) {
+    this.store = store;
+    this.host = host;
+    const view = element("div", "view");
+    host.append(view);
+
+    const numbers = card(view, "wide");
+    this.numbers = element("dl", "numbers");
+    numbers.append(this.numbers);
+
+    const main = card(view, "main");
+    this.plot = new Plot(main, "Load against depth", { height: 340 });
+    main.append(this.controls());
+
+    const side = card(view, "side");
+    side.append(element("h3", "", "Set-up"));
+    this.setUp = element("div", "");
+    this.words = element("ul", "words");
+    side.append(this.setUp, element("h3", "", "Verdict"), this.words);
+
+    const under = card(view, "");
+    under.append(element("h3", "", "Under the indenter"));
+    this.surface = element("div", "");
+    this.pressure = new Plot(under, "Pressure along the radius", { height: 210 });
+    under.insertBefore(this.surface, this.pressure.card);
+    const gaps = element("div", "");
+    this.gap = new Plot(gaps, "Gap along the radius", { height: 190 });
+    under.append(gaps);
+
+    const right = element("div", "card");
+    this.speeds = new Plot(right, "Pull-off against speed", { height: 270 });
+    this.energy = new Plot(right, "Where the work goes", { height: 270 });
+    view.append(right);
+
+    this.at = null;
+    store.addEventListener("quick", () => this.draw());
+    store.addEventListener("run", () => this.draw());
+    store.addEventListener("verdict", () => this.draw());
+  }
+
+  controls() {
+    const box = element("div", "");
+    const row = element("div", "row");
+    this.play = button("Pause", () => this.toggle());
+    this.play.setAttribute("aria-label", "Pause or play the way along the curve");
+    this.slider = element("input", "grow");
+    this.slider.type = "range";
+    this.slider.min = 0; this.slider.max = 1000; this.slider.value = 0;
+    this.slider.setAttribute("aria-label", "Point along the simulated curve");
+    this.slider.addEventListener("input", () => { this.pause(); this.go(Number(this.slider.value) / 1000); });
+    this.start = button("Simulate", () => this.store.simulate());
+    this.cancel = button("Cancel", () => this.store.stop("cancelled"));
+    this.cancel.id = "cancel";
+    this.keep = button("Keep to compare", () => this.store.keep());
+    row.append(this.play, this.slider, this.start, this.cancel, this.keep);
+    this.progress = element("progress", "");
+    this.progress.max = 1;
+    this.progress.setAttribute("aria-label", "Progress of the simulation");
+    this.said = element("p", "hint");
+    this.said.id = "run";
+    this.said.setAttribute("role", "status");
+    box.append(row, this.progress, this.said);
+    this.plot.svg.addEventListener("pointerdown", (event) => this.drag(event));
+    return box;
+  }
+
+  // Drag along the curve in the picture itself.
+  drag(event) {
+    if (!this.curve) return;
+    this.pause();
+    const svg = this.plot.svg;
+    const move = (at) => {
+      const box = svg.getBoundingClientRect();
+      const x = (at.clientX - box.left) * this.plot.size.width / box.width;
+      const y = (at.clientY - box.top) * this.plot.size.height / box.height;
+      let best = 0, least = Infinity;
+      this.curve.depth.forEach((depth, i) => {
+        const far = Math.hypot(this.plot.toX(depth) - x, this.plot.toY(this.curve.force[i]) - y);
+        if (far < least) { least = far; best = i; }
+      });
+      this.go(best / Math.max(this.curve.depth.length - 1, 1));
+    };
+    move(event);
+    const end = () => { svg.removeEventListener("pointermove", move); removeEventListener("pointerup", end); };
+    svg.addEventListener("pointermove", move);
+    addEventListener("pointerup", end);
+  }
+
+  draw() {
+    const { quick, run, verdict } = this.store;
+    if (!quick) return;
+    const now = this.store.version;
+    const { axes } = quick;
+    const done = run.answer, growing = ["queued", "running"].includes(run.state);
+    const stale = run.version !== now;
+    const simulated = done ? curveOf(done) : { depth: run.depth, force: run.force };
+    const series = [], { elastic, edge, surrogate } = quick.curves;
+    if (elastic) series.push({ kind: "line", x: elastic.depth, y: elastic.force, colour: "c6", dash: true, words: elastic.words });
+    const { theory } = this.store;
+    const crack = theory && theory.version === now ? theory.crack : null;
+    if (edge && !crack) series.push({ kind: "line", x: edge.depth, y: edge.force, colour: "c2", dash: !edge.applies, faint: !edge.applies, beside: !edge.applies, words: `theory: ${edge.words}${edge.applies ? "" : " (does not apply here)"}` });
+    if (crack) series.push({ kind: "line", x: crack.depth, y: crack.force, colour: "c2", dash: !crack.applies, words: `theory: ${crack.words}` });
+    if (surrogate) {
+      const ends = [Math.min(...surrogate.depth), Math.max(...surrogate.depth)];
+      const place = surrogate.depth[surrogate.depth.length - 1], reach = 0.22 * (ends[1] - ends[0]);
+      series.push({ kind: "band", x: [place - reach, place + reach], low: surrogate.interval.map(() => -surrogate.interval[1]), high: surrogate.interval.map(() => -surrogate.interval[0]), colour: "c1", words: `learned: pull-off, ${Math.round(100 * surrogate.confidence)} % of cases` });
+      series.push({ kind: "line", x: surrogate.depth, y: surrogate.force, colour: "c1", width: 7, soft: true, words: surrogate.words });
+    }
+    if (simulated.depth.length) series.push({ kind: "line", x: simulated.depth, y: simulated.force, colour: "c0", faint: stale, beside: stale, width: 2.8, words: stale ? "simulation of the case before" : growing ? "simulation, as it runs" : "simulation" });
+    if (this.store.rig) for (const one of this.store.rig.curves.slice(0, 3)) series.push({ kind: "points", x: one.depth, y: one.force, colour: "c3", size: 1.5, words: `measured: ${one.file}` });
+    this.plot.cursor = null;
+    this.plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series);
+    this.setUp.innerHTML = setUp(this.store.tables, quick);
+    this.state(run, growing, stale);
+    this.told(quick, done && !stale ? done : null, crack);
+    this.speed(quick, theory, done && !stale ? done : null);
+    this.verdict(quick, verdict, now);
+    const curve = done && !stale ? simulated : null;
+    if (curve !== this.curve && (!curve || this.answer !== done)) {
+      this.curve = curve;
+      this.answer = curve ? done : null;
+      this.drawEnergy(done, stale);
+      if (curve) this.tour();
+      else this.pause();
+    }
+    this.curve = curve;
+    this.show();
+  }
+
+  state(run, growing, stale) {
+    this.progress.hidden = !growing;
+    this.progress.value = run.share;
+    this.cancel.disabled = !growing;
+    this.start.disabled = growing;
+    this.keep.disabled = this.store.kept.length >= 4;
+    const words = {
+      idle: "", queued: "waiting for a free process", running: `simulating, ${Math.round(100 * run.share)} %`,
+      refused: `no simulation: ${run.error}`, cancelled: run.error ? "cancelled" : "",
+      stopped: run.answer ? run.answer.summary.status : "",
+      done: run.answer && !stale ? `${run.answer.summary.status}; simulated in ${digits(run.took / 1000, 2)} s` : "",
+    }[run.state];
+    if (this.said.textContent !== words) this.said.textContent = words;
+    this.said.classList.toggle("refused", run.state === "refused" || run.state === "stopped");
+  }
+
+  // The numbers, each with its interval and a button that copies it.
+  told(quick, done, crack) {
+    const { axes } = quick, rows = [];
+    if (done) {
+      const { summary } = done;
+      const force = summary.pull_off_force_N ?? summary.pull_off_stress_Pa;
+      const work = summary.work_to_pull_off_J ?? summary["work_to_pull_off_J_per_m2"];
+      const error = summary.error_estimate || {};
+      rows.push([`${axes.pull_off.words}, simulated`, force, axes.pull_off.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
+      if (work !== null && work !== undefined) rows.push([`${axes.work.words}, simulated`, work, axes.work.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
+    }
+    for (const { name, value, interval, method, confidence } of quick.numbers) {
+      rows.push([`${axes[name].words}, ${method}`, value, axes[name].unit, `${Math.round(100 * confidence)} % of cases: ${said(interval[0], axes[name].unit).split(" ")[0]} to ${said(interval[1], axes[name].unit)}`]);
+    }
+    for (const [name, value] of Object.entries(quick.groups)) {
+      if (["tabor", "modulus_ratio"].includes(name)) rows.push([name === "tabor" ? "Tabor number" : "modulus ratio k", value, "", ""]);
+    }
+    const key = JSON.stringify(rows);
+    if (key === this.toldBefore) return;
+    this.toldBefore = key;
+    this.numbers.replaceChildren(...rows.map(([words, value, unit, more]) => {
+      const box = element("div", ""), number = element("dd", "", said(value, unit));
+      const copy = button("copy", () => { navigator.clipboard?.writeText(`${value} ${unit}`.trim()); copy.textContent = "copied"; });
+      copy.className = "copy";
+      copy.setAttribute("aria-label", `Copy the ${words}`);
+      number.append(copy);
+      if (more) number.append(element("small", "", more));
+      box.append(element("dt", "", words), number);
+      return box;
+    }));
+    const first = rows[0];
+    if (first) this.plot.remark(`${first[0]} ${said(first[1], first[2])}`);
+  }
+
+  speed(quick, theory, done) {
+    const found = quick.speeds || (theory && theory.version === this.store.version ? theory.speeds : null);
+    const { axes } = quick, series = [];
+    if (found) {
+      series.push({ kind: "band", x: found.speed, low: found.low, high: found.high, colour: quick.speeds ? "c1" : "c2", words: "band of 90 % of cases" });
+      series.push({ kind: "line", x: found.speed, y: found.force, colour: quick.speeds ? "c1" : "c2", words: found.words });
+    }
+    const pull = done ? done.summary.pull_off_force_N ?? done.summary.pull_off_stress_Pa : null;
+    if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
+    if (this.store.rig) series.push({ kind: "points", x: this.store.rig.curves.map((one) => one.speed), y: this.store.rig.curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });
+    this.speeds.cursor = null;
+    this.speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pull_off, least: 0 } }, series);
+    if (!found) { this.speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
+    const i = nearest(found.speed, found.here);
+    this.speeds.point(found.here, pull ?? found.force[i], "this case");
+  }
+
+  drawEnergy(done, stale) {
+    const energy = done && !stale ? done.energy : null;
+    if (!energy) { this.energy.draw({ x: { words: "depth", unit: "m" }, y: { words: "energy", unit: "J" } }, []); return; }
+    const curve = curveOf(done), moved = this.store.tables.protocol?.moves;
+    const along = moved ? curve.time : curve.depth;
+    const series = Object.entries(energy.series).map(([name, y]) => ({ kind: "line", x: along, y, words: ENERGY[name][0], colour: ENERGY[name][1], dash: name === "drive" }));
+    const x = moved ? { words: "time", unit: "s" } : { words: "depth", unit: "m", turned: true };
+    this.energy.draw({ x, y: { words: "energy", unit: energy.unit } }, series);
+  }
+
+  verdict(quick, verdict, now) {
+    const known = verdict && verdict.version === now;
+    const lines = [...quick.notes.map((words) => `${words[0].toUpperCase()}${words.slice(1)}.`), ...(known ? verdict.words : ["…"])];
+    const key = lines.join("\n");
+    if (key === this.saidBefore) return;
+    this.saidBefore = key;
+    // the tiers that do not apply are for who wants to know
+    const first = lines.filter((line) => !/^[\w -]+ does not apply/.test(line)), rest = lines.filter((line) => !first.includes(line));
+    const items = first.map((line) => element("li", "", line));
+    if (rest.length) {
+      const more = element("li", ""), details = element("details", "");
+      details.append(element("summary", "", "what does not apply, and why"), ...rest.map((line) => element("p", "hint", line)));
+      more.append(details);
+      items.push(more);
+    }
+    this.words.replaceChildren(...items);
+  }
+
+  // Go along the simulated curve, from its start to its end and again.
+  tour() {
+    this.go(0);
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) { this.pause(); return; }
+    this.resume();
+  }
+
+  resume() {
+    this.playing = true;
+    this.play.textContent = "Pause";
+    let before = performance.now();
+    const step = (now) => {
+      if (!this.playing) return;
+      if (this.host.offsetParent !== null && this.curve) {
+        const next = (this.at ?? 0) + (now - before) / TOUR;
+        if (now - before > 30) { this.go(next > 1.15 ? 0 : next); before = now; }
+      } else before = now;
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
+  }
+
+  pause() {
+    this.playing = false;
+    this.play.textContent = "Play";
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.resume();
+  }
+
+  go(at) {
+    this.at = at;
+    this.slider.value = 1000 * Math.min(at, 1);
+    this.show();
+  }
+
+  show() {
+    const { answer, curve } = this;
+    this.slider.disabled = this.play.disabled = !curve;
+    if (!curve || !answer) {
+      this.surface.replaceChildren(element("p", "hint", this.store.run.state === "refused" ? "no simulation, no fields" : "comes with the simulation"));
+      this.pressure.draw({ x: { words: "radius", unit: "m" }, y: { words: "pressure", unit: "Pa" } }, []);
+      this.gap.draw({ x: { words: "radius", unit: "m" }, y: { words: "gap", unit: "m" } }, []);
+      return;
+    }
+    const last = curve.depth.length - 1;
+    const i = Math.min(Math.round(Math.min(this.at ?? 0, 1) * last), last);
+    const axes = this.store.quick.axes;
+    this.plot.point(curve.depth[i], curve.force[i], `${said(curve.force[i], axes.force.unit, 3)} at ${said(curve.depth[i], "m", 3)}`);
+    this.slider.setAttribute("aria-valuetext", `${said(curve.force[i], axes.force.unit, 3)} at depth ${said(curve.depth[i], "m", 3)}`);
+    const profiles = answer.profiles;
+    if (!profiles) {
+      if (this.profile !== "none") this.surface.replaceChildren(element("p", "hint", "a theory answers here, which has no fields"));
+      this.profile = "none";
+      return;
+    }
+    let profile = profiles[0];
+    for (const one of profiles) if (Math.abs(one.step - i) < Math.abs(profile.step - i)) profile = one;
+    if (profile === this.profile && this.drawnFor === answer) return;
+    this.profile = profile;
+    this.drawnFor = answer;
+    const depth = curve.depth[profile.step];
+    this.surface.innerHTML = surface(profile, depth, this.store.quick);
+    const far = Math.max(...profiles[0].radius);
+    this.pressure.draw({ x: { words: "radius", unit: "m", least: 0, most: far }, y: { words: "pressure", unit: "Pa", ...this.reach(profiles) } }, [{ kind: "line", x: profile.radius, y: profile.pressure, colour: "c0" }]);
+    this.gap.draw({ x: { words: "radius", unit: "m", least: 0, most: far }, y: { words: "gap", unit: "m", least: 0 } }, [{ kind: "line", x: profile.radius, y: profile.gap, colour: "c2" }]);
+  }
+
+  reach(profiles) {
+    if (this.reached?.of !== profiles) {
+      const all = profiles.flatMap((one) => one.pressure);
+      this.reached = { of: profiles, least: Math.min(...all), most: Math.max(...all) };
+    }
+    return { least: this.reached.least, most: this.reached.most };
+  }
+}
+
+function nearest(list, value) {
+  let best = 0;
+  list.forEach((x, i) => { if (Math.abs(Math.log(x / value)) < Math.abs(Math.log(list[best] / value))) best = i; });
+  return best;
+}
+
+export function card(view, kind) {
+  const box = element("section", `card ${kind}`.trim());
+  view.append(box);
+  return box;
+}
+
+export function button(words, action) {
+  const found = element("button", "", words);
+  found.type = "button";
+  found.addEventListener("click", action);
+  return found;
+}
