@@ -6,7 +6,7 @@ from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from dataclasses import dataclass
 from http.cookies import CookieError, SimpleCookie
 from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, parse_qsl, urlencode, urlsplit
 
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
@@ -65,7 +65,7 @@ class Guard:
             return
         entered = self._entered(scope)
         if entered:
-            await _redirect(send, scope["path"], entered)
+            await _redirect(send, _without_token(scope), entered)
             return
         limit = self._limit(headers)
         if int(_digits(headers.get("content-length", "0"))) > limit:
@@ -123,6 +123,13 @@ class Guard:
         if not self._rules.token or scope["path"] != "/" or "token" not in query:
             return ""
         return f"{_COOKIE}={self._rules.token}; Path=/; HttpOnly; SameSite=Strict"
+
+
+def _without_token(scope: Message) -> str:
+    """Return where a browser is sent that has come with the token."""
+    pairs = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
+    query = urlencode([(name, value) for name, value in pairs if name != "token"])
+    return scope["path"] + (f"?{query}" if query else "")
 
 
 def _counted(receive: Receive, limit: int) -> Receive:

@@ -38,6 +38,7 @@ _KINDS = {
 _REFUSED: dict[int | str, dict[str, Any]] = {
     status: {"model": Refusal, "description": words}
     for status, words in (
+        (400, "The request cannot be read."),
         (401, "The token is missing or wrong."),
         (403, "The request comes from elsewhere."),
         (413, "The request is too long."),

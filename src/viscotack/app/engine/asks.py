@@ -192,7 +192,7 @@ def _crack(problem: Problem) -> dict[str, Any] | None:
     """Return the curve of the contact whose edge is a steady crack, where it holds."""
     try:
         found = crack_contact(problem)
-    except (InputError, OverflowError):
+    except (InputError, ArithmeticError):
         return None
     scales = problem.scales()
     return {
@@ -216,7 +216,7 @@ def _speeds(problem: Problem) -> dict[str, Any] | None:
     for speed in speeds.tolist():
         try:
             answer = predict(replace(problem, protocol=replace(protocol, speed=speed)))
-        except (InputError, OverflowError):
+        except (InputError, ArithmeticError):
             continue
         rows.append((speed, answer.value, *answer.interval))
     if len(rows) < 2:

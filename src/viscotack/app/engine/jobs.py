@@ -157,8 +157,8 @@ class Engine:
         """Start a process of each lane; Refused where the user's own files are wrong."""
         lanes = (
             Lane("quick", 2, ("quick",)),
-            Lane("ask", 2, ("verdict",), nice=3),
-            Lane("work", self.limits.workers, ("simulate",), nice=5),
+            Lane("ask", 2, ("verdict",), nice=4),
+            Lane("work", self.limits.workers, ("simulate",), nice=2),
         )
         self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
         # files of the user's own that are wrong are found out by the first of them

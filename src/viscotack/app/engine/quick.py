@@ -8,6 +8,7 @@ mean stress) positive in compression, depth positive into the solid.
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast.advice import edge_curve
@@ -108,46 +109,62 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
         "work_of_adhesion": problem.traction.work_of_adhesion,
     }
     shape, unit = problem.geometry, problem.scales().radius
+
+    def along(what: str, a: Any) -> Any:
+        if what == "radius":
+            return a
+        function = indenter.depth if what == "depth" else indenter.force
+        return np.asarray(function(a, shape=shape, **solid))
+
     a = unit * np.geomspace(1e-3, _LARGEST, 240)
-    depth = np.asarray(indenter.depth(a, shape=shape, **solid))
-    force = np.asarray(indenter.force(a, shape=shape, **solid))
-    lowest = int(np.argmin(depth))
-    a, depth, force = a[lowest:], depth[lowest:], force[lowest:]
-    end = _end_of(problem, a, depth, force)
+    lowest = int(np.argmin(along("depth", a)))
+    end = max(_radii(problem, a[lowest:], along), default=None)
     if end is None:
         found["notes"].append("JKR has no contact at the start: adhesion does not hold it there")
-        end = _USUAL * unit
-    radii = np.linspace(end, a[0], _POINTS)
+    radii = np.linspace(_USUAL * unit if end is None else end, a[lowest], _POINTS)
     found["curves"]["elastic"] = _curve(
         "infinitely slow, short range (JKR)",
-        indenter.depth(radii, shape=shape, **solid),
-        indenter.force(radii, shape=shape, **solid),
+        along("depth", radii),
+        along("force", radii),
         radius=drawn(radii),
     )
-    if isinstance(problem.protocol.start, Start):
-        at = [
-            float(np.asarray(f(end, shape=shape, **solid)))
-            for f in (indenter.depth, indenter.force)
-        ]
-        found["start"] = {"depth": at[0], "force": at[1], "radius": float(end)}
+    if end is not None and isinstance(problem.protocol.start, Start):
+        found["start"] = {
+            "depth": float(along("depth", end)),
+            "force": float(along("force", end)),
+            "radius": end,
+        }
 
 
-def _end_of(problem: Problem, a: Any, depth: Any, force: Any) -> float | None:
-    """Return the largest contact radius that the test asks for; None where JKR has none."""
-    largest = []
+def _radii(problem: Problem, a: Any, along: Any) -> list[float]:
+    """Return the contact radii of the states that a test asks for, where JKR has them.
+
+    Parameters
+    ----------
+    problem : Problem
+        The test.
+    a : ndarray
+        Contact radii that a rigid drive holds [m], ascending.
+    along : callable
+        Returns depth, force or radius at such radii.
+    """
+    found = []
     for state in states(problem.protocol):
-        match state:
-            case AtDepth(depth=value):
-                along = depth
-            case AtForce(force=value):
-                # the branch that a dead load keeps
-                first = int(np.argmin(force))
-                a, along = a[first:], force[first:]
-            case AtRadius(contact_radius=value):
-                along = a
-        if along[0] <= value <= along[-1]:
-            largest.append(float(np.interp(value, along, a)))
-    return max(largest, default=None)
+        what = state.word
+        (value,) = vars(state).values()
+        seen = along(what, a)
+        # of a force the branch that a dead load keeps
+        first = int(np.argmin(seen)) if what == "force" else 0
+        beyond = int(np.searchsorted(seen[first:], value)) + first
+        if not seen[first] <= value or beyond >= len(a):
+            continue
+        low, high = a[max(beyond - 1, 0)], a[beyond]
+        if seen[max(beyond - 1, 0)] == value or low == high:
+            found.append(float(low))
+            continue
+        root: Any = brentq(lambda x, w=what, v=value: float(along(w, x)) - v, low, high)
+        found.append(float(root))
+    return found
 
 
 def _edge(problem: Problem, found: dict[str, Any]) -> None:

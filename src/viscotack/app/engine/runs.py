@@ -96,7 +96,7 @@ def _case(kind: Any, row: Mapping[str, float], settings: CaseSettings) -> dict[s
         answer |= {"run_id": run_id(problem), "outputs": plain(outputs)}
     except (InputError, Unsolved) as error:
         answer["reason"] = str(error)
-    except OverflowError:
+    except ArithmeticError:
         answer["reason"] = "a number is too large or too small to compute with; check its unit"
     return answer | {"wall_time_s": perf_counter() - began}
 

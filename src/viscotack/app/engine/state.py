@@ -70,7 +70,10 @@ class State:
             str(name): {str(key): _plain(value) for key, value in table.items()}
             for name, table in tables.items()
         }
-        object.__setattr__(self, "tables", plain)
+        # a [profile] by its slope is a cone, and a page has one way to state it
+        cone = {"profile": "cone"} if "slope" in plain.get("profile", {}) else {}
+        tables = {cone.get(name, name): table for name, table in plain.items()}
+        object.__setattr__(self, "tables", tables)
 
     @cached_property
     def problem(self) -> Problem:

@@ -141,7 +141,7 @@ def _done(line: Line, message: Mapping[str, Any], also: tuple[Any, ...]) -> dict
         return {"answer": _function(message["task"])(message["asked"], tell, also)}
     except InputError as error:
         return {"refused": str(error)}
-    except OverflowError:
+    except ArithmeticError:  # 1e300 squared, or over nothing
         return {"refused": _TOO_LARGE}
     except MemoryError:
         return {"refused": "it takes more memory than this server gives to one question"}
@@ -159,12 +159,10 @@ def _module(task: str) -> Any:
 
 
 def _bounded() -> None:
-    """Give up what a worker never needs: much memory, and writing files."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    """Give up more memory than a worker ever needs."""
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
     least = _MOST_MEMORY if hard == resource.RLIM_INFINITY else min(_MOST_MEMORY, hard)
     resource.setrlimit(resource.RLIMIT_AS, (least, hard))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-    sys.dont_write_bytecode = True
 
 
 if __name__ == "__main__":

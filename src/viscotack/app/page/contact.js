@@ -44,6 +44,7 @@ export class Contact {
     view.append(right);
 
     this.at = null;
+    this.profile = undefined;
     store.addEventListener("quick", () => this.draw());
     store.addEventListener("run", () => this.draw());
     store.addEventListener("verdict", () => this.draw());
@@ -121,7 +122,8 @@ export class Contact {
     if (this.store.rig) for (const one of this.store.rig.curves.slice(0, 3)) series.push({ kind: "points", x: one.depth, y: one.force, colour: "c3", size: 1.5, words: `measured: ${one.file}` });
     this.plot.cursor = null;
     this.plot.draw({ x: { ...axes.depth, turned: true }, y: axes.force }, series);
-    this.setUp.innerHTML = setUp(this.store.tables, quick);
+    const drawing = setUp(this.store.tables, quick);
+    if (drawing !== this.drawing) this.setUp.innerHTML = this.drawing = drawing;
     this.state(run, growing, stale);
     this.told(quick, done && !stale ? done : null, crack);
     this.speed(quick, theory, done && !stale ? done : null);
@@ -207,6 +209,7 @@ export class Contact {
 
   drawEnergy(done, stale) {
     const energy = done && !stale ? done.energy : null;
+    if (!energy && this.energy.axes && !this.energy.series.length) return;
     if (!energy) { this.energy.draw({ x: { words: "depth", unit: "m" }, y: { words: "energy", unit: "J" } }, []); return; }
     const curve = curveOf(done), moved = this.store.tables.protocol?.moves;
     const along = moved ? curve.time : curve.depth;
@@ -275,6 +278,8 @@ export class Contact {
     const { answer, curve } = this;
     this.slider.disabled = this.play.disabled = !curve;
     if (!curve || !answer) {
+      if (this.profile === null) return; // it is empty already
+      this.profile = null;
       this.surface.replaceChildren(element("p", "hint", this.store.run.state === "refused" ? "no simulation, no fields" : "comes with the simulation"));
       this.pressure.draw({ x: { words: "radius", unit: "m" }, y: { words: "pressure", unit: "Pa" } }, []);
       this.gap.draw({ x: { words: "radius", unit: "m" }, y: { words: "gap", unit: "m" } }, []);

@@ -3,7 +3,7 @@
 import { ask, cancel, follow } from "./server.js";
 
 // Milliseconds for which numbers must rest before they are simulated.
-const REST = 120;
+const REST = 80;
 const PAGE_KEYS = ["accuracy", "until"];
 const MOST_KEPT = 4;
 
@@ -162,13 +162,13 @@ export class Store extends EventTarget {
       tables: this.tables, query: this.quick.query, quick: this.quick,
       columns: done ? curveOf(run.answer) : null, summary: done ? run.answer.summary : null,
     });
-    this.link();
+    history.replaceState(null, "", this.address());
     this.say("kept");
   }
 
   forget(index) {
     this.kept.splice(index, 1);
-    this.link();
+    history.replaceState(null, "", this.address());
     this.say("kept");
   }
 }

@@ -1,0 +1,45 @@
+"""A server of page and API as a program of its own, and a browser that looks at it."""
+
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from contextlib import contextmanager
+
+import pytest
+
+
+@contextmanager
+def running(*flags, environment=None):
+    """Yield the link of a server at a free port; it is ended as by Ctrl-C."""
+    server = subprocess.Popen(
+        [sys.executable, "-m", "viscotack", "app", "--no-browser", "--port", "0", *flags],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+    )
+    try:
+        link = re.search(r"http://\S+", server.stderr.readline())
+        assert link, server.communicate()[1]
+        yield link[0], server.pid
+    finally:
+        server.send_signal(signal.SIGINT)
+        server.wait(20)
+        server.stderr.close()
+
+
+@contextmanager
+def browsing():
+    """Yield Chromium without a window; says what to install where it is missing."""
+    try:
+        from playwright.sync_api import sync_playwright
+    except ImportError:
+        pytest.fail("no driver for a browser: pip install viscotack[outside]")
+    program = shutil.which("chromium") or shutil.which("google-chrome")
+    if program is None:
+        pytest.fail("no browser: install Debian's package chromium")
+    with sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield browser
+        browser.close()

@@ -1,0 +1,334 @@
+"""The API in its own process: answers, jobs, limits, files that are sent, and who may ask."""
+
+import asyncio
+import json
+import os
+import time
+from pathlib import Path
+
+import httpx
+import pytest
+
+from viscotack.app.api import application
+from viscotack.app.api.guard import Guard, Rules
+from viscotack.app.engine.examples import FIRST
+from viscotack.app.engine.jobs import Engine, Limits, _harmless
+
+ROOT = Path(__file__).parents[1]
+DMA = ROOT / "examples/from_dma/pdms_dma.csv"
+LENS = ROOT / "examples/from_rig/lens_30_um_s.csv"
+OVER = ("done", "refused", "failed", "cancelled")
+
+
+class Asking:
+    """Questions to an application, one after the other."""
+
+    def __init__(self, app):
+        self.loop = asyncio.new_event_loop()
+        transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
+        self.client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
+
+    def wait(self, what):
+        return self.loop.run_until_complete(what)
+
+    def __call__(self, method, path, **more):
+        return self.wait(self.client.request(method, path, timeout=120, **more))
+
+    def job(self, kind, **asked):
+        return self("POST", f"/api/jobs/{kind}", json={"problem": FIRST, **asked})
+
+    def answer(self, id):
+        while True:
+            found = self("GET", f"/api/jobs/{id}", params={"wait": 5}).json()
+            if found["state"] in OVER:
+                return found
+
+
+@pytest.fixture(scope="module")
+def engine():
+    # one process for what takes long: the others are started where they are needed
+    return Engine(Limits(jobs=101, workers=1, cases=3, body=200_000))
+
+
+@pytest.fixture(scope="module")
+def ask(engine):
+    app = application(engine)
+    found = Asking(app)
+    alive = app.router.lifespan_context(app)
+    found.wait(alive.__aenter__())
+    yield found
+    found.wait(alive.__aexit__(None, None, None))
+    assert engine.processes() == []
+    found.loop.close()
+
+
+def test_a_prediction_is_that_of_the_package(ask):
+    import viscotack as vt
+
+    answer = ask("POST", "/api/predict", json={"problem": FIRST})
+    assert answer.status_code == 200
+    problem = vt.from_dict(answer.json()["problem"])
+    expected = json.loads(json.dumps(vt.prediction_summary(vt.predict(problem))))
+    assert answer.json() == expected
+
+
+def test_a_simulation_is_a_job_whose_curve_grows_and_whose_digits_are_those_of_solve(ask):
+    import viscotack as vt
+
+    begun = ask.job("simulate", accuracy=0.01, until="pull-off", profiles=True)
+    assert begun.status_code == 202
+    found = ask.answer(begun.json()["id"])
+    result = vt.solve(problem_of_first(), accuracy=0.01, until="pull-off")
+    summary = found["answer"]["summary"]
+    assert found["state"] == "done" and found["share"] == 1.0
+    assert summary["pull_off_force_N"] == vt.summary(result)["pull_off_force_N"]
+    # what was told while it ran is the curve of the answer
+    assert [point[2] for point in found["points"]] == found["answer"]["columns"]["force_N"][1:]
+    assert found["answer"]["profiles"][0].keys() == {"step", "radius", "gap", "pressure", "flank"}
+    later = ask("GET", f"/api/jobs/{found['id']}", params={"points_from": 10}).json()
+    assert later["points"] == found["points"][10:]
+    assert ask("DELETE", f"/api/jobs/{found['id']}").status_code == 200
+    assert ask("GET", f"/api/jobs/{found['id']}").status_code == 404
+
+
+def problem_of_first():
+    from viscotack.problem.case_file import case_of_tables
+
+    return case_of_tables(FIRST)
+
+
+def test_a_campaign_has_a_row_for_each_case_and_says_why_one_failed(ask):
+    cases = [{"protocol.speed": 1e-5}, {"protocol.speed": -1.0}]
+    begun = ask.job("campaign", cases=cases, accuracy=0.02)
+    found = ask.answer(begun.json()["id"])
+    good, bad = found["answer"]["rows"]
+    assert good["outputs"]["pull_off_force_N"] == pytest.approx(4.07e-3, rel=0.01)
+    assert bad["outputs"] is None and "speed must be positive" in bad["reason"]
+    assert found["rows"] == found["answer"]["rows"] and found["answer"]["failed"] == 1
+    many = ask.job("campaign", cases=cases * 2)
+    assert many.status_code == 422 and "more than the 3" in many.json()["error"]
+
+
+def test_a_job_that_has_no_answer_says_why(ask):
+    found = ask.answer(
+        ask.job("simulate", problem=FIRST | {"sphere": {"radius": "1 nm"}}).json()["id"]
+    )
+    assert found["state"] == "refused" and "small strain" in found["error"]
+
+
+def test_a_job_is_cancelled_at_once_and_the_next_is_served(ask):
+    id = ask.job("simulate", accuracy=1e-6).json()["id"]
+    while ask("GET", f"/api/jobs/{id}").json()["state"] == "queued":
+        pass
+    began = time.perf_counter()
+    assert ask("DELETE", f"/api/jobs/{id}").json()["state"] == "cancelled"
+    assert time.perf_counter() - began < 0.5
+    assert ask.answer(ask.job("simulate", accuracy=0.02).json()["id"])["state"] == "done"
+
+
+def test_a_hundred_jobs_queued_and_cancelled_leave_no_process(ask, engine):
+    before = set(engine.processes())
+    ids = [ask.job("simulate", accuracy=1e-6).json()["id"] for _ in range(101)]
+    full = ask.job("simulate")
+    assert full.status_code == 429 and "101 jobs wait or go on" in full.json()["error"]
+    states = {ask("DELETE", f"/api/jobs/{id}").json()["state"] for id in ids}
+    assert states == {"cancelled"}
+    # one that did not stop by itself was ended, and another may have taken its place
+    assert len(engine.processes()) <= len(before)
+    ended = before - set(engine.processes())
+    assert not any(os.path.exists(f"/proc/{pid}") for pid in ended)
+
+
+def test_what_is_wrong_is_said_in_words_and_not_as_a_failure(ask):
+    for asked, said in (
+        ({}, "problem: Field required"),
+        ({"problem": FIRST, "confidence": 0.42}, "confidence must be one of"),
+        ({"problem": FIRST, "acuracy": 1}, "acuracy: Extra inputs"),
+        ({"problem": {"type": "Sphere", "radius": 1.0}}, "which is a part of one"),
+        ({"problem": FIRST | {"sphere": {"radius": "5 kg"}}}, "does not measure the right thing"),
+    ):
+        answer = ask("POST", "/api/predict", json=asked)
+        assert answer.status_code == 422 and said in answer.json()["error"]
+    assert ask("GET", "/nothing").json() == {"error": "Not Found"}
+    assert (
+        ask(
+            "POST", "/api/predict", content=b"{", headers={"content-type": "application/json"}
+        ).status_code
+        == 422
+    )
+
+
+def test_numbers_beyond_all_computing_are_refused(ask):
+    tiny = {
+        "type": "Problem",
+        "geometry": {"type": "Sphere", "radius": 5e-324},
+        "material": {"type": "Elastic", "rubbery_modulus": 5e-324, "poisson_ratio": 0.0},
+        "protocol": {
+            "type": "Retraction",
+            "speed": 5e-324,
+            "start": {"type": "AtForce", "force": 0.0},
+        },
+        "traction": {
+            "type": "LennardJones",
+            "equilibrium_gap": 5e-324,
+            "work_of_adhesion": 5e-324,
+        },
+    }
+    answer = ask("POST", "/api/predict", json={"problem": tiny})
+    assert answer.status_code == 422 and "too large or too small" in answer.json()["error"]
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        {"material": {"passport": "/etc/passwd"}},
+        {"material": {"model": "prony", "rubbery_modulus": "1 MPa", "file": "../x.csv"}},
+        {"interface": {"law": "table", "file": "/etc/passwd"}},
+        {"protocol": {"history": "/etc/passwd"}},
+    ],
+)
+def test_no_request_reads_a_file_of_the_server(ask, table):
+    answer = ask("POST", "/api/quick", json={"tables": FIRST | table})
+    assert answer.status_code == 422
+    assert "a case that is sent can name none" in answer.json()["error"]
+
+
+def test_a_file_of_a_rig_is_read_and_its_place_is_nobodys_business(ask):
+    sent = [("files", (f"../../{LENS.name}", LENS.read_bytes()))]
+    answer = ask("POST", "/api/tests", files=sent)
+    assert answer.status_code == 200
+    assert [test["file"] for test in answer.json()["tests"]] == [LENS.name]
+    assert answer.json()["curves"][0]["pull_off_force"] == pytest.approx(6.19e-3, rel=0.01)
+    assert "viscotack-" not in answer.text
+
+
+def test_a_file_that_is_none_is_refused_by_its_name_alone(ask):
+    sent = [("files", ("photo.csv", bytes(range(256)) * 4))]
+    for path in ("/api/tests", "/api/materials/fit"):
+        answer = ask("POST", path, files=sent)
+        assert answer.status_code == 422
+        assert "photo.csv" in answer.json()["error"] and "viscotack-" not in answer.text
+    twice = ask("POST", "/api/tests", files=sent * 2)
+    assert "two files are called photo.csv" in twice.json()["error"]
+    long = ask("POST", "/api/tests", files=sent * 61)
+    assert "61 files are more than" in long.json()["error"]
+
+
+@pytest.mark.parametrize(
+    ("name", "bare"),
+    [
+        ("../../etc/passwd", "passwd"),
+        ("C:\\dma\\foam -25C.csv", "foam -25C.csv"),
+        (".bashrc", "bashrc"),
+        ("a;rm -rf~\0.csv", "a_rm -rf__.csv"),
+        ("..", "file"),
+        ("é" * 300 + ".csv", "é" * 96 + ".csv"),
+    ],
+)
+def test_the_name_of_a_file_is_harmless(name, bare):
+    assert _harmless(name) == bare
+
+
+def test_the_api_describes_itself_and_its_problems(ask):
+    described = ask("GET", "/openapi.json").json()
+    assert described["openapi"].startswith("3.1")
+    names = described["components"]["schemas"].keys()
+    assert {"Problem", "Sphere", "RetardationPowerLaw", "Tables", "JobAnswer"} <= names
+    known = {f"#/components/schemas/{name}" for name in names}
+    text = json.dumps(described)
+    import re
+
+    assert set(re.findall(r'"\$ref": "([^"]+)"', text)) <= known
+    assert described["paths"].keys() >= {
+        "/api/predict",
+        "/api/advise",
+        "/api/jobs/simulate",
+        "/api/jobs/campaign",
+        "/api/jobs/{id}",
+        "/api/identify/slow",
+        "/api/identify/rates",
+        "/api/materials",
+    }
+
+
+def test_the_page_and_its_parts_name_no_other_place(ask):
+    import re
+
+    folder = ROOT / "src/viscotack/app/page"
+    parts = [p for p in folder.iterdir() if p.suffix in (".html", ".css", ".js", ".svg")]
+    assert len(parts) > 12
+    for part in parts:
+        # the name space of SVG is a name, and nothing is fetched from there
+        text = part.read_text().replace("http://www.w3.org/2000/svg", "")
+        assert not re.search(r"(https?:)?//[\w-]+\.\w", text), part.name
+        assert ask("GET", f"/page/{part.name}").content == part.read_bytes()
+    assert ask("GET", "/").text == (folder / "index.html").read_text()
+    assert ask("GET", "/page/__init__.py").status_code == 404
+    assert ask("GET", "/page/..%2fengine%2fjobs.py").status_code == 404
+
+
+async def echo(scope, receive, send):
+    body = b""
+    while True:
+        message = await receive()
+        body += message.get("body", b"")
+        if not message.get("more_body"):
+            break
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    await send({"type": "http.response.body", "body": body})
+
+
+@pytest.fixture
+def behind():
+    made = []
+
+    def make(**rules):
+        made.append(Asking(Guard(echo, Rules(**rules))))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.loop.close()
+
+
+def test_a_server_on_this_machine_answers_to_its_names_and_its_own_pages_only(behind):
+    ask = behind(hosts=("127.0.0.1", "localhost"))
+    assert ask("GET", "/").status_code == 200
+    assert ask("GET", "/", headers={"host": "127.0.0.1:8642"}).status_code == 200
+    assert ask("GET", "/", headers={"host": "evil.example"}).status_code == 403
+    assert ask("POST", "/", headers={"origin": "http://evil.example"}).status_code == 403
+    assert ask("POST", "/", headers={"origin": "http://localhost"}).status_code == 200
+    assert "default-src 'self'" in ask("GET", "/").headers["content-security-policy"]
+
+
+def test_beyond_this_machine_a_token_is_needed_and_a_browser_gets_it_by_the_link(behind):
+    ask = behind(token="x" * 20)
+    assert ask("GET", "/api/forms").status_code == 401
+    assert ask("GET", "/api/forms", headers={"authorization": "Bearer wrong"}).status_code == 401
+    assert (
+        ask("GET", "/api/forms", headers={"authorization": f"Bearer {'x' * 20}"}).status_code == 200
+    )
+    entered = ask("GET", "/", params={"token": "x" * 20})
+    assert entered.status_code == 303 and entered.headers["location"] == "/"
+    assert "HttpOnly; SameSite=Strict" in entered.headers["set-cookie"]
+    # the client keeps the cookie, as a browser does
+    assert ask("GET", "/api/forms").status_code == 200
+
+
+def test_the_link_with_a_token_keeps_its_case(behind):
+    entered = behind(token="x" * 20)("GET", "/?token=" + "x" * 20 + "&sphere.radius=3+mm")
+    assert entered.headers["location"] == "/?sphere.radius=3+mm"
+
+
+def test_a_request_that_is_too_long_is_refused_also_where_it_does_not_say_so(behind):
+    ask = behind(body=1000, uploads=2000)
+
+    async def pieces():
+        for _ in range(30):
+            yield b"x" * 100
+
+    assert ask("POST", "/", content=b"x" * 900).status_code == 200
+    assert ask("POST", "/", content=b"x" * 1100).status_code == 413
+    assert ask("POST", "/", content=pieces()).status_code == 413
+    upload = {"content-type": "multipart/form-data; boundary=x"}
+    assert ask("POST", "/", content=b"x" * 1100, headers=upload).status_code == 200

@@ -1,0 +1,229 @@
+"""The state of the page: the same case as tables, link, file, command line and Python."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import viscotack as vt
+from viscotack.app.engine.asks import ask_state, material_table, problem_of
+from viscotack.app.engine.examples import EXAMPLES, FIRST
+from viscotack.app.engine.forms import forms
+from viscotack.app.engine.plain import plain
+from viscotack.app.engine.quick import quick
+from viscotack.app.engine.state import State, state_of_query, state_of_toml
+from viscotack.errors import InputError
+from viscotack.forecast import advise, predict
+from viscotack.forecast.advice import edge_curve
+from viscotack.forecast.answer import learned_prediction
+from viscotack.problem.case_file import case_of_tables, read_case
+from viscotack.problem.record import to_dict
+
+examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
+
+
+@examples
+def test_link_file_and_python_state_the_same_problem(tables, tmp_path):
+    state = State(tables)
+    assert state_of_query(state.query).tables == state.tables
+    assert state_of_toml(state.toml).tables == state.tables
+    file = tmp_path / "case.toml"
+    file.write_text(state.toml)
+    problem = read_case(file)
+    assert state.problem == problem
+    names = {}
+    exec(state.python().partition("result =")[0], names)  # noqa: S102  # written by ourselves
+    assert names["problem"] == problem
+
+
+def test_a_series_of_branches_goes_through_a_link():
+    series = {
+        "model": "prony",
+        "rubbery_modulus": "1 MPa",
+        "poisson_ratio": 0.5,
+        "branches": [["5 MPa", "1 ms"], ["4 MPa", "1 s"]],
+    }
+    state = State(FIRST | {"material": series})
+    assert state_of_query(state.query).problem == state.problem
+    assert state_of_toml(state.toml).problem == state.problem
+
+
+def test_a_profile_stated_by_its_slope_is_a_cone_in_every_form():
+    text = Path("examples/from_toml/cone.toml").read_text()
+    state = state_of_toml(text)
+    assert state.tables["cone"] == {"slope": 0.05} and "profile" not in state.tables
+    assert state.problem == read_case("examples/from_toml/cone.toml")
+
+
+def test_what_belongs_to_the_page_is_no_table():
+    state = State(FIRST)
+    assert state_of_query(f"?accuracy=0.005&{state.query}&keep=x").tables == state.tables
+
+
+def test_the_command_line_says_the_accuracy_and_how_far():
+    lines = State(FIRST).command(accuracy=0.005, until="pull-off")
+    assert "simulate case case.toml --accuracy 0.005 --until pull-off" in lines
+    assert "accuracy=0.005, until='pull-off'" in State(FIRST).python(
+        accuracy=0.005, until="pull-off"
+    )
+    assert "--" not in State(FIRST).command()
+
+
+@pytest.mark.parametrize(
+    ("tables", "said"),
+    [
+        ([], "must be tables"),
+        ({"material": 3}, "must be tables"),
+        ({"material": {"model": None}}, "must be text, a number or a list"),
+        ({"material": {"exponent": True}}, "must be text, a number or a list"),
+        ({"material": {"exponent": float("nan")}}, "must be finite"),
+        ({"material": {str(i): 1 for i in range(300)}}, "more than 200 keys"),
+        ({"material": {"branches": [[[[1]]]]}}, "must be text, a number or a list"),
+    ],
+)
+def test_what_is_no_case_is_refused(tables, said):
+    with pytest.raises(InputError, match=said):
+        State(tables)
+
+
+def test_a_long_text_is_refused_before_it_is_read():
+    with pytest.raises(InputError, match="characters, more than"):
+        state_of_query("x.y=" + "1" * 300_000)
+
+
+def test_a_file_that_states_no_case_is_refused_and_one_of_three_forms_is_asked_for():
+    with pytest.raises(InputError, match=r"tables .* are missing"):
+        ask_state({"toml": "[material]\n"}, print, ())
+    with pytest.raises(InputError, match="give one of toml, query and tables, got none"):
+        ask_state({}, print, ())
+
+
+def test_a_request_states_a_problem_by_tables_or_by_a_record():
+    problem = case_of_tables(FIRST)
+    assert problem_of(FIRST) == problem_of(to_dict(problem)) == problem
+    with pytest.raises(InputError, match="got a Sphere, which is a part of one"):
+        problem_of({"type": "Sphere", "radius": 1.0})
+
+
+def test_a_material_written_as_a_table_is_the_material():
+    prony = vt.Prony(rubbery_modulus=1e6, branches=((5e6, 1e-3), (4e6, 1.0)), poisson_ratio=0.3)
+    for solid in (case_of_tables(FIRST).material, prony):
+        assert case_of_tables(FIRST | {"material": material_table(solid)}).material == solid
+
+
+def test_every_noun_that_can_be_typed_has_a_form_whose_examples_make_it():
+    asked = forms()
+    assert json.loads(json.dumps(asked)) == asked
+
+    def values(fields):
+        return {
+            f["key"]: json.loads(f["example"]) if f["kind"] == "pairs" else f["example"]
+            for f in fields
+            if not f["optional"]
+        }
+
+    for choice in asked["material"]:
+        solid = {"model": choice["word"]} | values(choice["fields"])
+        assert State(FIRST | {"material": solid}).problem.material.word == choice["word"]
+    for choice in asked["interface"]:
+        law = {"law": choice["word"]} | values(choice["fields"])
+        assert State(FIRST | {"interface": law}).problem.traction.word == choice["word"]
+    rest = {name: table for name, table in FIRST.items() if name != "sphere"}
+    for choice in asked["shape"]:
+        tables = rest | {choice["word"]: values(choice["fields"])}
+        if choice["symmetry"] == "plane":
+            tables["layer"] = values(asked["layer"]["fields"]) | {"base": "bonded"}
+            tables["protocol"] = {"preload_depth": "1 um", "speed": "10 um/s"}
+            tables["material"] = rest["material"] | {"poisson_ratio": 0.4}
+        assert State(tables).problem.geometry.symmetry == choice["symmetry"]
+    for starts in (asked["protocol"][name]["starts"] for name in ("revolution", "plane")):
+        assert all(start["title"] and start["example"] for start in starts)
+
+
+def test_a_noun_of_the_users_own_is_asked_for_by_itself():
+    from viscotack.problem.nouns import own_nouns
+
+    also = own_nouns(["examples/own/morse.py", "examples/own/rounded_cone.py"])
+    asked = forms(also)
+    morse = next(choice for choice in asked["interface"] if choice["word"] == "morse")
+    assert [field["key"] for field in morse["fields"]][:2] == [
+        "work_of_adhesion",
+        "equilibrium_gap",
+    ]
+    assert "rounded-cone" in [choice["word"] for choice in asked["shape"]]
+
+
+def test_quick_answers_are_those_of_predict_and_advise():
+    problem = State(FIRST).problem
+    found, scales = quick(State(FIRST)), problem.scales()
+    answer = predict(problem)
+    learned = next(
+        x for x in found["numbers"] if (x["name"], x["method"]) == ("pull_off", "surrogate")
+    )
+    assert learned["value"] == pytest.approx(answer.value * scales.force, rel=1e-12)
+    edge = next(x for x in found["numbers"] if x["method"] == "moving edge")
+    tiers = {tier.tier: tier for tier in advise(problem).estimates}
+    assert edge["value"] == pytest.approx(
+        tiers["unloading"].pull_off_force * scales.force, rel=1e-6
+    )
+    # the slow limit is JKR's, from the start that was asked for
+    elastic = found["curves"]["elastic"]
+    assert elastic["force"][0] == pytest.approx(1.5e-3, rel=1e-6)
+    assert found["start"]["force"] == pytest.approx(1.5e-3, rel=1e-9)
+    assert min(elastic["force"]) == pytest.approx(-scales.force, rel=1e-3)
+    speeds = found["speeds"]
+    here = min(range(41), key=lambda i: abs(speeds["speed"][i] / speeds["here"] - 1))
+    assert speeds["force"][here] == pytest.approx(learned["value"], rel=0.05)
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+
+
+@examples
+def test_every_example_has_quick_answers(tables):
+    found = quick(State(tables))
+    curve = found["curves"]["elastic"]
+    assert len(curve["depth"]) == len(curve["force"]) > 1
+    assert min(curve["force"]) < 0
+    assert {"force", "depth", "pull_off", "work"} <= found["axes"].keys()
+
+
+def test_an_elastic_pad_comes_off_at_its_stress_and_depth():
+    tables = EXAMPLES["A flat punch on a soft layer"]
+    found, problem = quick(State(tables)), State(tables).problem
+    from viscotack.theory.punch import crossover
+
+    case = {
+        "half_width": 1e-3,
+        "contact_modulus": problem.material.contact_modulus,
+        "work_of_adhesion": 0.15,
+        "base": problem.body.base,
+    }
+    elastic = found["curves"]["elastic"]
+    assert -elastic["force"][-1] == pytest.approx(crossover.pull_off_stress(50e-6, **case), 1e-6)
+    assert elastic["force"][0] == pytest.approx(2e3)
+
+
+def test_the_surrogate_says_at_once_where_it_has_no_answer():
+    rubber = FIRST | {"material": EXAMPLES["A flat punch on a soft layer"]["material"]}
+    with pytest.raises(vt.OutOfRange, match="RetardationPowerLaw alone was learned from"):
+        learned_prediction(State(rubber).problem)
+    assert any("surrogate" in note for note in quick(State(rubber))["notes"])
+    assert learned_prediction(State(FIRST).problem).value == predict(State(FIRST).problem).value
+
+
+def test_the_curve_of_a_moving_edge_ends_at_the_force_that_advice_has():
+    problem = State(FIRST).problem
+    curve, estimate = edge_curve(problem)
+    (tier,) = (x for x in advise(problem).estimates if x.tier == "unloading")
+    assert estimate == tier
+    assert curve.depth[0] * problem.scales().length == pytest.approx(8.12e-6, rel=0.01)
+    elastic = FIRST["material"] | {"model": "elastic"}
+    for gone in ("glassy_modulus", "exponent", "tau0"):
+        del elastic[gone]
+    assert edge_curve(State(FIRST | {"material": elastic}).problem) is None
+
+
+def test_numbers_on_their_way_out_are_plain():
+    import numpy as np
+
+    told = plain({"a": np.array([1.0, np.inf]), "b": (np.float64("nan"), np.int64(2), "x")})
+    assert told == {"a": [1.0, None], "b": [None, 2, "x"]}

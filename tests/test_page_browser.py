@@ -1,0 +1,371 @@
+"""The page in a real browser: what a newcomer does, and what it costs. docs/app.md has the figures.
+
+Chromium without a window, `make test-outside`; figures are printed with ``-s``.
+"""
+
+import json
+import os
+import statistics
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from app_server import browsing, running
+
+pytestmark = pytest.mark.outside
+
+ROOT = Path(__file__).parents[1]
+TABS = ("contact", "material", "rig", "compare", "record")
+WIDE, NARROW = {"width": 1440, "height": 1000}, {"width": 390, "height": 844}
+RIG = [ROOT / f"examples/from_rig/lens_{speed}_um_s.csv" for speed in (1, 30, 1000)]
+
+
+@pytest.fixture(scope="module")
+def server():
+    with running() as (link, process):
+        yield link, process
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with browsing() as found:
+        yield found
+
+
+@pytest.fixture
+def page(browser, server):
+    found = browser.new_page(viewport=WIDE)
+    wrong = []
+    found.on("pageerror", lambda error: wrong.append(str(error)))
+    yield found
+    found.close()
+    assert wrong == []
+
+
+def opened(page, link):
+    page.goto(link)
+    page.wait_for_selector("body[data-run=done]", timeout=60_000)
+    return page
+
+
+def until(page, expression, seconds=60.0):
+    """Wait for a truth; the page itself evaluates no text as a program."""
+    end = time.perf_counter() + seconds
+    while not page.evaluate(expression):
+        assert time.perf_counter() < end, f"{expression} is not so after {seconds} s"
+        page.wait_for_timeout(20)
+
+
+def at_rest(page):
+    """Wait until what was changed has been simulated."""
+    until(page, "viscotack.run.version === viscotack.version && viscotack.run.state === 'done'")
+
+
+def slide(page, field, share):
+    """Move a slider as a hand does: an event of its input."""
+    page.eval_on_selector(
+        f"#{field} ~ input[type=range]",
+        "(slider, share) => { slider.value = share;"
+        " slider.dispatchEvent(new Event('input', { bubbles: true })); }",
+        share,
+    )
+
+
+def test_a_newcomer_sees_a_finished_moving_example_without_a_click(page, server):
+    began = time.perf_counter()
+    opened(page, server[0])
+    print(f"finished simulation {time.perf_counter() - began:.1f} s after the link, 0 clicks")
+    legend = page.inner_text("#view-contact .legend >> nth=0")
+    for what in ("simulation", "learned from", "theory", "infinitely slow"):
+        assert what in legend
+    assert "4.668 mN" in page.inner_text(".numbers")
+    places = set()
+    for _ in range(5):
+        places.add(page.input_value("[aria-label='Point along the simulated curve']"))
+        page.wait_for_timeout(300)
+    assert len(places) > 2
+
+
+def test_nothing_is_asked_of_another_place(browser, server):
+    context = browser.new_context(viewport=WIDE)
+    asked = []
+    context.on("request", lambda request: asked.append(request.url))
+    page = opened(context.new_page(), server[0])
+    for tab in TABS:
+        page.click(f"#tab-{tab}")
+    page.goto(f"{server[0]}api/docs")
+    page.wait_for_selector("h2")
+    context.close()
+    elsewhere = [x for x in asked if urlsplit(x).netloc != urlsplit(server[0]).netloc]
+    print(f"{len(asked)} requests, {len(elsewhere)} elsewhere")
+    assert [x for x in elsewhere if not x.startswith(("data:", "blob:"))] == []
+
+
+def test_a_dma_file_becomes_the_material_and_a_rig_file_stands_beside_the_forecast(page, server):
+    opened(page, server[0])
+    page.click("#tab-material")
+    page.click("#view-material summary >> nth=0")
+    page.fill("#fit-reference_temperature", "20 degC")
+    page.fill("#fit-glass_transition", "-115 degC")
+    page.set_input_files("#view-material input[type=file]", ROOT / "examples/from_dma/pdms_dma.csv")
+    page.wait_for_selector("#use-material", timeout=60_000)
+    assert "power-law: 4 constants on 32 numbers" in page.inner_text("#view-material pre")
+    page.click("#use-material")
+    at_rest(page)
+    assert page.input_value("#material-exponent").startswith("0.2202")
+    page.click("#tab-rig")
+    page.set_input_files("#view-rig input[type=file]", RIG)
+    page.wait_for_selector("#view-rig table tbody tr >> nth=2", timeout=60_000)
+    legend = page.inner_text("#view-rig .legend >> nth=0")
+    assert "lens_1000_um_s.csv" in legend and "simulation of the case" in legend
+
+
+def test_a_bad_file_is_refused_with_words(page, server, tmp_path):
+    opened(page, server[0])
+    bad = tmp_path / "photo.csv"
+    bad.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(range(256)))
+    for tab in ("material", "rig"):
+        page.click(f"#tab-{tab}")
+        page.set_input_files(f"#view-{tab} input[type=file]", bad)
+        words = page.wait_for_selector(f"#view-{tab} p.refused", timeout=60_000).inner_text()
+        assert "photo.csv" in words and "/tmp" not in words
+    page.click("#tab-record")
+    page.set_input_files("#view-record input[type=file]", bad)
+    page.wait_for_selector("#view-record p.refused:not([hidden])")
+
+
+def test_a_number_that_is_impossible_is_refused_where_it_stands(page, server):
+    opened(page, server[0])
+    page.fill("#sphere-radius", "-5 mm")
+    page.press("#sphere-radius", "Tab")
+    page.wait_for_selector("#refused:not([hidden])")
+    assert "radius must be positive" in page.inner_text("#refused")
+    assert page.get_attribute("#sphere-radius", "aria-invalid") == "true"
+
+
+def test_cancel_takes_less_than_half_a_second(page, server):
+    opened(page, server[0])
+    page.evaluate("viscotack.settings.accuracy = 1e-5")
+    took = []
+    for _ in range(5):
+        page.evaluate("viscotack.cancelled = 0")
+        page.get_by_role("button", name="Simulate", exact=True).click()
+        until(page, "viscotack.run.state === 'running'")
+        page.wait_for_timeout(400)
+        page.click("#cancel")
+        until(page, "viscotack.cancelled > 0")
+        took.append(page.evaluate("viscotack.cancelled"))
+    print(f"cancel: {sorted(round(x) for x in took)} ms")
+    assert max(took) < 500
+
+
+def test_two_users_at_once_have_states_of_their_own(browser, server):
+    contexts = [browser.new_context(viewport=WIDE) for _ in range(2)]
+    pages = [opened(context.new_page(), server[0]) for context in contexts]
+    for page, radius in zip(pages, ("3 mm", "7 mm"), strict=True):
+        page.fill("#sphere-radius", radius)
+        page.press("#sphere-radius", "Tab")
+    for page in pages:
+        at_rest(page)
+    forces = [page.evaluate("viscotack.run.answer.summary.pull_off_force_N") for page in pages]
+    radii = [page.input_value("#sphere-radius") for page in pages]
+    for context in contexts:
+        context.close()
+    assert radii == ["3 mm", "7 mm"]
+    # at these speeds the force is about proportional to the radius
+    assert forces[1] / forces[0] == pytest.approx(7 / 3, rel=0.1)
+
+
+def test_reload_and_link_restore_the_state(page, browser, server):
+    opened(page, server[0])
+    page.select_option("#example", index=4)
+    at_rest(page)
+    page.fill("#layer-thickness", "80 um")
+    page.press("#layer-thickness", "Tab")
+    at_rest(page)
+    page.click("#tab-compare")
+    page.click("#keep-here")
+    until(page, "location.search.includes('80+um')")
+    stress = page.evaluate("viscotack.run.answer.summary.pull_off_stress_Pa")
+    page.click("#tab-record")
+    link = page.inner_text("#record-link")
+    page.reload()
+    other = browser.new_page(viewport=NARROW)
+    other.goto(link)
+    for each in (page, other):
+        each.wait_for_selector("body[data-run=done]", timeout=60_000)
+        assert each.input_value("#layer-thickness") == "80 um"
+        assert each.evaluate("viscotack.run.answer.summary.pull_off_stress_Pa") == stress
+        until(each, "viscotack.kept.length === 1")
+    assert page.get_attribute("#tab-record", "aria-selected") == "true"
+    other.close()
+
+
+def test_file_command_line_and_python_give_the_same_digits(page, server, tmp_path):
+    import subprocess
+    import sys
+
+    opened(page, server[0])
+    force = page.evaluate("viscotack.run.answer.summary.pull_off_force_N")
+    page.click("#tab-record")
+    case = tmp_path / "case.toml"
+    case.write_text(page.inner_text("#record-file"))
+    line = next(x for x in page.inner_text("#record-command-line").split("\n") if "simulate" in x)
+    command = [sys.executable, "-m", *line.split(), "--json"]
+    told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert json.loads(told.stdout)["pull_off_force_N"] == force
+    script = page.inner_text("#record-python").replace("print(vt.summary(result))", "")
+    script += "\nprint(repr(vt.summary(result)['pull_off_force_N']))"
+    told = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert float(told.stdout) == force
+
+
+def test_pictures_are_saved_as_svg_png_and_csv(page, server):
+    opened(page, server[0])
+    begins = {"SVG": b"<svg", "PNG": b"\x89PNG", "CSV": b'"infinitely slow'}
+    for kind, first in begins.items():
+        with page.expect_download() as waiting:
+            page.click(f"[aria-label='Save Load against depth as {kind}']")
+        content = Path(waiting.value.path()).read_bytes()
+        assert content.startswith(first) and len(content) > 2000
+        assert kind != "SVG" or b"var(--" not in content
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["wide", "narrow"])
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_axe_finds_nothing_serious(browser, server, size, theme):
+    try:
+        from axe_playwright_python.sync_playwright import Axe
+    except ImportError:
+        pytest.fail("no accessibility checks: pip install viscotack[outside]")
+    context = browser.new_context(viewport=size, color_scheme=theme)
+    page = opened(context.new_page(), server[0])
+    found = {}
+    for tab in TABS:
+        page.click(f"#tab-{tab}")
+        if tab == "rig":
+            page.set_input_files("#view-rig input[type=file]", RIG[:1])
+            page.wait_for_selector("#view-rig table tbody tr", timeout=60_000)
+        if tab == "compare":
+            page.click("#keep-here")
+        page.wait_for_timeout(300)
+        for one in Axe().run(page).response["violations"]:
+            found.setdefault(one["impact"], []).append(
+                (tab, one["id"], [node["html"][:120] for node in one["nodes"][:3]])
+            )
+    context.close()
+    print({impact: len(rows) for impact, rows in found.items()}, found)
+    assert not found.get("serious") and not found.get("critical")
+
+
+def test_everything_is_reached_by_the_keyboard(page, server):
+    opened(page, server[0])
+    page.focus("#tab-contact")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("document.activeElement.id") == "tab-material"
+    page.keyboard.press("ArrowLeft")
+    page.focus("#sphere-radius ~ input[type=range]")
+    before = page.input_value("#sphere-radius")
+    page.keyboard.press("ArrowRight")
+    until(page, f"document.querySelector('#sphere-radius').value !== '{before}'")
+    page.focus("[aria-label='Point along the simulated curve']")
+    at_rest(page)
+    page.click("[aria-label='Pause or play the way along the curve']")
+    page.focus("[aria-label='Point along the simulated curve']")
+    page.keyboard.press("Home")
+    assert page.input_value("[aria-label='Point along the simulated curve']") == "0"
+
+
+DRAG = """async ([field, steps]) => {
+  const slider = document.querySelector(`#${field} ~ input[type=range]`), took = [];
+  for (let i = 0; i < steps; i += 1) {
+    const began = performance.now();
+    slider.value = 300 + 400 * ((i * 0.618) % 1);
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+    const version = viscotack.version;
+    await new Promise((done) => {
+      const look = () => (Number(document.body.dataset.drawn) >= version ? done()
+        : requestAnimationFrame(look));
+      requestAnimationFrame(look);
+    });
+    took.push(performance.now() - began);
+  }
+  return took;
+}"""
+
+
+def test_theory_and_surrogate_follow_a_slider(page, server):
+    opened(page, server[0])
+    page.evaluate("viscotack.auto = false")
+    took = []
+    fields = ("sphere-radius", "protocol-speed", "interface-work_of_adhesion", "material-tau0")
+    for field in (*fields, "interface-equilibrium_gap", "material-exponent"):
+        took += page.evaluate(DRAG, [field, 40])
+    ranked = sorted(took)
+    print(
+        f"slider to drawn answer: median {statistics.median(took):.0f} ms, 95th percentile "
+        f"{ranked[int(0.95 * len(ranked))]:.0f} ms, longest {ranked[-1]:.0f} ms of {len(took)}"
+    )
+    assert ranked[int(0.95 * len(ranked))] < 100
+
+
+def test_a_simulation_is_finished_within_a_second(page, server):
+    opened(page, server[0])
+    took = []
+    for i in range(15):
+        slide(page, "protocol-speed", 380 + 16 * i)
+        began = time.perf_counter()
+        at_rest(page)
+        took.append(time.perf_counter() - began)
+    print(f"slider at rest to finished simulation: median {statistics.median(took):.2f} s")
+    assert statistics.median(took) < 1.0
+
+
+def resident(process):
+    """Return the memory of a server's process and of its workers [MB]."""
+    tree = [process]
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            try:
+                parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+            except OSError:
+                continue
+            if parent == process:
+                tree.append(int(folder.name))
+    page = os.sysconf("SC_PAGE_SIZE")
+    sizes = [int(Path(f"/proc/{x}/statm").read_text().split()[1]) * page / 1e6 for x in tree]
+    return sizes[0], sum(sizes[1:])
+
+
+def test_two_thousand_interactions_leave_memory_as_it_was(page, server):
+    opened(page, server[0])
+    devtools = page.context.new_cdp_session(page)
+
+    def heap():
+        devtools.send("HeapProfiler.collectGarbage")
+        return devtools.send("Runtime.getHeapUsage")["usedSize"] / 1e6
+
+    def interact(count):
+        fields = ("sphere-radius", "protocol-speed", "material-tau0", "interface-equilibrium_gap")
+        for i in range(count // 20):
+            page.evaluate(DRAG, [fields[i % 4], 17])
+            page.click(f"#tab-{TABS[i % 5]}")
+            page.click("#tab-contact")
+            page.click("#theme")
+            if i % 10 == 0:
+                at_rest(page)
+
+    interact(200)  # what is kept once is kept by now
+    at_rest(page)
+    before = (heap(), *resident(server[1]))
+    interact(2000)
+    at_rest(page)
+    after = (heap(), *resident(server[1]))
+    words = ("page", "server", "workers")
+    for name, a, b in zip(words, before, after, strict=True):
+        print(f"{name}: {a:.1f} to {b:.1f} MB")
+    assert all(b < 1.2 * a for a, b in zip(before, after, strict=True))
