@@ -1,4 +1,4 @@
-"""The API under thousands of invented requests. ``make test-outside``; docs/api.md has the figures."""
+"""The API under thousands of invented requests: `make test-outside`, figures in docs/api.md."""
 
 import re
 import shutil

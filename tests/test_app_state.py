@@ -186,19 +186,28 @@ def test_every_example_has_quick_answers(tables):
     assert {"force", "depth", "pull_off", "work"} <= found["axes"].keys()
 
 
-def test_an_elastic_pad_comes_off_at_its_stress_and_depth():
+@pytest.mark.parametrize(("work", "is_crack"), [(0.15, False), (0.01, True)])
+def test_an_elastic_pad_comes_off_as_a_crack_or_at_its_strength(work, is_crack):
     tables = EXAMPLES["A flat punch on a soft layer"]
-    found, problem = quick(State(tables)), State(tables).problem
+    strength = State(tables).problem.traction.strength
+    law = {
+        "law": "lennard-jones",
+        "work_of_adhesion": f"{work} J/m^2",
+        "strength": f"{strength!r} Pa",
+    }
+    state = State(tables | {"interface": law})
+    problem, elastic = state.problem, quick(state)["curves"]["elastic"]
     from viscotack.theory.punch import crossover
 
     case = {
         "half_width": 1e-3,
         "contact_modulus": problem.material.contact_modulus,
-        "work_of_adhesion": 0.15,
+        "work_of_adhesion": work,
         "base": problem.body.base,
     }
-    elastic = found["curves"]["elastic"]
-    assert -elastic["force"][-1] == pytest.approx(crossover.pull_off_stress(50e-6, **case), 1e-6)
+    crack = crossover.pull_off_stress(50e-6, **case)
+    assert (crack < strength) is is_crack
+    assert -elastic["force"][-1] == pytest.approx(min(crack, strength), 1e-6)
     assert elastic["force"][0] == pytest.approx(2e3)
 
 

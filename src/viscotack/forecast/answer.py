@@ -97,9 +97,7 @@ def predict(
     return _answered(problem, rows, confidence)
 
 
-def learned_prediction(
-    problem: Problem | Groups | PunchGroups, *, confidence: float = 0.9
-) -> Prediction:
+def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction:
     """Return what the surrogate says, in some milliseconds whatever the problem.
 
     Parameters and returns are those of :func:`predict`, which asks the theories where this has no

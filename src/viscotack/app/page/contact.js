@@ -19,29 +19,28 @@ export class Contact {
     this.numbers = element("dl", "numbers");
     numbers.append(this.numbers);
 
-    const main = card(view, "main");
+    const left = column(view, "main"), right = column(view, "side");
+    const main = card(left, "");
     this.plot = new Plot(main, "Load against depth", { height: 340 });
     main.append(this.controls());
 
-    const side = card(view, "side");
-    side.append(element("h3", "", "Set-up"));
-    this.setUp = element("div", "");
-    this.words = element("ul", "words");
-    side.append(this.setUp, element("h3", "", "Verdict"), this.words);
-
-    const under = card(view, "");
+    const under = card(left, "");
     under.append(element("h3", "", "Under the indenter"));
     this.surface = element("div", "");
-    this.pressure = new Plot(under, "Pressure along the radius", { height: 210 });
-    under.insertBefore(this.surface, this.pressure.card);
-    const gaps = element("div", "");
-    this.gap = new Plot(gaps, "Gap along the radius", { height: 190 });
-    under.append(gaps);
+    under.append(this.surface);
+    const fields = element("div", "pair");
+    this.pressure = new Plot(fields, "Pressure along the radius", { height: 200 });
+    this.gap = new Plot(fields, "Gap along the radius", { height: 200 });
+    under.append(fields);
 
-    const right = element("div", "card");
-    this.speeds = new Plot(right, "Pull-off against speed", { height: 270 });
-    this.energy = new Plot(right, "Where the work goes", { height: 270 });
-    view.append(right);
+    const side = card(right, ""), judged = card(right, "");
+    this.setUp = element("div", "");
+    side.append(element("h3", "", "Set-up"), this.setUp);
+    this.words = element("ul", "words");
+    judged.append(element("h3", "", "Verdict"), this.words);
+
+    this.speeds = new Plot(card(view, ""), "Pull-off against speed", { height: 270 });
+    this.energy = new Plot(card(view, ""), "Where the work goes", { height: 270 });
 
     this.at = null;
     this.profile = undefined;
@@ -304,8 +303,8 @@ export class Contact {
     const depth = curve.depth[profile.step];
     this.surface.innerHTML = surface(profile, depth, this.store.quick);
     const far = Math.max(...profiles[0].radius);
-    this.pressure.draw({ x: { words: "radius", unit: "m", least: 0, most: far }, y: { words: "pressure", unit: "Pa", ...this.reach(profiles) } }, [{ kind: "line", x: profile.radius, y: profile.pressure, colour: "c0" }]);
-    this.gap.draw({ x: { words: "radius", unit: "m", least: 0, most: far }, y: { words: "gap", unit: "m", least: 0 } }, [{ kind: "line", x: profile.radius, y: profile.gap, colour: "c2" }]);
+    this.pressure.draw({ x: { ...axes.along, least: 0, most: far }, y: { words: "pressure", unit: "Pa", ...this.reach(profiles) } }, [{ kind: "line", x: profile.radius, y: profile.pressure, colour: "c0" }]);
+    this.gap.draw({ x: { ...axes.along, least: 0, most: far }, y: { words: "gap", unit: "m", least: 0 } }, [{ kind: "line", x: profile.radius, y: profile.gap, colour: "c2" }]);
   }
 
   reach(profiles) {
@@ -325,6 +324,12 @@ function nearest(list, value) {
 
 export function card(view, kind) {
   const box = element("section", `card ${kind}`.trim());
+  view.append(box);
+  return box;
+}
+
+function column(view, kind) {
+  const box = element("div", `column ${kind}`);
   view.append(box);
   return box;
 }

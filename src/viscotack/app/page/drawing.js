@@ -60,7 +60,7 @@ function indenter(shape, tables, mid, tip, ground, reach) {
   const half = Math.min(R, 130), drop = R - Math.sqrt(R * R - half * half);
   const up = Math.min(drop, 70);
   const wide = Math.sqrt(R * R - (R - up) * (R - up));
-  return `<path d="M${mid - wide} ${tip - up}A${R} ${R} 0 0 0 ${mid + wide} ${tip - up}V${tip - 78}H${mid - wide}Z" ${look}/>` + text(mid + 12, tip - up - 18, tables.sphere ? `R = ${words(tables.sphere.radius)}` : shape);
+  return `<path d="M${mid - wide} ${tip - up}A${R} ${R} 0 0 0 ${mid + wide} ${tip - up}V${tip - 78}H${mid - wide}Z" ${look}/>` + text(mid, tip - up / 2, tables.sphere ? `R = ${words(tables.sphere.radius)}` : shape, "middle");
 }
 
 function squash(value, low, high) {
@@ -112,7 +112,7 @@ export function surface(profile, depth, quick) {
   const flank = profile.flank, lift = quick.axes.length - depth;
   const surfaces = radius.map((_, i) => flank[i] + lift - gap[i]);
   const all = [...surfaces, ...flank.map((z) => z + lift)];
-  const low = Math.min(...surfaces, 0), high = Math.max(0.35 * Math.max(...all), Math.max(...surfaces), 1e-12);
+  const low = Math.min(...surfaces, 0), high = Math.max(0.35 * Math.max(...all), Math.max(...surfaces), 1.1 * Math.min(...flank.map((z) => z + lift)), 1e-12);
   const wide = 640, tall = 230, mid = wide / 2;
   const x = (r) => (r / far) * (mid - 12);
   const y = (z) => 196 - ((z - low) / (high - low || 1)) * 150;

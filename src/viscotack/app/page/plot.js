@@ -56,6 +56,14 @@ export class Plot {
     if (!this.axes || !this.card.clientWidth) return;
     const height = this.height;
     this.size = { width, height };
+    if (!this.series.length) {
+      this.over = null;
+      this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+      this.svg.setAttribute("height", height);
+      this.svg.innerHTML = `<text x="${width / 2}" y="${height / 2}" text-anchor="middle" font-size="13" fill="var(--quiet)">nothing to draw here yet</text>`;
+      this.legend.replaceChildren();
+      return;
+    }
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.svg.setAttribute("height", height);
     const ranges = this.ranges();
