@@ -1,10 +1,12 @@
 """The command ``viscotack app``: what it needs, where it listens, what it prints."""
 
 import builtins
+import re
 import socket
 import subprocess
 import sys
 import urllib.request
+from pathlib import Path
 
 import pytest
 
@@ -12,12 +14,23 @@ from app_server import running
 from command_line import exit_status
 from viscotack.app.cli.page import _query, _token
 
+DOCS = Path(__file__).parents[1] / "docs/api.md"
 
-def test_the_page_is_served_with_the_case_of_a_file_and_ends_by_ctrl_c():
-    with running("examples/from_toml/cone.toml") as (link, _):
-        assert "cone.slope=0.05" in link and "token" not in link
+
+def test_page_and_client_of_the_docs_are_answered(tmp_path, monkeypatch, capsys):
+    fences = dict(re.findall(r"```(json|python)\n(.*?)```", DOCS.read_text(), flags=re.S))
+    (tmp_path / "case.json").write_text(fences["json"])
+    monkeypatch.chdir(tmp_path)
+    with running() as (link, _):
         with urllib.request.urlopen(link) as answer:
             assert b"how hard must one pull" in answer.read()
+        exec(fences["python"].replace("http://localhost:8642", link.rstrip("/")), {})  # noqa: S102
+    assert float(capsys.readouterr().out) == pytest.approx(4.668e-3, rel=0.01)
+
+
+def test_a_case_file_is_in_the_link_that_is_opened():
+    query = _query(Path("examples/from_toml/cone.toml"), ())
+    assert "cone.slope=0.05" in query
 
 
 def test_a_missing_library_is_said_in_words(monkeypatch, capsys):

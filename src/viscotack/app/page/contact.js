@@ -25,7 +25,7 @@ export class Contact {
     main.append(this.controls());
 
     const under = card(left, "");
-    under.append(element("h3", "", "Under the indenter"));
+    under.append(element("h2", "", "Under the indenter"));
     this.surface = element("div", "");
     under.append(this.surface);
     const fields = element("div", "pair");
@@ -35,9 +35,9 @@ export class Contact {
 
     const side = card(right, ""), judged = card(right, "");
     this.setUp = element("div", "");
-    side.append(element("h3", "", "Set-up"), this.setUp);
+    side.append(element("h2", "", "Set-up"), this.setUp);
     this.words = element("ul", "words");
-    judged.append(element("h3", "", "Verdict"), this.words);
+    judged.append(element("h2", "", "Verdict"), this.words);
 
     this.speeds = new Plot(card(view, ""), "Pull-off against speed", { height: 270 });
     this.energy = new Plot(card(view, ""), "Where the work goes", { height: 270 });

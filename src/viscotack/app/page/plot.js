@@ -17,7 +17,7 @@ export class Plot {
     this.id = `plot${count += 1}`;
     this.card = element("div", "");
     const head = element("div", "head");
-    const name = element("h3", "");
+    const name = element("h2", "");
     name.textContent = title;
     const exports = element("div", "exports");
     for (const kind of ["SVG", "PNG", "CSV"]) {
