@@ -44,17 +44,17 @@ function indenter(shape, tables, mid, tip, ground, reach) {
   const look = 'fill="var(--steel)" fill-opacity="0.55" stroke="var(--ink)" stroke-width="1.5"';
   if (shape === "punch") {
     const half = 30 + 80 * squash(si(tables.punch?.half_width), 1e-5, 1e-2);
-    return `<rect x="${mid - half}" y="${ground - 34}" width="${2 * half}" height="34" ${look}/>` + text(mid, ground - 42, `2a, a = ${words(tables.punch?.half_width)}`, "middle");
+    return `<rect x="${mid - half}" y="${ground - 34}" width="${2 * half}" height="34" ${look}/>` + text(mid + 14, ground - 42, `2a, a = ${words(tables.punch?.half_width)}`);
   }
   if (shape === "cone") {
     const rise = 20 + 60 * squash(Number(tables.cone?.slope), 0.005, 1);
-    return `<path d="M${mid} ${tip}l110 ${-rise}v${rise - 78}h-220v${78 - rise}Z" ${look}/>` + text(mid, tip - 84, `slope ${words(tables.cone?.slope)}`, "middle");
+    return `<path d="M${mid} ${tip}l110 ${-rise}v${rise - 78}h-220v${78 - rise}Z" ${look}/>` + text(mid + 14, tip - 84, `slope ${words(tables.cone?.slope)}`);
   }
   if (shape === "profile") {
     const q = Number(tables.profile?.exponent) || 1;
     const side = Array.from({ length: 21 }, (_, i) => [i / 20, (i / 20) ** q]);
     const right = side.map(([x, z]) => `${mid + 110 * x} ${tip - 60 * z}`), left = side.map(([x, z]) => `${mid - 110 * x} ${tip - 60 * z}`).reverse();
-    return `<path d="M${left.join("L")}L${right.join("L")}V${tip - 78}H${mid - 110}Z" ${look}/>` + text(mid, tip - 84, `A r^${words(tables.profile?.exponent)}`, "middle");
+    return `<path d="M${left.join("L")}L${right.join("L")}V${tip - 78}H${mid - 110}Z" ${look}/>` + text(mid + 14, tip - 84, `A r^${words(tables.profile?.exponent)}`);
   }
   const R = Math.max(60 + 80 * squash(si(tables.sphere?.radius), 1e-5, 1e-1), reach);
   const half = Math.min(R, 130), drop = R - Math.sqrt(R * R - half * half);
