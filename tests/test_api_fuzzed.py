@@ -27,7 +27,7 @@ def test_no_invented_request_is_a_failure_of_the_server(tmp_path):
         command = [program, "run", f"{link}openapi.json", "--checks", ",".join(CHECKS)]
         command += ["--phases", "examples,coverage,fuzzing", "--max-examples", "40"]
         command += ["--seed", "1", "--no-color", "--generation-database", "none"]
-        command += ["--continue-on-failure", "--max-time", "900"]
+        command += ["--continue-on-failure", "--max-time", "900", "--request-timeout", "120"]
         told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True).stdout
     cases = re.search(r"(\d+) generated", told)
     print(told[-1500:])
