@@ -221,6 +221,7 @@ def _laboratory(router: APIRouter, engine: Engine) -> None:
         force_unit: Annotated[Words | None, Form(examples=["mN"])] = None,
         length_unit: Annotated[Words | None, Form(examples=["um"])] = None,
         nominal_speed: Annotated[Words | None, Form(examples=["10 um/s"])] = None,
+        compliance: Annotated[Words | None, Form(examples=["2 um/N"])] = None,
     ) -> Answer:
         """Find work of adhesion and range of attraction from pull-offs at several speeds."""
         left_out = ("files", "ask", "material")

@@ -7,14 +7,13 @@ without it.
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import numpy as np
 
 from viscotack import __version__
 from viscotack.app.cli.superposing import Shifting, stepped, swept
-from viscotack.app.records import rates_record, reasons_of, slow_record, tests_record
+from viscotack.app.records import rates_record, slow_record, tests_record
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml
 from viscotack.identify import fitted_force, identify_rates, identify_slow, pull_offs, slow_test
@@ -85,7 +84,7 @@ def read_tests(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
     found = _survey(asked)
     return plain(tests_record(found)) | {
         "curves": [_retraction(cycle) for cycle in found.cycles],
-        "refused": [{"file": path, "reason": why} for path, why in reasons_of(found)],
+        "refused": [{"file": path, "reason": why} for path, why in found.reasons],
     }
 
 
@@ -106,24 +105,23 @@ def identify_slow_test(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[
 def identify_rate_series(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Find work of adhesion and range from pull-offs at several speeds, with a known material."""
     found, options = _survey(asked), asked["options"]
-    solid = _solid(asked["material"], also)
-    series = pull_offs(found.cycles)
-    begins = [float(one.force[one.segments.retract]) for one in found.cycles]
-    preload = options.get("preload")
+    preload, machine = options.get("preload"), options.get("compliance")
+    yields = 0.0 if machine is None else parse(machine, "m/N")
     answer = identify_rates(
-        series,
-        material=solid,
+        pull_offs(found.cycles),
+        material=_solid(asked["material"], also),
         radius=parse(_needed(options, "radius", "5 mm"), "m"),
-        preload=float(median(begins)) if preload is None else parse(preload, "N"),
+        preload=None if preload is None else parse(preload, "N"),
         work_of_adhesion=_pair(options, "work_of_adhesion", "J/m^2"),
+        stiffness=1 / yields if yields > 0 else None,
     )
-    return plain(rates_record(series, answer))
+    return plain(rates_record(answer))
 
 
 def _solid(words: str, also: tuple[Any, ...]) -> Any:
-    """Return the solid of a published name, or of the text of a table [material]."""
+    """Return the passport of a published name, or the solid of the text of a table [material]."""
     if words in MATERIALS:
-        return published(words).material
+        return published(words)
     table = parse_toml(words, "the material").get("material")
     if not isinstance(table, dict):
         raise InputError(
@@ -150,7 +148,7 @@ def _survey(asked: Asked) -> Survey:
     }
     found = survey(_files(asked), reading=reading, evaluation=evaluation)
     if not found.cycles:
-        reasons = "; ".join(f"{Path(path).name}: {why}" for path, why in reasons_of(found))
+        reasons = "; ".join(f"{Path(path).name}: {why}" for path, why in found.reasons)
         raise InputError(f"no cycle of a tack test could be read: {reasons}")
     return found
 

@@ -111,7 +111,6 @@ export class Rig {
     body.append("radius", this.store.tables.sphere?.radius || "");
     for (const [name, value] of Object.entries(more)) body.append(name, value);
     for (const name of ["time_unit", "force_column"]) body.delete(name);
-    if (path.endsWith("rates")) body.delete("compliance");
     try {
       const found = await ask(path, body);
       this.answer.replaceChildren(...found.words.map((words) => element("p", "", words)));
