@@ -165,7 +165,8 @@ def _energy(result: Result) -> dict[str, Any] | None:
     kind, scales, energy = result.problem.outputs, result.scales, result.energy
     factor = kind.energy_factor(result.groups)
     factor *= 1.0 if scales is None else getattr(scales, kind.energy.scale)
-    names = ("drive", "interface", "elastic", "spring", "heat", "jumps", "transfer")
+    losses = ("heat", "interface_heat", "jumps", "transfer")
+    names = ("drive", "interface", "elastic", "spring", *losses)
     series = {name: np.asarray(getattr(energy, name)) for name in names}
     changes = {name: drawn((x - x[0]) * factor) for name, x in series.items()}
     return {

@@ -5,7 +5,7 @@ import { digits, said } from "./numbers.js";
 import { setUp, surface } from "./drawing.js";
 import { curveOf } from "./store.js";
 
-const ENERGY = { drive: ["work of the drive", "c6"], interface: ["interface", "c0"], elastic: ["elastic energy", "c1"], spring: ["spring of the machine", "c5"], heat: ["heat in the solid", "c2"], jumps: ["lost in jumps", "c3"], transfer: ["lost in mesh moves", "c4"] };
+const ENERGY = { drive: ["work of the drive", "c6"], interface: ["interface", "c0"], elastic: ["elastic energy", "c1"], spring: ["spring of the machine", "c5"], heat: ["heat in the solid", "c2"], interface_heat: ["heat in the interface", "c4"], jumps: ["lost in jumps", "c3"], transfer: ["lost in mesh moves", "c6"] };
 const TOUR = 5000; // milliseconds of one way along the curve
 
 export class Contact {
