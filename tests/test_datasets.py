@@ -12,7 +12,7 @@ from viscotack.campaign import read_plan  # noqa: E402
 from viscotack.campaign.columns import KINDS  # noqa: E402
 from viscotack.datasets import files  # noqa: E402
 from viscotack.datasets.columns import KEPT  # noqa: E402
-from viscotack.datasets.making import Targets, make  # noqa: E402
+from viscotack.datasets.making import Targets, how, make  # noqa: E402
 from viscotack.result.observables import (
     pull_off,
     work_to_pull_off,  # noqa: E402
@@ -85,7 +85,8 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     name, table = named
     facts = datasets.metadata(name)
     assert table.num_rows + len(facts["failures"]) == facts["cases"]
-    assert len(facts["failures"]) < 1e-3 * facts["cases"]
+    # `fresh` was drawn on faces and edges, where two cases in a thousand are not resolved
+    assert len(facts["failures"]) < (3e-3 if name == "fresh" else 1e-3) * facts["cases"]
 
 
 def test_what_a_set_says_is_consistent(named):
@@ -143,9 +144,11 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     least_work = np.where(steep, np.float32(2e-2), np.float32(5e-3))
     assert np.all(force >= np.where(deep | steep, np.float32(1.5e-3), np.float32(1e-3)))
     assert np.all(work >= least_work)
-    targets = Targets()
+    _, targets = how(name)
     assert np.mean(force > targets.force) < 0.01
-    assert np.mean(work > np.maximum(targets.work, least_work)) < 0.01
+    # `fresh` is run once more only
+    most = 0.03 if name == "fresh" else 0.01
+    assert np.mean(work > np.maximum(targets.work, least_work)) < most
 
 
 @pytest.mark.parametrize("column", TABLE_A1)
@@ -230,7 +233,7 @@ def test_a_damaged_file_is_refused(tmp_path, monkeypatch):
 
 
 def test_an_unknown_set_is_refused():
-    with pytest.raises(ValueError, match="there are thesis, broad, chosen, fast, punch"):
+    with pytest.raises(ValueError, match="there are thesis, broad, chosen, fast, fresh, punch"):
         datasets.load("thesys")
 
 

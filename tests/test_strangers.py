@@ -195,13 +195,12 @@ def surrogate_with(tmp_path, **arrays):
 @pytest.mark.parametrize(
     ("arrays", "words"),
     [
-        ({"force.weight.0": np.full((4, 5, 40), np.nan)}, "must be finite"),
-        ({"force.weight.0": np.ones((4, 6, 40))}, r"layer 0 of force must have .*\(4, 5, 40\)"),
-        ({"force.bias.0": np.ones((4, 1, 41))}, "layer 0 of force"),
+        ({"force.weight.0": np.full((3, 5, 72), np.nan)}, "must be finite"),
+        ({"force.weight.0": np.ones((3, 6, 72))}, r"layer 0 of force must have .*\(3, 5, 72\)"),
+        ({"force.bias.0": np.ones((3, 1, 73))}, "layer 0 of force"),
         ({"work.centre": np.ones(7)}, "work.centre must have 1 numbers"),
-        ({"trust.force": np.ones((9, 6))}, r"trust.force must have the shape \(9, 7\)"),
-        ({"trust.floors": np.ones(3)}, r"trust.floors must have the shape \(2,\)"),
-        ({"trust.work": None}, "not the file of a surrogate"),
+        ({"trust.levels": np.ones((3, 6))}, r"trust.levels must have the shape \(3, 7\)"),
+        ({"trust.levels": None}, "not the file of a surrogate"),
         ({"fast.bias.0": None}, "not the file of a surrogate"),
         ({"give.spread": np.ones(1, dtype=int)}, "give.spread must be finite numbers"),
     ],

@@ -12,9 +12,10 @@ from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import line, physics, store
 from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
-from viscotack.surrogate.network import Networks, together
+from viscotack.surrogate.network import Networks, added, single, together
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.trust import CONFIDENCES, REGIONS, Trust, region
+from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
+from viscotack.surrogate.trust import INPUTS as TOLD
 from viscotack.theory import lennard_jones
 
 LOW, HIGH = physics.LOW, physics.HIGH
@@ -42,15 +43,14 @@ def random_surrogate(seed=0):
     centre[line.RADII] = np.linspace(0.95, 0.4, trajectory.POINTS - 1)
     return Surrogate(
         start=Scaled(random_networks(rng, 2, 6, 2), np.array([-1.0, 0.3]), np.full(2, 0.1)),
-        fast=random_networks(rng, 3, 6, 1),
+        fast=random_networks(rng, 3, 6, 1, members=3),
         force=random_networks(rng, 5, 8, 8, 1, members=3),
         work=Scaled(random_networks(rng, 9, 8, 1, members=3), np.zeros(1), np.full(1, 0.2)),
         give=Scaled(random_networks(rng, 10, 8, 1, members=2), np.zeros(1), np.full(1, 0.2)),
         line=Scaled(random_networks(rng, 10, 8, line.OUTPUTS), centre, np.full(line.OUTPUTS, 0.02)),
         trust=Trust(
-            force=np.cumsum(np.ones((REGIONS, len(CONFIDENCES))), axis=1),
-            work=np.cumsum(np.ones((REGIONS, len(CONFIDENCES))), axis=1),
-            floors=np.array([1e-3, 1e-2]),
+            reach=random_networks(rng, TOLD, 6, len(OF), members=2),
+            levels=0.01 * np.cumsum(np.ones((len(OF), len(CONFIDENCES))), axis=1),
         ),
     )
 
@@ -69,6 +69,15 @@ def test_networks_side_by_side_say_what_each_says_alone():
         np.tanh(x[:1] @ one.weights[0][0] + one.biases[0][0]) @ one.weights[1][0] + one.biases[1][0]
     )
     assert both[0, 0] == pytest.approx((hidden @ one.weights[2][0] + one.biases[2][0])[0])
+
+
+def test_networks_that_are_added_say_the_sum():
+    rng = np.random.default_rng(4)
+    one, other = random_networks(rng, 5, 7, 6, 2), random_networks(rng, 5, 3, 4, 2)
+    x = rng.normal(size=(30, 5))
+    assert added(one, other)(x) == pytest.approx(one(x) + other(x), rel=1e-12)
+    both = together([one, random_networks(rng, 5, 7, 6, 2)])
+    assert np.array_equal(single(both, 0)(x), one(x))
 
 
 def test_ranges_are_scaled_to_one():
@@ -150,8 +159,41 @@ def test_wider_confidence_is_a_wider_interval():
         surrogate.intervals(groups, said, confidence=0.42)
 
 
-def test_regions_are_all_used():
-    assert set(region(random_groups(2000)).tolist()) == set(range(REGIONS))
+@pytest.mark.parametrize("made", [random_surrogate, shipped])
+def test_widths_are_smooth(made):
+    surrogate, groups = made(), random_groups(300, seed=8)
+    ahead = groups * 10 ** (1e-6 * np.random.default_rng(8).normal(size=groups.shape))
+    a, b = (
+        np.array(s.widths(g, (spread, spread), 0.9))
+        for s in (surrogate.trust,)
+        for g, spread in ((groups, np.full(300, 1e-4)), (ahead, np.full(300, 1e-4)))
+    )
+    assert np.max(np.abs(b / a - 1)) < 1e-4
+
+
+@pytest.mark.parametrize("made", [random_surrogate, shipped])
+def test_derivatives_are_those_of_differences(made):
+    surrogate, groups = made(), random_groups(200, seed=9)
+    found = surrogate.slopes(groups)
+    step = 1e-5
+    for i in range(5):
+        ahead, behind = groups.copy(), groups.copy()
+        ahead[:, i] *= np.exp(step)
+        behind[:, i] *= np.exp(-step)
+        a, b = surrogate.evaluate(ahead), surrogate.evaluate(behind)
+        for name, slopes in zip(("pull_off_force", "work_to_pull_off"), found, strict=True):
+            wanted = np.log(getattr(a, name) / getattr(b, name)) / (2 * step)
+            assert slopes[:, i] == pytest.approx(wanted, abs=1e-7)
+
+
+def test_a_formula_without_a_known_derivative_is_refused():
+    from viscotack.surrogate.slopes import by_logarithms
+
+    x = by_logarithms(np.ones((2, 5)))
+    with pytest.raises(TypeError, match=r"np\.sin has no derivative here"):
+        np.sin(x)
+    with pytest.raises(TypeError, match=r"np\.sort has no derivative here"):
+        np.sort(x)
 
 
 def test_inside_says_which_input_is_out():
@@ -201,7 +243,7 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
     store.save(random_surrogate(), path, {})
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
-    arrays["trust.floors"] = arrays["trust.floors"] * 2
+    arrays["trust.levels"] = arrays["trust.levels"] * 2
     np.savez(path, **arrays)
     with pytest.raises(ValueError, match="checksum"):
         store.load(path)
@@ -226,18 +268,40 @@ def test_the_shipped_file_is_small_and_says_what_it_is_worth():
 
 def test_the_shipped_surrogate_is_as_good_as_was_asked():
     scores = store.facts()["scores"]
-    at_random, cells = scores["kept apart at random"], scores["cells kept apart"]
+    at_random = scores["kept apart at random"]
     # drawn as the two sets are; of `chosen`, where the networks erred most, the errors are larger
     for name in ("broad", "thesis"):
-        assert at_random[name]["force"]["mse_log10"] < 1e-6
-        assert at_random[name]["work"]["mse_log10"] < 2e-5
+        assert at_random[name]["force"]["mse_log10"] < 4e-7
+        assert at_random[name]["work"]["mse_log10"] < 1e-5
     assert at_random["all"]["curve"]["median"] < 0.01
     for what in ("force", "work"):
-        assert 0.88 < at_random["all"][what]["cover"] < 0.93
+        # of `thesis`, easy materials, a little more than they promise
+        assert 0.88 < at_random["all"][what]["cover"] < 0.95
         assert min(at_random["all"][what]["cover by region"]) > 0.8
-        assert 0.88 < cells[what] < 0.93
     for one in scores["bands kept apart"]:
         assert one["r2"] > (0.99 if one["edge"] else 0.999)
+
+
+def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
+    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+    from viscotack.surrogate.training import drawing
+    from viscotack.surrogate.training.calibration import covers, judged
+    from viscotack.surrogate.training.rows import certain, read
+
+    rows = read("fresh")
+    designs = np.array(drawing.designs_of(rows.groups))
+    new = ~drawing.measuring(designs.tolist()) & certain("fresh")
+    apart = judged(shipped(), rows.chosen(new))
+    held = covers(shipped().trust, apart)
+    assert np.all((held.mean(axis=0) > 0.88) & (held.mean(axis=0) < 0.94))
+    for name in ("even", "faces"):
+        assert np.all(held[designs[new] == name].mean(axis=0) > 0.85)
+    # in the boxes in which intervals held 18 %, 49 % and 64 % of forces
+    for box in drawing.BOXES:
+        assert held[designs[new] == box, 0].mean() > 0.8
+    assert np.mean(apart.error[:, 0] ** 2) < 6e-7
+    width = np.column_stack(shipped().trust.widths(apart.groups, apart.spreads, 0.9))
+    assert np.median(width[:, 0]) < 7e-4
 
 
 # peer: the simulation

@@ -1,5 +1,7 @@
 """What networks learn from, and how: rows from the datasets, fits, folds, intervals."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,11 +9,12 @@ pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import line, physics  # noqa: E402
+from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
 from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
-from viscotack.surrogate.trust import CONFIDENCES, REGIONS, region  # noqa: E402
+from viscotack.surrogate.trust import CONFIDENCES  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
@@ -128,38 +131,49 @@ def test_a_shop_does_not_fit_twice(tmp_path):
     assert len(list(tmp_path.glob("*.npz"))) == 2
 
 
+def test_a_network_learns_what_another_left_over():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    x = np.random.default_rng(0).uniform(-1, 1, (400, 1))
+    target = np.sin(3 * x) + 0.01 * np.cos(9 * x)
+    task = Task(x, target, np.ones_like(target))
+    one = fit(task, SMALL, seed=0)
+    rest = replace(task, before=one(x)[0], gain=0.01)
+    two = added(one, fit(rest, Fit(hidden=(10,), steps=300, scale=1e-3), seed=1))
+    first, second = (np.sqrt(np.mean((n(x)[0] - target) ** 2)) for n in (one, two))
+    assert second < 0.6 * first
+    # and it goes on from weights that it is given
+    again = fit(task, replace(SMALL, steps=1), seed=5, first=one)
+    assert again(x)[0] == pytest.approx(one(x)[0], abs=0.02)
+
+
+def test_a_quantile_has_the_wanted_part_of_the_targets_below():
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    random = np.random.default_rng(0)
+    x = random.uniform(-1, 1, (6000, 1))
+    target = x + (1.2 + x) * random.normal(size=x.shape)
+    found = fit(Task(x, target, np.ones_like(x), quantile=0.9), SMALL, seed=0)(x)[0]
+    for some in (x < -0.3, np.abs(x) <= 0.3, x > 0.3):
+        assert np.mean((target <= found)[some]) == pytest.approx(0.9, abs=0.025)
+
+
 def test_intervals_hold_the_share_that_they_promise():
-    pytest.importorskip("crepes", reason="intervals are measured with crepes")
-    from viscotack.surrogate.training.calibration import Apart, trusted
+    from viscotack.surrogate.training.calibration import Apart, covers, measured
 
     random = np.random.default_rng(0)
 
     def apart(count):
-        groups = np.column_stack([10 ** random.uniform(-2, 1, count), *np.ones((3, count)),
-                                  10 ** random.uniform(-2, 10, count)])  # fmt: skip
+        u = random.random((count, 5))
+        groups = physics.LOW * (physics.HIGH / physics.LOW) ** u
         spread = 10 ** random.uniform(-4, -2, count)
-        error = random.standard_t(4, (2, count)) * (spread + 1e-3)
-        return Apart(groups, error[0], error[1], spread, spread)
+        usual = shipped().trust.widths(groups, (spread, spread), 0.9)
+        return Apart(groups, random.standard_t(4, (count, 3)) * np.array(usual).T, spread, spread)
 
-    trust = trusted(shipped(), apart(20_000)).trust
-    new = apart(20_000)
-    where = region(new.groups)
+    trust, new = measured(shipped().trust, apart(20_000)), apart(20_000)
     for confidence in CONFIDENCES:
-        factors = trust.factors(new.groups, (new.force_spread, new.work_spread), confidence)
-        for errors, factor in zip((new.force, new.work), factors, strict=True):
-            held = np.abs(errors) <= np.log10(factor)
-            assert held.mean() == pytest.approx(confidence, abs=0.015)
-            for one in range(REGIONS):
-                assert held[where == one].mean() == pytest.approx(confidence, abs=0.05)
-
-
-def test_cells_are_kept_whole(rows):
-    pytest.importorskip("crepes", reason="intervals are measured with crepes")
-    from viscotack.surrogate.training.calibration import kept_cells
-
-    cell, kept = cells(rows), kept_cells(rows, seed=0)
-    assert all(len(np.unique(kept[cell == one])) == 1 for one in np.unique(cell))
-    assert len(np.unique(cell[kept])) == len(np.unique(cell)) // 8
+        held = covers(trust, new, confidence=confidence)
+        assert held.mean(axis=0) == pytest.approx(np.full(3, confidence), abs=0.015)
+        slow = new.groups[:, physics.RATE] < 1e3
+        assert held[slow].mean(axis=0) == pytest.approx(held[~slow].mean(axis=0), abs=0.03)
 
 
 def test_cases_are_chosen_where_the_networks_disagree():
@@ -177,7 +191,6 @@ def test_cases_are_chosen_where_the_networks_disagree():
 @pytest.mark.slow
 def test_the_whole_training_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    pytest.importorskip("crepes", reason="intervals are measured with crepes")
     from viscotack.surrogate import store
     from viscotack.surrogate.training.make import make
 

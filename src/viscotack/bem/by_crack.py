@@ -13,6 +13,7 @@ Where the interface grows with the opening speed and takes Q works of adhesion, 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -202,9 +203,76 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
         run = contact.run(state, _drives(groups))
         time, depth, force, radius = run.time, run.depth, run.force, run.radius
         speed, energy, move, detached = run.speed, run.amplification, run.move, run.detached
+    series = _series(groups, crack, time, radius, depth, force, speed, energy, move)
+    return _answer(problem, groups, crack, series, detached)
+
+
+def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]:
+    """Return what :func:`crack_contact` says of many retractions from rest of one solid, at once.
+
+    Parameters
+    ----------
+    several : sequence of Groups
+        Of the same solid, law and shape, from relaxed starts by a rigid machine.
+
+    Returns
+    -------
+    list
+        An answer each, or why there is none.
+
+    Raises
+    ------
+    ValueError
+        If they differ in what they must share, or no crack of the solid is found.
+    """
+    if not several:
+        return []
+    first = several[0]
+    shared = (first.material, first.traction, first.geometry, (), None)
+    if any((g.material, g.traction, g.geometry, g.moves, g.stiffness) != shared for g in several):
+        raise InputError(
+            "cases that are answered at once share solid, law and shape, and have neither moves "
+            "nor a spring; group them"
+        )
+    unit, profile = first.material.time_unit, profile_of(first.geometry)
+    crack = SteadyCrack(first.material, first.traction)
+    rates = np.array([g.rate for g in several], dtype=float)
+    tabor = np.array([g.tabor for g in several])
+    found = recede(
+        crack,
+        profile,
+        radius=np.array([_start_of(g, profile)[0] for g in several]),
+        rate=rates * unit / tabor,
+        tabor=tabor,
+    )
+    still = np.zeros(len(found.time), dtype=np.intp)
+    answers: list[CrackContact | InputError] = []
+    for i, groups in enumerate(several):
+        time, radius, depth, force, speed, energy = (column[:, i] for column in found)
+        series = _series(groups, crack, time, radius, depth, force, speed, energy, still)
+        try:
+            answers.append(_answer(groups, groups, crack, series, True))
+        except InputError as error:
+            answers.append(error)
+    return answers
+
+
+def _series(
+    groups: Groups,
+    crack: SteadyCrack,
+    time: Array,
+    radius: Array,
+    depth: Array,
+    force: Array,
+    speed: Array,
+    energy: Array,
+    move: npt.NDArray[np.intp],
+) -> dict[str, Any]:
+    """Return a history as a result has it; the force with the correction for the range."""
     effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
     ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
-    series: dict[str, Any] = {
+    unit = groups.material.time_unit
+    return {
         "time": time * unit,
         "depth": depth * groups.tabor,
         "force": np.where(force < 0, ratio, 1.0) * force / _LOAD,
@@ -213,7 +281,19 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
         "amplification": energy,
         "move": move,
     }
-    return _answer(problem, groups, crack, series, detached)
+
+
+def start_depth(groups: Groups) -> float:
+    """Return the depth of the relaxed start [h0], by forces of short range.
+
+    Raises
+    ------
+    ValueError
+        If there is no such start.
+    """
+    profile = profile_of(groups.geometry)
+    radius, _ = _start_of(groups, profile)
+    return float(profile.relaxed_depth(np.array([radius]))[0] * groups.tabor)
 
 
 def too_short(groups: Groups) -> bool:
@@ -365,14 +445,30 @@ def _zones(
     return max(way, 0.0) / zone
 
 
+def band_parts(energy: Any, modulus_ratio: Any, effective: Any, zones: Any) -> tuple[Any, Any, Any]:
+    """Return what the band of a retraction from rest is made of, parts of the force.
+
+    What simulations themselves are off, the range of the forces, and few zones on the way.
+
+    Parameters
+    ----------
+    energy, modulus_ratio, effective, zones : float or ndarray
+        Amplification at the pull-off, relaxed over glassy modulus, effective Tabor number, and way
+        of the edge in zones.
+    """
+    share = (energy - 1) * modulus_ratio
+    by_way = _START_BAND * share / np.maximum(zones, 1.0)
+    return _LEAST_BAND, _RANGE_BAND / effective**2, by_way
+
+
 def _band(groups: Groups, energy: float, effective: float, zones: float) -> tuple[float, bool, str]:
     """Return the band of the force, whether it was measured there, and words."""
+    accuracy, by_range, by_way = band_parts(energy, groups.modulus_ratio, effective, zones)
     parts = {
-        "accuracy of the simulations compared with": _LEAST_BAND,
-        f"range of the forces, effective Tabor number {effective:.3g}": _RANGE_BAND / effective**2,
+        "accuracy of the simulations compared with": accuracy,
+        f"range of the forces, effective Tabor number {effective:.3g}": by_range,
+        f"way of {zones:.3g} zones to the pull-off": by_way,
     }
-    share = (energy - 1) * groups.modulus_ratio
-    parts[f"way of {zones:.3g} zones to the pull-off"] = _START_BAND * share / max(zones, 1.0)
     if groups.moves:
         parts["history"] = _HISTORY_BAND * min(1.0, 10 / effective)
     if grows(groups.traction):

@@ -40,6 +40,15 @@ class Targets:
     work: float = 5e-3
 
 
+# Passes and targets of a set that are not those of the others.
+_OF_SETS = {"fresh": (2, Targets(force=4e-3, work=2e-2))}
+
+
+def how(name: str) -> tuple[int, Targets]:
+    """Return how many passes a set is run in, and the errors that its cases should have."""
+    return _OF_SETS.get(name, (_PASSES, Targets()))
+
+
 def make(
     name: str,
     folder: str | os.PathLike[str],
@@ -53,14 +62,15 @@ def make(
 
     Parameters
     ----------
-    name : {"thesis", "broad", "chosen", "fast", "punch"}
+    name : {"thesis", "broad", "chosen", "fast", "fresh", "punch"}
         Whose plan is run.
     folder : path
         Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
     workers : int
         Processes.
     targets : Targets, optional
-        Which errors make a case run again; leave it out for 0.2 % and 0.5 %.
+        Which errors make a case run again; leave it out for 0.2 % and 0.5 %, and for `fresh` 0.4 %
+        and 2 %, which has one finer pass.
     cases : int, optional
         Only so many cases from the beginning of the plan, which for a Sobol fill are spread over
         the whole range.
@@ -77,11 +87,13 @@ def make(
     RuntimeError
         If a campaign was stopped before its end.
     """
-    folder, targets = Path(folder), targets or Targets()
+    folder = Path(folder)
+    passes, usual = how(name)
+    targets = targets or usual
     plan = read_plan(plan_path(name))
     plan = replace(plan, cases=plan.cases[:cases])
     stores: list[Store] = []
-    for number in range(_PASSES):
+    for number in range(passes):
         if not plan.cases:
             break
         place = folder / (f"finer-{number}" if number else "first")
@@ -96,13 +108,14 @@ def make(
 
 
 def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
-    """Return the plan of the cases whose error estimates miss the targets, finer."""
+    """Return the plan, finer, of the cases that miss the targets by their estimates, or failed."""
     limits = {"error_estimate": targets.force, "error_estimate_work": targets.work}
     missed = {
         row["name"]
         for row in store.results().select(["name", *limits]).to_pylist()
         if any(row[name] is None or row[name] > limit for name, limit in limits.items())
     }
+    missed |= {row["name"] for row in store.failures().to_pylist()}
     return replace(
         plan,
         cases=tuple(case for case in plan.cases if case.name in missed),

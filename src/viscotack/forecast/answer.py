@@ -15,11 +15,13 @@ from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
+from viscotack.theory import jkr
 from viscotack.traction import LennardJones
 from viscotack.traction.growing import check_of_gap_alone
 
-from .prediction import Prediction
-from .theory import by_crack, by_theory
+from .beyond import beyond
+from .prediction import MEASURED, Prediction
+from .theory import by_crack, by_learned_theory, by_theory
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
@@ -92,13 +94,12 @@ def predict(
         return by_crack(problem, unlearned)
     assert isinstance(groups, Groups), "others were not learned"
     rows, out = _inputs(groups, _learned(), problem)
-    if out:
-        return by_theory(problem, groups, "; ".join(out), confidence)
-    return _answered(problem, rows, confidence)
+    found = _by_learned(problem, groups, rows, out, confidence)
+    return found or by_theory(problem, groups, "; ".join(out), confidence)
 
 
 def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction:
-    """Return what the surrogate says, in some milliseconds whatever the problem.
+    """Return what was learned, in some milliseconds whatever the problem.
 
     Parameters and returns are those of :func:`predict`, which asks the theories where this has no
     answer; they may take seconds.
@@ -125,33 +126,85 @@ def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) ->
     """
     groups = _groups(problem)
     check_confidence(confidence)
-    out = [_unlearned(groups)]
-    rows = np.empty((1, 0))
-    if isinstance(groups, Groups) and not out[0]:
-        rows, out = _inputs(groups, _learned(), problem)
-    if any(out):
-        raise OutOfRange("; ".join(words for words in out if words))
-    return _answered(problem, rows, confidence)
+    if unlearned := _unlearned(groups):
+        raise OutOfRange(unlearned)
+    assert isinstance(groups, Groups), "others were not learned"
+    rows, out = _inputs(groups, _learned(), problem)
+    found = _by_learned(problem, groups, rows, out, confidence)
+    if found is None:
+        raise OutOfRange("; ".join(out))
+    return found
 
 
-def _answered(problem: Any, rows: Array, confidence: float) -> Prediction:
-    """Return what was learned of a problem, of which these are the inputs, shape (1, 5)."""
+def _by_learned(
+    problem: Problem | Groups, groups: Groups, rows: Array, out: list[str], confidence: float
+) -> Prediction | None:
+    """Return what the surrogate says, or the learned theory of large Tabor numbers; else None."""
     learned = _learned()
-    answers = learned.evaluate(rows)
-    held = learned.intervals(rows, answers, confidence=confidence)
-    curves = learned.curves(rows, answers)
+    if not out:
+        answers = learned.evaluate(rows)
+        held = learned.intervals(rows, answers, confidence=confidence)
+        if not isinstance(groups.start, AtDepth):
+            by = "force" if isinstance(groups.start, AtForce) else "contact_radius"
+            half = NormalDist().inv_cdf((1 + confidence) / 2)
+            held = learned.with_start_doubt(rows, answers, held, by=by, quantile=half)
+        why, at, with_work = "every input lies in the range that was learned from", rows, True
+    elif np.isfinite(rows).all() and (further := beyond(learned, rows, confidence)) is not None:
+        answers, held, at = further.answers, further.intervals, further.groups
+        with_work = further.with_work
+        why = f"{'; '.join(out)}; {further.why}"
+    else:
+        return _large(problem, groups, rows, "; ".join(out), confidence)
+    curves, at_end = learned.curves(at, answers), at is not rows
     return Prediction(
         value=float(answers.pull_off_force[0]),
         interval=_pair(held.pull_off_force[0]),
-        work_to_pull_off=float(answers.work_to_pull_off[0]),
-        work_interval=_pair(held.work_to_pull_off[0]),
+        work_to_pull_off=float(answers.work_to_pull_off[0]) if with_work else None,
+        work_interval=_pair(held.work_to_pull_off[0]) if with_work else None,
         confidence=confidence,
+        band=MEASURED,
         method="surrogate",
-        inside=True,
-        why="every input lies in the range that was learned from",
-        curve=type(curves)(curves.depth[0], curves.force[0], curves.contact_radius[0]),
+        inside=not at_end,
+        why=why,
+        curve=None
+        if at_end
+        else type(curves)(curves.depth[0], curves.force[0], curves.contact_radius[0]),
+        curve_band=None if at_end else float(held.curve[0] * answers.pull_off_force[0]),
         problem=problem,
     )
+
+
+def _large(
+    problem: Problem | Groups, groups: Groups, rows: Array, out: str, confidence: float
+) -> Prediction | None:
+    """Return the learned theory of large Tabor numbers, None where it was not learned."""
+    from viscotack.surrogate import physics, short_range
+
+    learned, rows = short_range.shipped(), rows.copy()
+    if np.isnan(rows[0, physics.PRELOAD]) and rows[0, physics.TABOR] >= short_range.LOW[0]:
+        rows[0, physics.PRELOAD] = _short_range_depth(groups)
+    if not np.isfinite(rows).all() or not learned.in_range(rows)[0]:
+        return None
+    said, error = learned.evaluate(rows), float(learned.error[0])
+    if not learned.holds(said)[0]:
+        return None
+    return by_learned_theory(problem, groups, said, error, out, confidence)
+
+
+def _short_range_depth(groups: Groups) -> float:
+    """Return the depth of a relaxed start [h0] by JKR; nan where there is none."""
+    unit = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+    match groups.start:
+        case AtForce(force=force):
+            try:
+                radius = jkr.contact_radius_at_force(1.5 * np.pi * force, **unit)
+            except ValueError:  # said by the theories
+                return np.nan
+        case AtRadius(contact_radius=contact_radius):
+            radius = contact_radius * np.pi ** (1 / 3)
+        case _:
+            return np.nan
+    return float(jkr.depth(radius, **unit)) * groups.tabor
 
 
 def _uncertain(problem: Problem | Groups, confidence: float, deviation: float) -> Prediction:

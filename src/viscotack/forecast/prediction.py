@@ -19,6 +19,8 @@ from viscotack.problem.record import run_id, to_dict
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Curves
 
+MEASURED, NOT_MEASURED = "measured", "not measured"
+
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
@@ -29,13 +31,18 @@ class Prediction:
     value : float
         Pull-off force [1.5 pi R dg0], positive.
     interval : tuple of float
-        Between which the simulated force lies with that confidence, same unit.
+        Between which the simulated force lies with that confidence, same unit. Where a fitted
+        theory answers and its band was not measured: between the slowest and the fastest pull-off
+        of such a contact from any relaxed start.
     work_to_pull_off : float or None
         [1.5 pi R dg0 h0]; None where a theory answers, which has none.
     work_interval : tuple of float, or None
         The same for the work.
-    confidence : float
-        Part of the cases that the intervals held where they were measured.
+    confidence : float or None
+        Part of the cases that the intervals held where they were measured; None where they were
+        not.
+    band : str
+        "measured" where it was measured how many cases the intervals hold, else "not measured".
     method : str
         "surrogate", or the theory's name as in :class:`viscotack.Estimate`.
     inside : bool
@@ -46,6 +53,9 @@ class Prediction:
     curve : Curves or None
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
         retraction, shape (24,) each; the last point is the pull-off. None where a theory answers.
+    curve_band : float or None
+        How far the force of the part in tension is off at the worst of its depths, with that
+        confidence [1.5 pi R dg0]; None without a curve.
     problem : Problem or Groups
         What was asked.
     """
@@ -54,11 +64,13 @@ class Prediction:
     interval: tuple[float, float]
     work_to_pull_off: float | None
     work_interval: tuple[float, float] | None
-    confidence: float
+    confidence: float | None
+    band: str
     method: str
     inside: bool
     why: str
     curve: Curves | None
+    curve_band: float | None
     problem: Problem | Groups
 
 
@@ -96,6 +108,8 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
         "method": prediction.method,
         "inside": prediction.inside,
         "confidence": prediction.confidence,
+        "band": prediction.band,
+        "curve_band": prediction.curve_band,
         "why": prediction.why,
         **groups.inputs,
         "problem": to_dict(problem),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
+from .prediction import MEASURED
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
@@ -19,8 +21,10 @@ Array = npt.NDArray[np.float64]
 
 FORCE = ("pull_off_force", "pull_off_force_low", "pull_off_force_high")
 WORK = ("work_to_pull_off", "work_to_pull_off_low", "work_to_pull_off_high")
+# What a column tells of a start.
+_BY = {"preload_force": "force", "preload_radius": "contact_radius"}
 # Columns of an answer, in their order.
-ANSWERS = (*FORCE, *WORK, "method", "inside", "why")
+ANSWERS = (*FORCE, *WORK, "method", "inside", "band", "why")
 
 
 def predict_table(
@@ -46,9 +50,10 @@ def predict_table(
     -------
     dict of str to ndarray, shape (n,)
         A row for each row, in its order: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
-        [1.5 pi R dg0 h0], their intervals `..._low` and `..._high`, `method`, `inside`, and `why`
-        it is not inside. A row outside has the answer of a theory, without work; where none
-        applies, or the case is impossible, numbers are nan, `method` is "" and `why` says it.
+        [1.5 pi R dg0 h0], their intervals `..._low` and `..._high`, `method`, `inside`, whether
+        the `band` was measured, and `why` it is not inside. A row outside has the answer of a
+        theory, without work; where none applies, or the case is impossible, numbers are nan,
+        `method` is "" and `why` says it.
 
     Raises
     ------
@@ -87,8 +92,8 @@ def predict_table(
         rows[known, PRELOAD] = _depths(learned, given["tabor"][known], given[start][known], start)
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in FORCE + WORK}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
-    table["why"] = np.full(count, "", dtype=object)
-    _fill(table, rows, learned, confidence)
+    table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
+    _fill(table, rows, learned, confidence, _BY.get(start))
     done = int(table["inside"].sum())
     for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
         try:
@@ -101,7 +106,8 @@ def predict_table(
             _put(table, FORCE, at, found.value, found.interval)
             _put(table, WORK, at, found.work_to_pull_off, found.work_interval)
             table["method"][at], table["inside"][at] = found.method, found.inside
-            table["why"][at] = "" if found.inside else found.why
+            table["band"][at] = found.band
+            table["why"][at] = "" if found.curve is not None else found.why
         done += len(at)
         if report is not None:
             report(done, count)
@@ -130,7 +136,7 @@ def _equal_rows(
 
 def _depths(learned: Surrogate, tabor: Array, start: Array, name: str) -> Array:
     """Return the depths of relaxed starts [h0]; nan where the surrogate knows none."""
-    keyword = {"preload_force": "force", "preload_radius": "contact_radius"}[name]
+    keyword = _BY[name]
     # a series of rates has one start
     pairs, where = np.unique(np.stack([tabor, start], axis=1), axis=0, return_inverse=True)
     found = np.full(len(pairs), np.nan)
@@ -142,17 +148,26 @@ def _depths(learned: Surrogate, tabor: Array, start: Array, name: str) -> Array:
     return found[where.ravel()]
 
 
-def _fill(table: dict[str, Any], rows: Array, learned: Surrogate, confidence: float) -> None:
-    """Put the answers of the surrogate in the table, where it knows them."""
+def _fill(
+    table: dict[str, Any], rows: Array, learned: Surrogate, confidence: float, by: str | None
+) -> None:
+    """Put the answers of the surrogate in the table, where it knows them.
+
+    `by` is what was told of the starts, None for their depths.
+    """
     at = np.flatnonzero(learned.inside(rows).all(axis=1))
     if not at.size:
         return
     inside = rows[at]
     answers = learned.evaluate(inside)
     held = learned.intervals(inside, answers, confidence=confidence)
+    if by is not None:
+        half = NormalDist().inv_cdf((1 + confidence) / 2)
+        held = learned.with_start_doubt(inside, answers, held, by=by, quantile=half)
     _put(table, FORCE, at, answers.pull_off_force, held.pull_off_force.T)
     _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
     table["method"][at], table["inside"][at] = "surrogate", True
+    table["band"][at] = MEASURED
 
 
 def _put(

@@ -16,13 +16,14 @@ from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Result
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 
 
 def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
-    """Return the predicted force against the depth, the interval of the pull-off beside its end.
+    """Return the predicted force against the depth, its band, the pull-off's interval at its end.
 
     In um and mN for a problem in SI, else in h0 and 1.5 pi R dg0.
 
@@ -55,6 +56,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         axes = figure.subplots()
         axes.axhline(0, color="0.6", lw=1, zorder=0)
         axes.plot(curve.depth * length, curve.force * load, color="C1", label="prediction")
+        _band(axes, prediction, length, load)
         low, high = -np.array(prediction.interval)[::-1] * load
         axes.errorbar(
             curve.depth[-1] * length,
@@ -63,7 +65,9 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
             fmt="s",
             color="C1",
             capsize=5,
-            label=f"pull-off, {prediction.confidence:.0%} interval",
+            label="pull-off, interval"
+            if prediction.confidence is None
+            else f"pull-off, {prediction.confidence:.0%} interval",
         )
         if simulated is not None:
             place = {"mfc": "none", "color": "C0", "markevery": 0.04, "zorder": 1}
@@ -73,3 +77,23 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         axes.set_ylabel(f"force {units[1]}")
         axes.legend()
     return figure
+
+
+def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> None:
+    """Shade how far the part in tension may be off at its worst depth."""
+    curve, band = prediction.curve, prediction.curve_band
+    if curve is None or band is None:
+        return
+    tense = curve.force <= 0
+    low, high = (curve.force[tense] + side * band for side in (-1, 1))
+    # a deep start's band is wider than its picture
+    least = float(curve.force.min())
+    axes.fill_between(
+        curve.depth[tense] * length,
+        np.maximum(low, 2 * least) * load,
+        np.minimum(high, -least) * load,
+        color="C1",
+        alpha=0.2,
+        lw=0,
+        zorder=0.5,
+    )

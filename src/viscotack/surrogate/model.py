@@ -4,7 +4,7 @@ Evaluated with NumPy alone. What is learned and what is not: :mod:`viscotack.sur
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from . import physics
 from .line import Curves, curves
 from .network import Networks
 from .physics import INPUTS, LIMITS, START, Array
+from .slopes import Sloped, by_logarithms
 from .trust import Trust
 
 __all__ = ["INPUTS", "Answers", "Curves", "Intervals", "Surrogate"]
@@ -46,10 +47,20 @@ class Answers:
 
 @dataclass(frozen=True, eq=False)
 class Intervals:
-    """Between what the simulated numbers are; arrays of shape (n, 2)."""
+    """Between what the simulated numbers are.
+
+    Attributes
+    ----------
+    pull_off_force, work_to_pull_off : ndarray, shape (n, 2)
+        As in :class:`Answers`.
+    curve : ndarray, shape (n,)
+        How far forces of the part in tension are off at the worst of its depths, over the pull-off
+        force.
+    """
 
     pull_off_force: Array
     work_to_pull_off: Array
+    curve: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +86,8 @@ class Surrogate:
     Attributes
     ----------
     start, fast : Scaled, Networks
-        Of the relaxed start: force and log10 of the radius; of the fast limit.
+        Of the relaxed start: force and log10 of the radius; of the fast limit. One each, or as many
+        as there are for the force, each of which then has a limit of its own.
     force, work, give, line : Networks, Scaled, Scaled, Scaled
         Several for force, work, and log10 of the give of a start; one for the shapes of a curve.
     trust : Trust
@@ -103,7 +115,7 @@ class Surrogate:
 
     def relaxed(self, groups: Array) -> tuple[Array, Array]:
         """Return force [1.5 pi R dg0] and contact radius of the relaxed starts, shape (n,)."""
-        said = self.start(physics.scaled(groups)[:, START])[0]
+        said = self.start(physics.scaled(groups)[:, START]).mean(axis=0)
         return physics.start_force(groups, said[:, 0]), 10 ** said[:, 1]
 
     def evaluate(self, groups: npt.ArrayLike) -> Answers:
@@ -150,10 +162,44 @@ class Surrogate:
         """
         rows = _rows(groups)
         spreads = answers.force_spread, answers.work_spread
-        factors = self.trust.factors(rows, spreads, confidence)
+        *halves, curve = self.trust.widths(rows, spreads, confidence)
         values = answers.pull_off_force, answers.work_to_pull_off
-        pairs = [np.column_stack([v / f, v * f]) for v, f in zip(values, factors, strict=True)]
-        return Intervals(*pairs)
+        force, work = (
+            np.column_stack([v / 10**half, v * 10**half])
+            for v, half in zip(values, halves, strict=True)
+        )
+        return Intervals(force, work, curve)
+
+    def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return the derivatives of log force and log work by the logarithms of the inputs, exact.
+
+        Parameters
+        ----------
+        groups : array_like, shape (n, 5)
+            Rows, not checked to lie inside.
+
+        Returns
+        -------
+        force, work : ndarray, shape (n, 5)
+            Part by which the answer changes for a part by which an input does; the derivative by
+            the input itself is this times answer over input.
+
+        Examples
+        --------
+        >>> from viscotack.surrogate.store import shipped
+        >>> force, _ = shipped().slopes([[3.24, 0.1, 0.8, 73.0, 316.23]])
+        >>> bool(0 < force[0, 4] < 0.5)
+        True
+        """
+        inputs: Any = by_logarithms(_rows(groups))
+        said = self.evaluate(inputs)
+        numbers = said.pull_off_force, said.work_to_pull_off
+        force, work = (
+            np.column_stack([s / x.value for s in x.slopes])
+            for x in numbers
+            if isinstance(x, Sloped)
+        )
+        return force, work
 
     def start_depth(
         self, tabor: float, *, force: float | None = None, contact_radius: float | None = None
@@ -199,6 +245,60 @@ class Surrogate:
         rise = float(found[i] - found[i - 1])
         part = (wanted - float(found[i - 1])) / rise if rise > 0 else 0.5
         return float(low + np.clip(part, 0.0, 1.0) * (high - low))
+
+    def start_doubt(self, groups: Array, *, by: str) -> Array:
+        """Return standard deviations of log10 of depths of starts that were told otherwise, (n,).
+
+        Parameters
+        ----------
+        groups : ndarray, shape (n, 5)
+            With the depths that were found.
+        by : {"force", "contact_radius"}
+            What was told; how much the networks of the start differ in it tells the doubt.
+        """
+        which, step = ("force", "contact_radius").index(by), 1e-3
+
+        near = np.tile(groups, (3, 1))
+        near[:, physics.PRELOAD] *= np.repeat(10 ** (step * np.arange(-1, 2)), len(groups))
+        said = self.start(physics.scaled(near)[:, START])[..., which]
+        if not which:
+            said = np.array([physics.start_force(near, one) for one in said])
+        before, here, after = np.split(said, 3, axis=1)
+        rise = np.abs((after - before).mean(axis=0)) / (2 * step)
+        # where what was told hardly depends on the depth, it tells no depth
+        return np.minimum(here.std(axis=0) / np.maximum(rise, 1e-30), 1.0)
+
+    def with_start_doubt(
+        self, groups: Array, answers: Answers, held: Intervals, *, by: str, quantile: float
+    ) -> Intervals:
+        """Return intervals that hold the doubt of the depths of their starts as well.
+
+        Parameters
+        ----------
+        groups, answers, held : ndarray, Answers, Intervals
+            Rows, what is said of them, and intervals without that doubt.
+        by : {"force", "contact_radius"}
+            What was told of the start.
+        quantile : float
+            Standard deviations in half an interval.
+        """
+        doubt = 10 ** (quantile * self.start_doubt(groups, by=by))
+        near = np.tile(groups, (2, 1))
+        near[:, physics.PRELOAD] *= np.concatenate([doubt, 1 / doubt])
+        others = self.evaluate(near)
+
+        def wider(name: str) -> Array:
+            value, pair = np.log(getattr(answers, name)), np.log(getattr(held, name))
+            far = np.log(getattr(others, name)).reshape(2, -1) - value
+            down, up = -np.minimum(far.min(axis=0), 0.0), np.maximum(far.max(axis=0), 0.0)
+            low, high = np.hypot(value - pair[:, 0], down), np.hypot(pair[:, 1] - value, up)
+            return np.exp(np.column_stack([value - low, value + high]))
+
+        return replace(
+            held,
+            pull_off_force=wider("pull_off_force"),
+            work_to_pull_off=wider("work_to_pull_off"),
+        )
 
     def _told(self, rows: Array, force: Array) -> Array:
         return physics.with_start(rows, *self.relaxed(rows), force)

@@ -80,9 +80,9 @@ def between(low: Array, high: Array, output: Array) -> Array:
 
 
 def way(groups: Array, fast: Networks) -> tuple[Array, Array]:
-    """Return log10 of the slow and the fast limit of the pull-off force, each of shape (n,)."""
+    """Return log10 of the slow limit of the pull-off force, (n,), and of the fast ones, (m, n)."""
     slow = slow_limit(groups)
-    said = fast(scaled(groups)[:, FAST])[0, :, 0]
+    said = fast(scaled(groups)[:, FAST])[..., 0]
     return slow, between(slow, largest_fast_limit(groups), said)
 
 

@@ -18,15 +18,23 @@ from viscotack.files.whole import write_whole
 
 from .model import Scaled, Surrogate
 from .network import from_arrays
-from .trust import CONFIDENCES, REGIONS, Trust
+from .trust import CONFIDENCES, INPUTS, OF, Trust
 
 SHIPPED = Path(__file__).with_name("shipped.npz")
-_FORM = "viscotack surrogate 1"
+_FORM = "viscotack surrogate 2"
 _WORDS = "words.json"
 # Largest file that is taken [bytes unpacked]: the one that is shipped has half a megabyte.
 _MOST = 50e6
 # How many inputs each of the networks has.
-_INPUTS = {"start": 2, "fast": 3, "force": 5, "work": 9, "give": 10, "line": 10}
+_INPUTS = {
+    "start": 2,
+    "fast": 3,
+    "force": 5,
+    "work": 9,
+    "give": 10,
+    "line": 10,
+    "trust": INPUTS,
+}
 
 
 def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, Any]) -> None:
@@ -49,7 +57,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
             arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
         arrays |= networks.arrays(f"{name}.")
     trust = surrogate.trust
-    arrays |= {"trust.force": trust.force, "trust.work": trust.work, "trust.floors": trust.floors}
+    arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
     words = {"form": _FORM, "sha256": _digest(arrays), **facts}
     text = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
@@ -111,7 +119,7 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
         )
         for name in ("start", "work", "give", "line")
     }
-    trust = Trust(arrays["trust.force"], arrays["trust.work"], arrays["trust.floors"])
+    trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
     fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
     return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
 
@@ -138,12 +146,15 @@ def _check(arrays: dict[str, np.ndarray]) -> None:
             scale = arrays.get(f"{name}.{part}")
             if scale is not None and np.broadcast_shapes(scale.shape, (width,)) != (width,):
                 raise InputError(f"{name}.{part} must have {width} numbers, got {scale.shape}")
-    wanted = {"force": (REGIONS, len(CONFIDENCES)), "work": (REGIONS, len(CONFIDENCES))}
-    for name, shape in (wanted | {"floors": (2,)}).items():
-        if arrays[f"trust.{name}"].shape != shape:
-            raise InputError(
-                f"trust.{name} must have the shape {shape}, got {arrays[f'trust.{name}'].shape}"
-            )
+    levels, wanted = arrays["trust.levels"], (len(OF), len(CONFIDENCES))
+    if levels.shape != wanted:
+        raise InputError(f"trust.levels must have the shape {wanted}, got {levels.shape}")
+    members = {name: len(arrays[f"{name}.weight.0"]) for name in ("fast", "force")}
+    if members["fast"] not in (1, members["force"]):
+        raise InputError(
+            f"it has {members['fast']} networks of the fast limit for {members['force']} of the "
+            "force; give one, or one for each"
+        )
 
 
 def _digest(arrays: dict[str, np.ndarray]) -> str:

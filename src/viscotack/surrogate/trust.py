@@ -1,8 +1,9 @@
-r"""How wide an interval is: conformal, from cases that the networks had not learned from.
+r"""How wide an interval is: as far as errors usually reach there, times what was measured to hold.
 
-The scores of such cases, :math:`|\Delta \log_{10}| / (\sigma + \sigma_0)` with the spread
-:math:`\sigma` of the networks, were sorted within regions; an interval is as many times as wide as
-holds the wanted share of them (:mod:`viscotack.surrogate.training.calibration`).
+A network of its own says how far errors of log10 of force, of work and of the curve reach nine
+times of ten around a case, from its inputs and from how far the networks are apart
+(:mod:`viscotack.surrogate.training.calibration`). It is smooth, so that widths are. An interval is
+as many times that wide as held the wanted share of cases from which no network had learned.
 """
 
 from __future__ import annotations
@@ -15,26 +16,35 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 
 from . import physics
+from .network import Networks
 
 Array = npt.NDArray[np.float64]
 
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
-# Between these lie the regions: three ranges of Tabor number, times three of rate.
-_TABORS, _RATES = (0.1, 1.0), (10.0, 1e5)
-REGIONS = (len(_TABORS) + 1) * (len(_RATES) + 1)
+# What the network says of, and how many inputs it has: the groups, how near they are to ends of
+# their ranges, and the spreads of two answers.
+OF, INPUTS = ("force", "work", "curve"), len(physics.INPUTS) + 3
+# How far from an end an input counts as near it, in halves of its range.
+_NEAR = 0.03
+# Spreads of log10 below this tell nothing more, and their logarithms are of order one.
+_LEAST_SPREAD, _DECADES = 1e-5, 2.0
 
 
-def region(groups: Array) -> npt.NDArray[np.intp]:
-    """Return the number of the region of each row, from 0 to REGIONS - 1.
+def told(groups: Array, spreads: tuple[Array, Array]) -> Array:
+    """Return what the network of the errors is told of cases, shape (n, INPUTS).
 
-    Examples
-    --------
-    >>> region(np.array([[0.05, 0.1, 0.6, 1.0, 1.0], [5.0, 0.1, 0.6, 1.0, 1e9]])).tolist()
-    [0, 8]
+    Parameters
+    ----------
+    groups : ndarray, shape (n, 5)
+    spreads : tuple of ndarray, shape (n,)
+        Of the networks of force and work, log10.
     """
-    tabor = np.searchsorted(_TABORS, groups[:, physics.TABOR])
-    rate = np.searchsorted(_RATES, groups[:, physics.RATE])
-    return tabor * (len(_RATES) + 1) + rate
+    apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
+    scaled = physics.scaled(groups)
+    # beyond a face there is no row, and networks know less of what is there
+    near = np.exp((np.abs(scaled) - 1) / _NEAR)
+    faces = sum(near[:, i] for i in range(1, len(physics.INPUTS))) + near[:, 0]
+    return np.column_stack([scaled, faces - 1, *apart])
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,26 +53,25 @@ class Trust:
 
     Attributes
     ----------
-    force, work : ndarray, shape (REGIONS, confidences)
-        How many spreads half an interval of log10 is wide.
-    floors : ndarray, shape (2,)
-        What is added to the spreads of force and work, log10.
+    reach : Networks
+        log10 of how far errors of ``OF`` usually reach, shape (m, n, 3) for m networks; their mean
+        counts. Errors of force and work are of log10, those of a curve parts of the pull-off force.
+    levels : ndarray, shape (3, confidences)
+        How many times as wide half an interval is.
     """
 
-    force: Array
-    work: Array
-    floors: Array
+    reach: Networks
+    levels: Array
 
-    def factors(
+    def widths(
         self, groups: Array, spreads: tuple[Array, Array], confidence: float
-    ) -> tuple[Array, Array]:
-        """Return by what force and work are multiplied and divided, arrays of shape (n,)."""
+    ) -> tuple[Array, Array, Array]:
+        """Return the half widths of the intervals of ``OF``, arrays of shape (n,)."""
         if confidence not in CONFIDENCES:
             raise InputError(
                 f"the confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
                 f"intervals were measured; got {confidence!r}"
             )
-        where, level = region(groups), CONFIDENCES.index(confidence)
-        half_force = self.force[where, level] * (spreads[0] + self.floors[0])
-        half_work = self.work[where, level] * (spreads[1] + self.floors[1])
-        return 10**half_force, 10**half_work
+        usual = 10.0 ** self.reach(told(groups, spreads)).mean(axis=0)
+        level = self.levels[:, CONFIDENCES.index(confidence)]
+        return usual[:, 0] * level[0], usual[:, 1] * level[1], usual[:, 2] * level[2]

@@ -187,9 +187,10 @@ def _comparison(found: Prediction, result: Result) -> dict[str, Any]:
     for name, interval in _COMPARED.items():
         true = simulated[name]
         if predicted[name] is not None and true is not None:
-            low, high = predicted[interval]
             difference[name] = predicted[name] / true - 1
-            held[name] = low <= true <= high
+            if predicted[interval] is not None:
+                low, high = predicted[interval]
+                held[name] = low <= true <= high
     return answer | {"difference": difference, "interval_held": held}
 
 
@@ -225,7 +226,9 @@ def _curve(found: Prediction) -> dict[str, Any]:
 def _words(found: Prediction, answer: dict[str, Any]) -> str:
     """Return a prediction as lines a person reads."""
     lines = [found.why if found.inside else f"outside what was learned: {found.why}"]
-    held = f"{100 * found.confidence:.4g}"
+    held = (
+        "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
+    )
     for name, observable in REVOLUTION.observables.items():
         value, unit = answer.get(name), observable.unit
         if value is None:
@@ -238,7 +241,7 @@ def _words(found: Prediction, answer: dict[str, Any]) -> str:
         if interval is None or answer[interval] is None:
             continue
         low, high = answer[interval]
-        line = f"    {held + ' % between':<19}{low:>12.5g}  and {high:<26.5g}"
+        line = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
         if f"{interval}_{unit.tail}" in answer:
             low, high = answer[f"{interval}_{unit.tail}"]
             line += f"= {low:.4g} to {high:.4g} {unit.si}"
@@ -260,9 +263,10 @@ def _comparison_words(answer: dict[str, Any]) -> list[str]:
             continue
         line = f"  {words:<21}{true:>12.5g}"
         if (off := answer["difference"][name]) is not None:
-            where = "inside" if answer["interval_held"][name] else "outside"
             way = "above" if off >= 0 else "below"
-            line += f"  the prediction is {abs(off):.2%} {way}; {where} its interval"
+            line += f"  the prediction is {abs(off):.2%} {way}"
+            if (held := answer["interval_held"][name]) is not None:
+                line += f"; {'inside' if held else 'outside'} its interval"
         lines.append(line)
     return lines
 

@@ -204,23 +204,27 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
         found["notes"].append(f"surrogate: {error}")
         return
     scales, curve = problem.scales(), answer.curve
-    assert curve is not None and answer.work_to_pull_off is not None
-    assert answer.work_interval is not None
     low, high = (x * scales.force for x in answer.interval)
-    found["curves"]["surrogate"] = _curve(
-        "learned from 30,000 simulations",
-        curve.depth * scales.length,
-        curve.force * scales.force,
-        radius=drawn(curve.contact_radius * scales.radius),
-        interval=[low, high],
-        confidence=confidence,
-    )
-    work = [x * scales.work for x in answer.work_interval]
-    found["numbers"] = [
-        _number("pull_off", answer.value * scales.force, (low, high), "surrogate", confidence),
-        _number("work", answer.work_to_pull_off * scales.work, work, "surrogate", confidence),
-        *found["numbers"],
+    if curve is not None:
+        found["curves"]["surrogate"] = _curve(
+            "learned from 30,000 simulations",
+            curve.depth * scales.length,
+            curve.force * scales.force,
+            radius=drawn(curve.contact_radius * scales.radius),
+            interval=[low, high],
+            confidence=confidence,
+        )
+    told = [
+        _number("pull_off", answer.value * scales.force, (low, high), answer.method, confidence)
     ]
+    if answer.work_to_pull_off is not None and answer.work_interval is not None:
+        work = [x * scales.work for x in answer.work_interval]
+        value = answer.work_to_pull_off * scales.work
+        told.append(_number("work", value, work, answer.method, confidence))
+    found["numbers"] = [*told, *found["numbers"]]
+    if curve is None:
+        found["notes"].append(f"surrogate: {answer.why}")
+        return
     found["speeds"] = _speeds(problem, confidence)
 
 

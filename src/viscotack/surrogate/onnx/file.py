@@ -7,7 +7,6 @@ which they are.
 
 import os
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -39,9 +38,12 @@ OUTPUTS = {
     "force_interval": ((2,), f"between which the simulated pull-off force is [{_FORCE}]"),
     "work_interval": ((2,), f"between which the simulated work to pull-off is [{_WORK}]"),
     "inside": ((5,), "which inputs are in the range learned from, in their order"),
+    "force_slopes": ((5,), "derivatives of ln pull-off force by ln of the inputs, in their order"),
+    "work_slopes": ((5,), "derivatives of ln work to pull-off by ln of the inputs"),
     "curve_depth": ((POINTS,), f"depth from start to pull-off [{_LENGTH}]"),
     "curve_force": ((POINTS,), f"force at these depths [{_FORCE}], compression positive"),
     "curve_contact_radius": ((POINTS,), f"contact radius at these depths [{_RADIUS}]"),
+    "curve_band": ((), "how far forces in tension are off, over the pull-off force"),
 }
 
 
@@ -98,21 +100,22 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
 
 def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, Any]:
     """Return what the methods of a surrogate answer to something that writes down what is done."""
-    trust = surrogate.trust
-    written = replace(trust, force=graph.constant(trust.force), work=graph.constant(trust.work))
-    traced = replace(surrogate, trust=written)
-    answers = traced.evaluate(groups)
-    between = traced.intervals(groups, answers, confidence=CONFIDENCE)
-    curves = traced.curves(groups, answers)
+    answers = surrogate.evaluate(groups)
+    between = surrogate.intervals(groups, answers, confidence=CONFIDENCE)
+    curves = surrogate.curves(groups, answers)
+    force_slopes, work_slopes = surrogate.slopes(groups)
     return {
         "pull_off_force": answers.pull_off_force,
         "work_to_pull_off": answers.work_to_pull_off,
         "force_interval": between.pull_off_force,
         "work_interval": between.work_to_pull_off,
-        "inside": traced.inside(groups),
+        "inside": surrogate.inside(groups),
+        "force_slopes": force_slopes,
+        "work_slopes": work_slopes,
         "curve_depth": curves.depth,
         "curve_force": curves.force,
         "curve_contact_radius": curves.contact_radius,
+        "curve_band": between.curve,
     }
 
 

@@ -132,6 +132,8 @@ class Traced(NDArrayOperatorsMixin):
         return len(self.value)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        if any(_foreign(type(x)) for x in inputs):
+            return NotImplemented
         if method == "accumulate" and ufunc in _RUNNING and options == {"axis": 1}:
             return _running(ufunc, inputs[0])
         if method != "__call__" or options or ufunc not in {*_OPERATORS, *_MADE_OF}:
@@ -145,6 +147,8 @@ class Traced(NDArrayOperatorsMixin):
         return self.graph.apply(_OPERATORS[ufunc], alike, ufunc(*plain))
 
     def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+        if any(map(_foreign, types)):
+            return NotImplemented
         if function not in _FUNCTIONS:
             raise TypeError(f"np.{function.__name__} has no counterpart in ONNX here")
         return _FUNCTIONS[function](self.graph, *args, **options)
@@ -183,6 +187,12 @@ class Traced(NDArrayOperatorsMixin):
         assert axis == 0
         away: Any = self - self.mean(axis=0)
         return np.sqrt((away * away).mean(axis=0))
+
+
+def _foreign(kind: type) -> bool:
+    """Return whether arrays of a type that do as they like are others than those of a graph."""
+    own = hasattr(kind, "__array_ufunc__") and not issubclass(kind, np.ndarray | np.generic)
+    return own and not issubclass(kind, Traced)
 
 
 def astype(graph: Graph, x: Any, kind: np.dtype) -> Traced:

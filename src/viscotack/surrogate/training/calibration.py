@@ -1,13 +1,14 @@
-r"""How wide the intervals are to be: conformal, on whole cells of materials that were kept apart.
+r"""How wide the intervals are to be: how far errors reach around a case, and conformal levels.
 
-The cells are boxes of Tabor number, modulus ratio and exponent; all rows of a cell are learned from
-or kept apart together, so that a row is never judged by its neighbours. A second surrogate, of the
-same recipe, learns all but an eighth of the cells. The scores
-:math:`|\Delta \log_{10}| / (\sigma + \sigma_0)` of the rows in these give the widths (Lei et al.,
-doi:10.1080/01621459.2017.1307116, with a category for each region), computed by crepes.
+How far they reach is learned from the errors of all rows, most of which the networks learned from:
+where limits or inputs are told badly, errors are the same for those and for others, and several
+networks agree in them, so that no spread shows it. Overfitting makes them smaller for rows
+that were learned from, most on the faces of the range; so rows that were kept apart count more. The
+levels, by which all widths are multiplied, come from the latter: two networks of the reach learn
+from a half of them each, and each is judged by the other half (cross-conformal prediction, Vovk,
+doi:10.1007/s10472-013-9368-4). What the rows themselves are uncertain by is in both.
 """
 
-import warnings
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -15,109 +16,141 @@ import numpy as np
 import numpy.typing as npt
 
 from ..model import Surrogate
+from ..network import together
 from ..physics import Array
-from ..trust import CONFIDENCES, REGIONS, Trust, region
-from .rows import Rows, cells
+from ..trust import CONFIDENCES, OF, Trust, told
+from .fitting import Fit, Task
+from .rows import Rows
+from .scores import curve_errors
+from .shop import Shop
+
+# The part of the errors that a network of their reach is to hold, and smaller errors than those of
+# the rows themselves [log10, log10, part of the pull-off force], which are not worth telling.
+REACH, _LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4])
+# How many times a row counts that was kept apart, in learning how far errors reach.
+_WEIGHT = 8.0
+HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 
 @dataclass(frozen=True, eq=False)
 class Apart:
-    """What surrogates said of rows that they had not learned from.
+    """How far a surrogate is off on some rows.
 
     Attributes
     ----------
     groups : ndarray, shape (n, 5)
-    force, work : ndarray, shape (n,)
-        Errors of log10.
+    error : ndarray, shape (n, 3)
+        Of log10 of force and of work, and the largest of the curve over the pull-off force.
     force_spread, work_spread : ndarray, shape (n,)
         Of the networks, log10.
     """
 
     groups: Array
-    force: Array
-    work: Array
+    error: Array
     force_spread: Array
     work_spread: Array
 
-    def chosen(self, which: npt.NDArray[np.bool_]) -> "Apart":
+    def chosen(self, which: Any) -> "Apart":
         """Return the rows of a mask."""
         return Apart(**{f.name: getattr(self, f.name)[which] for f in fields(self)})
+
+    @property
+    def spreads(self) -> tuple[Array, Array]:
+        """Of force and work."""
+        return self.force_spread, self.work_spread
 
 
 def judged(surrogate: Surrogate, rows: Rows) -> Apart:
     """Return how far a surrogate is off on some rows."""
     said = surrogate.evaluate(rows.groups)
+    errors = (
+        np.log10(said.pull_off_force / rows.force),
+        np.log10(said.work_to_pull_off / rows.work),
+        np.nanmax(np.abs(curve_errors(surrogate, rows, said)), axis=1),
+    )
     return Apart(
         groups=rows.groups,
-        force=np.log10(said.pull_off_force / rows.force),
-        work=np.log10(said.work_to_pull_off / rows.work),
+        error=np.column_stack(errors),
         force_spread=said.force_spread,
         work_spread=said.work_spread,
     )
 
 
-def kept_cells(rows: Rows, *, seed: int) -> npt.NDArray[np.bool_]:
-    """Return which rows lie in cells that are kept apart, an eighth of the cells."""
-    cell = cells(rows)
-    names = np.random.default_rng(seed).permutation(np.unique(cell))
-    return np.isin(cell, names[: len(names) // 8])
+def trusted(
+    surrogate: Surrogate, learned: Apart, kept: Apart, shop: Shop, *, how: Fit = HOW
+) -> Surrogate:
+    """Return a surrogate with intervals.
 
-
-def trusted(surrogate: Surrogate, apart: Apart) -> Surrogate:
-    """Return a surrogate whose intervals hold what was kept apart."""
-    return replace(surrogate, trust=_measured(apart))
-
-
-def _measured(apart: Apart) -> Trust:
-    floors = np.array([np.median(np.abs(apart.force)), np.median(np.abs(apart.work))])
-    where = region(apart.groups)
-    force = _widths(apart.force, apart.force_spread + floors[0], where)
-    work = _widths(apart.work, apart.work_spread + floors[1], where)
-    return Trust(force=force, work=work, floors=floors)
-
-
-def _widths(errors: Array, sigmas: Array, where: npt.NDArray[np.intp]) -> Array:
-    """Return how many sigmas half an interval is wide, shape (regions, confidences)."""
-    regressor = _crepes().ConformalRegressor()
-    regressor.fit(np.abs(errors), sigmas=sigmas, bins=where)
-    zeros, ones, regions = np.zeros(REGIONS), np.ones(REGIONS), np.arange(REGIONS)
-    with warnings.catch_warnings():
-        # A region with too few rows for a confidence gets no end to its interval, which is right.
-        warnings.filterwarnings("ignore", message="the no. of calibration examples")
-        columns = [
-            regressor.predict_int(zeros, sigmas=ones, bins=regions, confidence=level)[:, 1]
-            for level in CONFIDENCES
-        ]
-    return np.column_stack(columns)
-
-
-def _crepes() -> Any:
-    try:
-        import crepes
-    except ImportError:
-        raise ModuleNotFoundError(
-            "intervals are measured with crepes; install it with pip install 'viscotack[train]'"
-        ) from None
-    return crepes
-
-
-def covers(apart: Apart, cell: npt.NDArray[np.intp], *, confidence: float = 0.9) -> dict[str, Any]:
-    """Return the share of rows kept apart that intervals hold which rows of other cells gave.
-
-    Half of the cells measure the intervals of the other half, and the other way round. The share is
-    that of all rows, and of the rows of each region.
+    Parameters
+    ----------
+    surrogate : Surrogate
+        Whose errors they are.
+    learned, kept : Apart
+        Of rows that it learned from, and of others.
+    shop : Shop
+        Where networks are fitted.
+    how : Fit
+        Of the networks of the reach.
     """
-    half = np.isin(cell, np.random.default_rng(0).permutation(np.unique(cell))[::2])
-    where, spreads = region(apart.groups), (apart.force_spread, apart.work_spread)
-    by_half = [
-        (some, _measured(apart.chosen(~some)).factors(apart.groups, spreads, confidence))
-        for some in (half, ~half)
+    halves = [np.arange(len(kept.groups)) % 2 == i for i in (0, 1)]
+    begun = [
+        shop.fit(_reach(learned, kept.chosen(half)), how, seed=seed)
+        for seed, half in enumerate(halves)
     ]
-    answer: dict[str, Any] = {}
-    for index, name in enumerate(("force", "work")):
-        error, held = np.abs(getattr(apart, name)), np.empty(len(cell), dtype=bool)
-        for some, factors in by_half:
-            held[some] = (error <= np.log10(factors[index]))[some]
-        answer[name] = float(held.mean())
-        answer[f"{name} by region"] = [float(held[where == r].mean()) for r in range(REGIONS)]
-    return answer
+    members = [one.result() for one in begun]
+    scores = [
+        scored(Trust(one, untested()), kept.chosen(~half))
+        for one, half in zip(members, halves, strict=True)
+    ]
+    return replace(surrogate, trust=Trust(together(members), _levels(np.concatenate(scores))))
+
+
+def _reach(learned: Apart, kept: Apart) -> Task:
+    """Return the task to learn how far errors reach."""
+    inputs = np.concatenate([told(one.groups, one.spreads) for one in (learned, kept)])
+    error = np.concatenate([learned.error, kept.error])
+    target = np.log10(np.maximum(np.abs(error), _LEAST))
+    weight = np.ones_like(target)
+    weight[len(learned.groups) :] = _WEIGHT
+    return Task(inputs, target, weight, quantile=REACH)
+
+
+def untested() -> Array:
+    """Return levels of one, before any case has measured them."""
+    return np.ones((len(OF), len(CONFIDENCES)))
+
+
+def measured(trust: Trust, apart: Apart) -> Trust:
+    """Return a trust whose levels hold the wanted shares of some rows.
+
+    Examples
+    --------
+    >>> from viscotack.surrogate.store import shipped
+    >>> from viscotack.surrogate.training.rows import read
+    >>> apart = judged(shipped(), read("chosen").chosen(slice(None, 200)))
+    >>> levels = measured(shipped().trust, apart).levels
+    >>> bool(np.all(np.diff(levels, axis=1) >= 0))
+    True
+    """
+    return replace(trust, levels=_levels(scored(replace(trust, levels=untested()), apart)))
+
+
+def scored(trust: Trust, apart: Apart) -> Array:
+    """Return errors over how far they usually reach, shape (n, 3)."""
+    return np.abs(apart.error) / np.column_stack(
+        trust.widths(apart.groups, apart.spreads, CONFIDENCES[0])
+    )
+
+
+def _levels(scores: Array) -> Array:
+    """Return the levels that hold the wanted shares of scores, shape (3, confidences)."""
+    scores, count = np.sort(scores, axis=0), len(scores)
+    # a score of one more case is below the i-th of them in i of count + 1 cases
+    place = np.ceil(np.array(CONFIDENCES) * (count + 1)).astype(int) - 1
+    return scores[np.minimum(place, count - 1)].T
+
+
+def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> npt.NDArray[np.bool_]:
+    """Return which errors of force, work and curve intervals hold, shape (n, 3)."""
+    widths = trust.widths(apart.groups, apart.spreads, confidence)
+    return np.abs(apart.error) <= np.column_stack(widths)

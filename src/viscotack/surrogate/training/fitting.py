@@ -19,6 +19,8 @@ from ..network import Networks
 Array = npt.NDArray[np.float64]
 # How many steps the curvature is remembered for.
 _MEMORY = 40
+# Rounding of a corner in the penalty of a quantile, in units of the scale.
+_CORNER = 0.05
 
 
 @dataclass(frozen=True)
@@ -56,16 +58,36 @@ class Task:
     between : tuple of two ndarrays of shape (n,), or None
         Limits between which the single target lies, see ``physics.between``; None for outputs that
         are the target.
+    before : ndarray, shape (n, outputs), or None
+        What networks fitted before say; this one learns what to add to it.
+    gain : float
+        What the output is multiplied by before it is added.
+    quantile : float or None
+        The part of the targets that is to lie below the output, in place of squared errors.
     """
 
     inputs: Array
     target: Array
     weight: Array
     between: tuple[Array, Array] | None = None
+    before: Array | None = None
+    gain: float = 1.0
+    quantile: float | None = None
 
 
-def fit(task: Task, how: Fit, *, seed: int) -> Networks:
+def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Networks:
     """Return one network that has learned a task.
+
+    Parameters
+    ----------
+    task : Task
+        What to learn.
+    how : Fit
+        Size, steps, penalty.
+    seed : int
+        Of the weights to begin with.
+    first : Networks, optional
+        One network of that size to go on from, in place of random weights.
 
     Raises
     ------
@@ -78,6 +100,7 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
     shapes = [s for a, b in zip(sizes[:-1], sizes[1:], strict=True) for s in ((a, b), (b,))]
     ends = np.cumsum([int(np.prod(shape)) for shape in shapes])[:-1]
     x, target, weight = (jnp.asarray(a) for a in (task.inputs, task.target, task.weight))
+    before = None if task.before is None else jnp.asarray(task.before)
     total = float(task.weight.sum())
 
     def parts(v: Any) -> list[Any]:
@@ -87,7 +110,9 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
         h = x
         for weights, bias in zip(layers[:-2:2], layers[1:-2:2], strict=True):
             h = jnp.tanh(h @ weights + bias)
-        out = h @ layers[-2] + layers[-1]
+        out = task.gain * (h @ layers[-2] + layers[-1])
+        if task.before is not None:
+            out = out + before
         if task.between is None:
             return out
         low, high = (jnp.asarray(a)[:, None] for a in task.between)
@@ -97,7 +122,13 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
 
     def loss(v: Any) -> Any:
         layers = parts(v)
-        error = jnp.sum(weight * ((answer(layers) - target) / how.scale) ** 2) / total
+        off = (target - answer(layers)) / how.scale
+        if task.quantile is None:
+            each = off**2
+        else:
+            # what is above counts so many times what is below; rounded at the corner
+            each = task.quantile * off + _CORNER * jax.nn.softplus(-off / _CORNER)
+        error = jnp.sum(weight * each) / total
         return error + how.penalty * sum(jnp.sum(w**2) for w in layers[::2])
 
     value_and_slope = jax.jit(jax.value_and_grad(loss))
@@ -115,13 +146,14 @@ def fit(task: Task, how: Fit, *, seed: int) -> Networks:
     }
     # sums of several threads come in another order, and steps go another way
     with threadpool_limits(1):
-        first = _first(sizes, seed)
-        found = minimize(evaluate, first, jac=True, method="L-BFGS-B", options=limits)
+        begun = _first(sizes, seed) if first is None else _as_vector(first)
+        found = minimize(evaluate, begun, jac=True, method="L-BFGS-B", options=limits)
     if not np.isfinite(found.fun):
         raise InputError(
             "what is to be learned is not finite everywhere; look for gaps in the rows"
         )
     layers = [np.asarray(a)[None] for a in parts(found.x)]
+    layers[-2:] = [task.gain * a for a in layers[-2:]]
     return Networks(tuple(layers[::2]), tuple(bias[:, None] for bias in layers[1::2]))
 
 
@@ -132,6 +164,12 @@ def _first(sizes: tuple[int, ...], seed: int) -> Array:
     for a, b in zip(sizes[:-1], sizes[1:], strict=True):
         values += [random.normal(size=a * b) / np.sqrt(a), random.uniform(-0.5, 0.5, size=b)]
     return np.concatenate(values)
+
+
+def _as_vector(network: Networks) -> Array:
+    """Return weights and biases of one network in the order in which they are fitted."""
+    pairs = zip(network.weights, network.biases, strict=True)
+    return np.concatenate([a[0].ravel() for pair in pairs for a in pair])
 
 
 def _jax() -> Any:

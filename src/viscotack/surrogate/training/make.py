@@ -24,9 +24,10 @@ from viscotack.files.whole import write_whole
 
 from ... import __version__, datasets
 from .. import store
-from . import rows, scores
-from .calibration import covers, judged, kept_cells, trusted
+from . import drawing, rows, scores
+from .calibration import HOW, judged, trusted
 from .recipe import BANDED, QUICK, Recipe, learn, learn_limits
+from .refining import QUICK_REFINEMENT, Refinement, refine
 from .rows import FAST, LEARNED
 from .shop import Shop
 
@@ -36,7 +37,9 @@ _KEPT, _SEED = 0.06, 2026
 _THINNED = 4
 
 
-def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
+def make(
+    folder: Path, *, workers: int, quick: bool = False, bands: list[dict[str, Any]] | None = None
+) -> dict[str, Any]:
     """Train, measure, write ``surrogate.npz`` and ``scores.json`` in the folder; return the scores.
 
     Parameters
@@ -47,6 +50,9 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
         Processes; four take about half an hour.
     quick : bool
         Few rows and small networks, to see that it runs.
+    bands : list, optional
+        Scores of the bands kept apart, where they have been measured; they do not depend on what is
+        learned after the first networks.
     """
     began = perf_counter()
     all_rows, fast = rows.read(*LEARNED), rows.read(FAST)
@@ -55,27 +61,27 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
     kept = kept_apart(len(all_rows))
     learned, test = all_rows.chosen(~kept), all_rows.chosen(kept)
     recipe, banded = (QUICK, QUICK.force) if quick else (Recipe(), BANDED)
+    refinement = QUICK_REFINEMENT if quick else Refinement()
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         limits = learn_limits(learned, fast, recipe, shop)
         _say(began, "limits")
         whole = learn(learned, limits, recipe, shop)
-        held = kept_cells(learned, seed=_SEED)
-        sister = learn(learned.chosen(~held), limits, recipe, shop, curves=QUICK)
-        bands = scores.begin_bands(learned, limits, banded, shop)
-        surrogate = whole.surrogate()
+        begun = scores.begin_bands(learned, limits, banded, shop) if bands is None else []
+        rough = whole.surrogate()
         _say(began, "networks")
-        apart = judged(sister.surrogate(), learned.chosen(held))
-        _say(began, "networks without some cells")
-        surrogate = trusted(surrogate, apart)
-        found: dict[str, Any] = {
-            "kept apart at random": scores.scores(surrogate, test),
-            "cells kept apart": covers(apart, rows.cells(learned.chosen(held))),
-        }
-        facts = _facts(len(learned), len(test), recipe)
+        surrogate = refine(rough, learned, fast, refinement, shop)
+        _say(began, "networks of what they leave over")
+        how = QUICK.line if quick else HOW
+        apart = judged(surrogate, measuring_rows(test))
+        some = judged(surrogate, learned.chosen(slice(None, None, 2)))
+        surrogate = trusted(surrogate, some, apart, shop, how=how)
+        _say(began, "intervals")
+        found: dict[str, Any] = {"kept apart at random": scores.scores(surrogate, test)}
+        facts = _facts(len(learned), len(test), recipe, refinement)
         store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
         print(json.dumps(found, indent=1), file=sys.stderr, flush=True)
-        found["bands kept apart"] = []
-        for one in bands:
+        found["bands kept apart"] = list(bands or [])
+        for one in begun:
             found["bands kept apart"].append(scores.score_band(one, limits))
             _say(began, json.dumps(found["bands kept apart"][-1]))
     store.save(surrogate, folder / "surrogate.npz", facts | {"scores": found})
@@ -83,13 +89,25 @@ def make(folder: Path, *, workers: int, quick: bool = False) -> dict[str, Any]:
     return found
 
 
+def measuring_rows(test: rows.Rows) -> rows.Rows:
+    """Return the rows that measure intervals: those kept apart, and every second one of `fresh`.
+
+    Of the former without those of `thesis`, most of which are materials of a few kinds; of the
+    latter without those whose own errors are larger than what is to be measured.
+    """
+    some = test.chosen(test.origin != LEARNED.index("thesis"))
+    fresh = rows.read("fresh")
+    measuring = drawing.measuring(drawing.designs_of(fresh.groups)) & rows.certain("fresh")
+    return rows.joined([some, fresh.chosen(measuring)])
+
+
 def kept_apart(count: int) -> npt.NDArray[np.bool_]:
     """Return which of the rows no network learns from: the same in every run."""
     return np.random.default_rng(_SEED).random(count) < _KEPT
 
 
-def _facts(learned: int, test: int, recipe: Recipe) -> dict[str, Any]:
-    names = ("numpy", "scipy", "jax", "jaxlib", "crepes")
+def _facts(learned: int, test: int, recipe: Recipe, refinement: Refinement) -> dict[str, Any]:
+    names = ("numpy", "scipy", "jax", "jaxlib")
     return {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
@@ -100,7 +118,7 @@ def _facts(learned: int, test: int, recipe: Recipe) -> dict[str, Any]:
             for name in (*LEARNED, FAST)
         },
         "rows": {"learned from": learned, "kept apart": test},
-        "recipe": asdict(recipe),
+        "recipe": asdict(recipe) | {"refinement": asdict(refinement)},
     }
 
 

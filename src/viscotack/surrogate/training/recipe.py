@@ -9,7 +9,7 @@ from .. import line, physics
 from ..model import Scaled, Surrogate
 from ..network import Networks, together
 from ..physics import Array
-from ..trust import CONFIDENCES, REGIONS, Trust
+from ..trust import CONFIDENCES, INPUTS, OF, Trust
 from .fitting import Fit, Task
 from .rows import Rows
 from .shop import Shop
@@ -131,15 +131,15 @@ def begin_forces(
 ) -> list[Future[Networks]]:
     """Begin to learn the force alone."""
     target = np.log10(rows.force)[:, None]
-    way = physics.way(rows.groups, limits.fast)
-    task = Task(physics.scaled(rows.groups), target, np.ones_like(target), way)
+    slow, high = physics.way(rows.groups, limits.fast)
+    task = Task(physics.scaled(rows.groups), target, np.ones_like(target), (slow, high[0]))
     return [shop.fit(task, how, seed=i) for i in range(members)]
 
 
 def untested() -> Trust:
-    """Return intervals of one spread, before any case has been kept apart to measure them."""
-    ones = np.ones((REGIONS, len(CONFIDENCES)))
-    return Trust(force=ones, work=ones, floors=np.zeros(2))
+    """Return intervals of one width everywhere, before any case has measured them."""
+    flat = Networks((np.zeros((1, INPUTS, len(OF))),), (np.zeros((1, 1, len(OF))),))
+    return Trust(reach=flat, levels=np.ones((len(OF), len(CONFIDENCES))))
 
 
 def _all(futures: list[Future[Networks]]) -> Networks:

@@ -16,6 +16,8 @@ Array = npt.NDArray[np.float64]
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"
+# Largest stated errors of force and work of rows that may judge others.
+MOST_ERRORS = (3e-3, 1e-2)
 # Bands of Tabor number, modulus ratio and exponent, even in their logarithms.
 BANDED, BANDS = (physics.TABOR, physics.MODULUS_RATIO, physics.EXPONENT), 6
 
@@ -64,11 +66,21 @@ class Rows:
 
 def read(*names: str) -> Rows:
     """Return the rows of some sets, one after the other."""
-    parts = [_of_set(name, number) for number, name in enumerate(names)]
-    joined = {
-        f.name: np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Rows)
-    }
-    return Rows(**joined)
+    return joined([_of_set(name, number) for number, name in enumerate(names)])
+
+
+def joined(parts: list[Rows]) -> Rows:
+    """Return rows one after the other."""
+    return Rows(
+        **{f.name: np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Rows)}
+    )
+
+
+def certain(name: str) -> npt.NDArray[np.bool_]:
+    """Return which rows of a set state errors of at most 0.3 % of the force and 1 % of the work."""
+    table = datasets.load(name)
+    force, work = (table.column(f"{of}_error").to_numpy() for of in ("force", "work"))
+    return (force <= MOST_ERRORS[0]) & (work <= MOST_ERRORS[1])
 
 
 def cells(rows: Rows) -> npt.NDArray[np.intp]:
@@ -84,7 +96,11 @@ def band(rows: Rows, column: int) -> npt.NDArray[np.intp]:
 
 
 def _of_set(name: str, number: int) -> Rows:
-    table = datasets.load(name)
+    return of_table(datasets.load(name), number)
+
+
+def of_table(table: Any, number: int = 0) -> Rows:
+    """Return the rows of a table with the columns of a dataset, as those of one set."""
 
     def column(key: str) -> Array:
         return np.array(table.column(key).to_pylist(), dtype=float)

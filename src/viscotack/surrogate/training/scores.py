@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from viscotack.result.trajectory import PRESSED
@@ -13,13 +14,28 @@ from .. import physics
 from ..model import Answers, Surrogate
 from ..network import Networks, together
 from ..physics import Array
-from ..trust import REGIONS, region
 from .fitting import Fit
 from .recipe import Limits, begin_forces
 from .rows import BANDED, BANDS, LEARNED, Rows, band
 from .shop import Shop
 
 _CONFIDENCE = 0.9
+# Between these lie the regions: three ranges of Tabor number, times three of rate.
+_TABORS, _RATES = (0.1, 1.0), (10.0, 1e5)
+REGIONS = (len(_TABORS) + 1) * (len(_RATES) + 1)
+
+
+def region(groups: Array) -> npt.NDArray[np.intp]:
+    """Return the number of the region of each row, from 0 to REGIONS - 1.
+
+    Examples
+    --------
+    >>> region(np.array([[0.05, 0.1, 0.6, 1.0, 1.0], [5.0, 0.1, 0.6, 1.0, 1e9]])).tolist()
+    [0, 8]
+    """
+    tabor = np.searchsorted(_TABORS, groups[:, physics.TABOR])
+    rate = np.searchsorted(_RATES, groups[:, physics.RATE])
+    return tabor * (len(_RATES) + 1) + rate
 
 
 def scores(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
@@ -55,25 +71,30 @@ def _of(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
 
 
 def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
-    """Return how far predicted curves are off at the depths of the stored points.
-
-    The part in tension is compared with the pull-off force, root mean square over its points.
-    """
-    found = surrogate.curves(rows.groups, said)
-    depth = rows.groups[:, physics.PRELOAD, None] - (
-        rows.trajectory_left[:, :1] - rows.trajectory_left
-    )
-    error = np.empty(len(rows))
-    for i in range(len(rows)):
-        first = PRESSED if rows.start_force[i] > 0 else 0
-        force = _at(depth[i, first:], found.depth[i], found.force[i])
-        off = (force - rows.trajectory_force[i, first:]) / rows.force[i]
-        error[i] = np.sqrt(np.mean(off**2))
+    """Return how far predicted curves are off, root mean square over the points in tension."""
+    error = np.sqrt(np.nanmean(curve_errors(surrogate, rows, said) ** 2, axis=1))
     return {
         "median": float(np.median(error)),
         "90 %": float(np.quantile(error, 0.9)),
         "99 %": float(np.quantile(error, 0.99)),
     }
+
+
+def curve_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
+    """Return how far curves are off at the depths of the stored points in tension, shape (n, 24).
+
+    Parts of the pull-off force; nan for points in compression.
+    """
+    found = surrogate.curves(rows.groups, said)
+    depth = rows.groups[:, physics.PRELOAD, None] - (
+        rows.trajectory_left[:, :1] - rows.trajectory_left
+    )
+    error = np.full(depth.shape, np.nan)
+    for i in range(len(rows)):
+        first = PRESSED if rows.start_force[i] > 0 else 0
+        force = _at(depth[i, first:], found.depth[i], found.force[i])
+        error[i, first:] = (force - rows.trajectory_force[i, first:]) / rows.force[i]
+    return error
 
 
 def _at(depth: Array, known: Array, force: Array) -> Array:

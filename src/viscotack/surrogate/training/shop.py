@@ -53,17 +53,19 @@ class Shop:
     ) -> None:
         self._pool.shutdown(cancel_futures=True)
 
-    def fit(self, task: Task, how: Fit, *, seed: int = 0) -> Future[Networks]:
+    def fit(
+        self, task: Task, how: Fit, *, seed: int = 0, first: Networks | None = None
+    ) -> Future[Networks]:
         """Begin to fit a network."""
-        return self._pool.submit(_fitted, task, how, seed, self.folder)
+        return self._pool.submit(_fitted, task, how, seed, first, self.folder)
 
 
-def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:
-    path = folder / f"{_name(task, how, seed)}.npz"
+def _fitted(task: Task, how: Fit, seed: int, first: Networks | None, folder: Path) -> Networks:
+    path = folder / f"{_name(task, how, seed, first)}.npz"
     if path.exists():
         with np.load(path, allow_pickle=False) as file:
             return from_arrays(file)
-    found = fit(task, how, seed=seed)
+    found = fit(task, how, seed=seed, first=first)
     content = io.BytesIO()
     arrays: dict[str, Any] = {**found.arrays()}
     np.savez(content, **arrays)
@@ -71,9 +73,16 @@ def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:
     return found
 
 
-def _name(task: Task, how: Fit, seed: int) -> str:
+def _name(task: Task, how: Fit, seed: int, first: Networks | None) -> str:
     meaning = physics.STEEP, physics.LEAST_WAY, task.inputs.shape, task.target.shape
     content = hashlib.sha256(repr((how, seed, meaning)).encode())
-    for array in (task.inputs, task.target, task.weight, *(task.between or ())):
+    arrays = [task.inputs, task.target, task.weight, *(task.between or ())]
+    if task.before is not None:
+        arrays += [task.before, np.array(task.gain)]
+    if task.quantile is not None:
+        arrays.append(np.array(task.quantile))
+    if first is not None:
+        arrays += first.arrays().values()
+    for array in arrays:
         content.update(np.ascontiguousarray(array).tobytes())
     return content.hexdigest()[:20]

@@ -1,0 +1,156 @@
+"""Large Tabor numbers: what was learned from the theory of a crack at the edge, and its band."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack.campaign.columns import KINDS
+from viscotack.forecast.answer import learned_prediction
+from viscotack.surrogate import physics, short_range
+from viscotack.surrogate.model import INPUTS
+from viscotack.theory import lennard_jones
+
+CASE = {
+    "tabor": 300.0,
+    "modulus_ratio": 0.05,
+    "exponent": 0.6,
+    "preload": 3000.0,
+    "rate": 3000.0,
+}
+
+
+def problem(**changed):
+    return KINDS["sphere"].problem(CASE | changed)
+
+
+def drawn(count, seed=0):
+    low = [*short_range.LOW, short_range.STARTS[0], short_range.TIMES[0]]
+    high = [*short_range.HIGH, short_range.STARTS[1], short_range.TIMES[1]]
+    rows = np.exp(np.random.default_rng(seed).uniform(np.log(low), np.log(high), (count, 5)))
+    rows[:, 3:] *= rows[:, :1]
+    return rows
+
+
+@pytest.mark.parametrize(
+    "changed", [{}, {"tabor": 30.0, "rate": 30.0, "preload": 100.0}, {"exponent": 1.2, "rate": 3.0}]
+)
+def test_it_says_what_the_theory_says(changed):
+    case = problem(**changed)
+    said, theory = vt.predict(case), vt.crack_contact(case)
+    assert said.method == "learned crack contact" and said.inside
+    assert said.interval[0] <= theory.pull_off_force <= said.interval[1]
+    assert said.value == pytest.approx(theory.pull_off_force, rel=0.05, abs=0)
+
+
+def test_no_force_leaves_the_slowest_and_the_fastest():
+    rows = drawn(2000)
+    force = short_range.shipped().evaluate(rows).pull_off_force
+    mu, k = rows[:, 0], rows[:, 1]
+    assert np.all(force >= lennard_jones.pull_off_ratio(mu) * (1 - 1e-9))
+    assert np.all(force <= lennard_jones.pull_off_ratio(mu * np.cbrt(k)) / k * (1 + 1e-9))
+
+
+def test_it_is_silent_where_the_theory_is():
+    learned = short_range.shipped()
+    # a start of a light touch, pulled so fast that the edge goes no zone
+    row = np.array([[20.0, 1e-3, 0.6, 3.0, 1e7]])
+    assert learned.in_range(row)[0] and not learned.inside(row)[0]
+    with pytest.raises(vt.OutOfRange, match="zones? "):
+        vt.crack_contact(problem(**dict(zip(INPUTS, row[0].tolist(), strict=True))))
+    for column, value in ((0, 9.0), (1, 0.8), (2, 2.2), (3, 1.0), (4, 1e-9)):
+        out = np.array([list(CASE.values())])
+        assert learned.inside(out)[0]
+        out[0, column] = value
+        assert not learned.inside(out)[0]
+
+
+def test_its_band_is_measured_where_simulations_were_compared():
+    near = vt.predict(problem(tabor=30.0, rate=30.0, preload=100.0))
+    assert (near.band, near.confidence) == ("measured", 0.9) and "elsewhere" not in near.why
+    far = vt.predict(problem())
+    assert (far.band, far.confidence) == ("not measured", None)
+    assert "was measured elsewhere, and is not known to hold here: for tabor 3 to 100" in far.why
+    small = vt.predict(problem(tabor=30.0, rate=30.0, preload=100.0, modulus_ratio=0.01))
+    assert small.band == "not measured" and "modulus_ratio 0.03 to 1, not 0.01" in small.why
+
+
+def test_a_start_by_force_or_radius_is_one_by_depth():
+    case = problem(preload=500.0)
+    theory = vt.crack_contact(case)
+    radius, force = theory.contact_radius[0], theory.force[0]
+    wanted = vt.predict(case).value
+    for start in (vt.AtRadius(float(radius)), vt.AtForce(float(force))):
+        assert vt.predict(replace(case, start=start)).value == pytest.approx(wanted, rel=2e-3)
+    with pytest.raises(vt.OutOfRange):
+        learned_prediction(replace(case, start=vt.AtForce(-5.0)))
+
+
+def test_creep_is_that_of_the_solid():
+    rows = drawn(40, seed=3)
+    time = np.geomspace(1e-9, 1e6, 40)
+    found = short_range.crept(rows, time)
+    for row, t, creep in zip(rows, time, found, strict=True):
+        solid = vt.RetardationPowerLaw(
+            rubbery_modulus=1.0,
+            glassy_modulus=1 / row[1],
+            exponent=row[2],
+            tau0=1.0,
+            poisson_ratio=0.0,
+        )
+        assert creep == pytest.approx(float(solid.creep(t)), rel=2e-6, abs=0)
+
+
+def test_who_has_no_time_for_theories_gets_what_was_learned():
+    assert learned_prediction(problem()).value == vt.predict(problem()).value
+    inside = problem(tabor=3.0, preload=73.0, rate=300.0)
+    assert learned_prediction(inside).method == "surrogate"
+    for other in (replace(problem(), stiffness=1.0), problem(modulus_ratio=1e-6)):
+        with pytest.raises(vt.OutOfRange):
+            learned_prediction(other)
+
+
+def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
+    from viscotack.bem.by_crack import crack_contacts
+
+    cases = [problem(rate=rate) for rate in (30.0, 3000.0)] + [problem(preload=1.0, rate=1e9)]
+    together = crack_contacts([case.groups() for case in cases])
+    for case, found in zip(cases[:2], together, strict=False):
+        alone = vt.crack_contact(case).pull_off_force
+        assert found.pull_off_force == pytest.approx(alone, rel=1e-5, abs=0)
+    assert isinstance(together[2], vt.OutOfRange)
+    with pytest.raises(vt.InputError, match="share solid, law and shape"):
+        crack_contacts([cases[0].groups(), problem(exponent=1.0).groups()])
+    assert crack_contacts([]) == []
+
+
+def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
+    path = tmp_path / "theory.npz"
+    short_range.save(short_range.shipped(), path, {"made": "today"})
+    again, facts = short_range.load(path)
+    rows = drawn(20)
+    wanted = short_range.shipped().evaluate(rows).pull_off_force
+    assert np.array_equal(again.evaluate(rows).pull_off_force, wanted)
+    assert facts["made"] == "today"
+    with np.load(path) as file:
+        arrays = {name: file[name] for name in file.files}
+    np.savez(path, **arrays | {"centre": arrays["centre"] + 1})
+    with pytest.raises(ValueError, match="checksum"):
+        short_range.load(path)
+    path.write_bytes(b"nothing")
+    with pytest.raises(ValueError, match="not the file of a learned theory"):
+        short_range.load(path)
+    with pytest.raises(FileNotFoundError):
+        short_range.load(tmp_path / "none.npz")
+
+
+def test_what_it_is_worth_is_measured_on_other_solids():
+    rows = drawn(300, seed=5)
+    rows = rows[short_range.shipped().inside(rows)]
+    said = short_range.shipped().evaluate(rows)
+    true = np.column_stack([1.02 * said.pull_off_force, said.amplification, said.zones, said.zones])
+    found, scores = short_range.measured(short_range.shipped(), rows, true)
+    assert found.error == pytest.approx([1 - 1 / 1.02] * 2)
+    assert scores["cases"] == len(rows) and scores["median"] == pytest.approx(1 - 1 / 1.02)
+    assert physics.RATE == 4  # the order of the columns above
