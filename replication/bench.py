@@ -6,12 +6,15 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 from time import process_time
 from types import TracebackType
 from typing import Any
 
 Numbers = dict[str, Any]
+# Processes that know nothing of what runs beside them: a copy of threads would wait for ever.
+_FRESH = get_context("spawn")
 # Like the built-in ``map``, of one function and one iterable.
 Each = Callable[[Callable[[Any], Any], Iterable[Any]], Iterable[Any]]
 
@@ -39,7 +42,7 @@ class Hands:
     """Some processes that share work, and the processor time that all of it took."""
 
     def __init__(self, workers: int) -> None:
-        self._pool = ProcessPoolExecutor(workers) if workers > 1 else None
+        self._pool = ProcessPoolExecutor(workers, mp_context=_FRESH) if workers > 1 else None
         self._seconds = 0.0
 
     def __enter__(self) -> Hands:

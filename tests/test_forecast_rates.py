@@ -95,7 +95,7 @@ def test_a_warmer_test_is_a_slower_one(fit):
 def test_a_short_dwell_is_told_from_a_long_one(fit):
     rested = forecast_rates(fit, [1e-4]).force
     long, short = (
-        forecast_rates(fit, [1e-4], dwell=t, approach_speed=1e-4).force for t in (1e4, 1e-4)
+        forecast_rates(fit, [1e-4], dwell=t, approach_speed=1e-5).force for t in (1e3, 1e-3)
     )
     assert long == pytest.approx(rested, rel=0.02)
     assert abs(short / rested - 1) > 0.005

@@ -21,31 +21,19 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.problem import Groups, Problem, PunchGroups
-from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
+from viscotack.problem import Groups, Problem
 from viscotack.protocol import (
     Apart,
-    Approach,
-    AtDepth,
-    AtForce,
-    AtRadius,
-    Dwell,
-    LoadTo,
-    MoveTo,
-    Retract,
 )
-from viscotack.result import Outcome, Result
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
-    Drive,
-    Profile,
     profile_of,
-    radius_at_depth,
-    radius_at_force,
     recede,
 )
 from viscotack.traction import grows
+
+from .crack_problem import LOAD, ROOT, drives_of, groups_of, start_of
 
 Array = npt.NDArray[np.float64]
 
@@ -58,7 +46,6 @@ LARGEST_TABOR = 1e9
 MEASURED_TABOR = 100.0
 # Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
-_LOAD, _ROOT = 1.5 * np.pi, np.pi ** (1 / 3)
 # How much larger than the largest relaxed state a contact may become.
 _MARGIN = 1.15
 # Instants nearer to each other than this part of a parabola's tell the same of it.
@@ -168,7 +155,7 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     >>> f"{answer.pull_off_force:.1f} within {answer.band:.1%}"
     '10.0 within 0.4%'
     """
-    groups = _groups(problem)
+    groups = groups_of(problem)
     if groups.effective_tabor > LARGEST_TABOR:
         raise OutOfRange(
             f"an effective Tabor number of {groups.effective_tabor:.4g} is too large: the theory "
@@ -176,7 +163,7 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
         )
     law, unit = groups.traction, groups.material.time_unit
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
-    start, largest = _start_of(groups, profile)
+    start, largest = start_of(groups, profile)
     if not groups.moves and groups.stiffness is None and start > 0:
         assert groups.rate is not None, "a problem without moves has a rate"
         found = recede(
@@ -194,13 +181,13 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             profile,
             tabor=groups.tabor,
             largest=_MARGIN * largest,
-            stiffness=None if groups.stiffness is None else groups.stiffness * _LOAD * groups.tabor,
+            stiffness=None if groups.stiffness is None else groups.stiffness * LOAD * groups.tabor,
         )
         if isinstance(groups.start, Apart):
             state = contact.apart(-groups.start.gap / groups.tabor)
         else:
             state = contact.relaxed(start)
-        run = contact.run(state, _drives(groups))
+        run = contact.run(state, drives_of(groups))
         time, depth, force, radius = run.time, run.depth, run.force, run.radius
         speed, energy, move, detached = run.speed, run.amplification, run.move, run.detached
     series = _series(groups, crack, time, radius, depth, force, speed, energy, move)
@@ -241,7 +228,7 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     found = recede(
         crack,
         profile,
-        radius=np.array([_start_of(g, profile)[0] for g in several]),
+        radius=np.array([start_of(g, profile)[0] for g in several]),
         rate=rates * unit / tabor,
         tabor=tabor,
     )
@@ -275,73 +262,12 @@ def _series(
     return {
         "time": time * unit,
         "depth": depth * groups.tabor,
-        "force": np.where(force < 0, ratio, 1.0) * force / _LOAD,
-        "contact_radius": radius / _ROOT,
+        "force": np.where(force < 0, ratio, 1.0) * force / LOAD,
+        "contact_radius": radius / ROOT,
         "edge_speed": speed / groups.tabor**2 / unit,
         "amplification": energy,
         "move": move,
     }
-
-
-def start_depth(groups: Groups) -> float:
-    """Return the depth of the relaxed start [h0], by forces of short range.
-
-    Raises
-    ------
-    ValueError
-        If there is no such start.
-    """
-    profile = profile_of(groups.geometry)
-    radius, _ = _start_of(groups, profile)
-    return float(profile.relaxed_depth(np.array([radius]))[0] * groups.tabor)
-
-
-def too_short(groups: Groups) -> bool:
-    """Return whether the range of the forces is too short to be simulated."""
-    least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
-    return least < groups.effective_tabor <= LARGEST_TABOR
-
-
-def largest_radius(groups: Groups) -> float:
-    """Return the radius of the largest relaxed state of a history, about [beta]."""
-    return _start_of(groups, profile_of(groups.geometry))[1]
-
-
-def has_start(groups: Groups) -> bool:
-    """Return whether the relaxed contact exists in which a test begins."""
-    try:
-        _start_of(groups, profile_of(groups.geometry))
-    except InputError:
-        return False
-    return True
-
-
-def answered(problem: Problem | Groups) -> Result:
-    """Return the answer of :func:`crack_contact` as a simulation would give it.
-
-    Energies are not known; the error of the force is the band.
-    """
-    found = crack_contact(problem)
-    outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
-    if not np.any(found.contact_radius > 0):
-        outcome = Outcome.NEVER
-    groups, radius = problem.groups(), found.contact_radius
-    return Result(
-        problem=problem,
-        time=found.time,
-        depth=found.depth,
-        force=found.force,
-        contact_radius=np.where(radius > 0, radius, np.nan),
-        edge_speed=np.where(radius > 0, found.edge_speed, np.nan),
-        status=(
-            f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
-            "is too short to be simulated: answered as a contact whose edge is a steady crack"
-        ),
-        statistics={"steps": found.time.size - 1},
-        error_estimate=None if found.pull_off_force is None else {"force": found.band},
-        move=found.move,
-        method=METHOD,
-    )
 
 
 def _answer(
@@ -440,8 +366,8 @@ def _zones(
         # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
         # the square of the way of the drive: it is above the half for a quarter of the time.
         loading = 0.25 * at["pull_off_time"] / groups.material.time_unit
-        way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / _ROOT)
-    zone = crack.zone_length * bulk / groups.tabor**2 / _ROOT
+        way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
+    zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
     return max(way, 0.0) / zone
 
 
@@ -525,88 +451,6 @@ def _hysteresis(groups: Groups, series: dict[str, Any], detached: bool) -> float
         return None
     force, depth = series["force"], series["depth"]
     return float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(depth)))
-
-
-def _groups(problem: Any) -> Groups:
-    if not isinstance(problem, Problem | Groups | PunchGroups):
-        raise TypeError(
-            f"crack_contact takes a Problem or Groups, got {problem!r}; for a file give "
-            "viscotack.read_case(path)"
-        )
-    groups = problem.groups()
-    if not isinstance(groups, Groups):
-        raise OutOfRange(
-            "the theory of a contact with a crack for its edge is one of shapes of revolution, got "
-            "a flat punch on a layer; theory.punch.pull_off takes its bulk as relaxed, and "
-            "`viscotack simulate` answers it"
-        )
-    return groups
-
-
-def _start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
-    """Return the radius of the start, 0 apart, and the largest of the history [beta]."""
-    radii = [_relaxed_radius(state, groups, profile) for state in _all_states(groups)]
-    if isinstance(groups.start, Apart):
-        return 0.0, max([1.0, *radii])
-    return radii[0], max(1.0, *radii) if len(radii) > 1 else radii[0]
-
-
-def _all_states(groups: Groups) -> list[Any]:
-    found: list[Any] = [] if isinstance(groups.start, Apart) else [groups.start]
-    for move in groups.moves:
-        match move:
-            case Approach():
-                found.append(move.to)
-            case MoveTo() if move.depth > 0:
-                found.append(AtDepth(move.depth))
-            case LoadTo() if move.force > 0:
-                found.append(AtForce(move.force))
-    return found
-
-
-def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:
-    match state:
-        case AtDepth():
-            return radius_at_depth(profile, state.depth / groups.tabor)
-        case AtForce():
-            return radius_at_force(profile, state.force * _LOAD)
-        case AtRadius():
-            return state.contact_radius * _ROOT
-    raise AssertionError(state)
-
-
-def _drives(groups: Groups) -> tuple[Drive, ...]:
-    """Return what the machine does, in the units of the theory."""
-    unit, mu = groups.material.time_unit, groups.tabor
-    drives = []
-    for move in groups.moves:
-        match move:
-            case Approach():
-                drives.append(Drive("drive", move.speed * unit / mu, np.inf, _end(move.to, mu)))
-            case Retract():
-                drives.append(Drive("drive", -move.speed * unit / mu, np.inf, _end(move.to, mu)))
-            case MoveTo():
-                target = move.depth / mu
-                drives.append(Drive("drive", 0.0, move.duration / unit, target=target))
-            case LoadTo():
-                target = move.force * _LOAD
-                drives.append(Drive("force", 0.0, move.duration / unit, target=target))
-            case Dwell():
-                drives.append(Drive(move.hold, 0.0, move.duration / unit))
-    if groups.rate is not None:
-        drives.append(Drive("drive", -groups.rate * unit / mu, np.inf))
-    return tuple(drives)
-
-
-def _end(state: Any, tabor: float) -> tuple[str, float]:
-    match state:
-        case AtDepth():
-            return "depth", state.depth / tabor
-        case AtForce():
-            return "force", state.force * _LOAD
-        case AtRadius():
-            return "radius", state.contact_radius * _ROOT
-    raise AssertionError(state)
 
 
 _IN_SI = {

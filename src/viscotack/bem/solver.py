@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from viscotack.bem import by_crack
+from viscotack.bem import handover
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, limited, met
@@ -19,6 +19,7 @@ from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.contacts.sphere import SphereContact
+from viscotack.bem.crack_problem import largest_radius
 from viscotack.bem.estimate import COARSER, estimated
 from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
@@ -220,20 +221,20 @@ def solve(
 
 def _too_short(groups: Groups, settings: Settings) -> bool:
     """Return whether the range of the forces is too short for a simulation, or for its digits."""
-    if by_crack.too_short(groups):
+    if handover.too_short(groups):
         return True
     if groups.effective_tabor < _FINE_TABOR:
         return False
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:
-        return spacing < _DIGITS * by_crack.largest_radius(groups)
+        return spacing < _DIGITS * largest_radius(groups)
     except InputError:  # there is no such contact by JKR, which ends a little sooner
         return False
 
 
 def _handed_over(problem: Problem | Groups, accuracy: float, began: float) -> Result:
     """Return the answer of the theory for forces of too short a range."""
-    result = by_crack.answered(problem)
+    result = handover.answered(problem)
     cost = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
     return replace(result, accuracy=accuracy, statistics=cost)
 
@@ -251,8 +252,8 @@ def has_start(problem: Case) -> bool:
     with threadpool_limits(limits=1, user_api="blas"):
         try:
             groups = problem.groups()
-            if isinstance(groups, Groups) and by_crack.too_short(groups):
-                return by_crack.has_start(groups)
+            if isinstance(groups, Groups) and handover.too_short(groups):
+                return handover.has_start(groups)
             _begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
         except InputError:
             return False

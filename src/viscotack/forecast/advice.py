@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscotack.bem.by_crack import MEASURED_TABOR, METHOD, crack_contact, too_short
+from viscotack.bem.by_crack import MEASURED_TABOR, METHOD, crack_contact
+from viscotack.bem.handover import too_short
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem

@@ -17,8 +17,8 @@ from viscotack.geometry import Sphere
 from viscotack.materials import Material
 from viscotack.problem import Problem
 from viscotack.protocol import Apart, AtForce, Move, Retraction
-from viscotack.theory import SteadyCrack, lennard_jones
-from viscotack.theory.crack.contact import profile_of, radius_at_force, recede
+from viscotack.theory import SteadyCrack, jkr, lennard_jones
+from viscotack.theory.crack.contact import profile_of, recede
 from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import LennardJones
 
@@ -158,9 +158,12 @@ class Forward:
         # mu and the rate scale with powers of the interface
         tabor = one.tabor * (w / w.flat[0]) ** (2 / 3) * h0.flat[0] / h0
         rate = (one.rate or 0.0) * unit * (h0.flat[0] / h0) * (v / _SPEED) / tabor
-        load = P / (self.radius * w)
-        known, back = np.unique(load, return_inverse=True)
-        start = np.array([radius_at_force(profile, x) for x in known])[back].reshape(w.shape)
+        # of a relaxed sphere, in beta, for forces in R dg
+        start = np.asarray(
+            jkr.contact_radius_at_force(
+                P / (self.radius * w), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
+            )
+        )
         crack: Any = self.crack
         found = recede(
             crack,

@@ -16,6 +16,8 @@ from tempfile import TemporaryDirectory
 from time import monotonic
 from typing import Any
 
+from viscotack.files.whole import write_new
+
 from .crew import Crew, Defect, Halted, Lane, Refused
 
 # Finished jobs are kept for those who come back, so many and so long [s].
@@ -188,7 +190,7 @@ class Engine:
                 path = Path(folder, _harmless(name))
                 if str(path) in paths:
                     raise Refused(f"two files are called {path.name}; rename one")
-                path.write_bytes(content)
+                write_new(path, content)
                 paths.append(str(path))
             try:
                 yield paths

@@ -1,0 +1,123 @@
+"""A problem as the theory of a contact with a crack for its edge has it: states and drives.
+
+Lengths along the surface in beta, heights in beta^2/R, forces in R dg, times in the unit of the
+material, as in :mod:`viscotack.theory.crack.contact`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from viscotack.errors import OutOfRange
+from viscotack.problem import Groups, Problem, PunchGroups
+from viscotack.protocol import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    AtRadius,
+    Dwell,
+    LoadTo,
+    MoveTo,
+    Retract,
+)
+from viscotack.theory.crack.contact import (
+    Drive,
+    Profile,
+    profile_of,
+    radius_at_depth,
+    radius_at_force,
+)
+
+# R dg in 1.5 pi R dg, and beta in (pi R^2 dg/E0*)^(1/3).
+LOAD, ROOT = 1.5 * np.pi, np.pi ** (1 / 3)
+
+
+def groups_of(problem: Any) -> Groups:
+    """Return the groups of a problem, or the reason why the theory does not know it."""
+    if not isinstance(problem, Problem | Groups | PunchGroups):
+        raise TypeError(
+            f"crack_contact takes a Problem or Groups, got {problem!r}; for a file give "
+            "viscotack.read_case(path)"
+        )
+    groups = problem.groups()
+    if not isinstance(groups, Groups):
+        raise OutOfRange(
+            "the theory of a contact with a crack for its edge is one of shapes of revolution, got "
+            "a flat punch on a layer; theory.punch.pull_off takes its bulk as relaxed, and "
+            "`viscotack simulate` answers it"
+        )
+    return groups
+
+
+def start_of(groups: Groups, profile: Profile) -> tuple[float, float]:
+    """Return the radius of the start, 0 apart, and the largest of the history [beta]."""
+    radii = [_relaxed_radius(state, groups, profile) for state in _all_states(groups)]
+    if isinstance(groups.start, Apart):
+        return 0.0, max([1.0, *radii])
+    return radii[0], max(1.0, *radii) if len(radii) > 1 else radii[0]
+
+
+def largest_radius(groups: Groups) -> float:
+    """Return the radius of the largest relaxed state of a history, about [beta]."""
+    return start_of(groups, profile_of(groups.geometry))[1]
+
+
+def _all_states(groups: Groups) -> list[Any]:
+    found: list[Any] = [] if isinstance(groups.start, Apart) else [groups.start]
+    for move in groups.moves:
+        match move:
+            case Approach():
+                found.append(move.to)
+            case MoveTo() if move.depth > 0:
+                found.append(AtDepth(move.depth))
+            case LoadTo() if move.force > 0:
+                found.append(AtForce(move.force))
+    return found
+
+
+def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:
+    match state:
+        case AtDepth():
+            return radius_at_depth(profile, state.depth / groups.tabor)
+        case AtForce():
+            return radius_at_force(profile, state.force * LOAD)
+        case AtRadius():
+            return state.contact_radius * ROOT
+    raise AssertionError(state)
+
+
+def drives_of(groups: Groups) -> tuple[Drive, ...]:
+    """Return what the machine does, in the units of the theory."""
+    unit, mu = groups.material.time_unit, groups.tabor
+    drives = []
+    for move in groups.moves:
+        match move:
+            case Approach():
+                drives.append(Drive("drive", move.speed * unit / mu, np.inf, _end(move.to, mu)))
+            case Retract():
+                drives.append(Drive("drive", -move.speed * unit / mu, np.inf, _end(move.to, mu)))
+            case MoveTo():
+                target = move.depth / mu
+                drives.append(Drive("drive", 0.0, move.duration / unit, target=target))
+            case LoadTo():
+                target = move.force * LOAD
+                drives.append(Drive("force", 0.0, move.duration / unit, target=target))
+            case Dwell():
+                drives.append(Drive(move.hold, 0.0, move.duration / unit))
+    if groups.rate is not None:
+        drives.append(Drive("drive", -groups.rate * unit / mu, np.inf))
+    return tuple(drives)
+
+
+def _end(state: Any, tabor: float) -> tuple[str, float]:
+    match state:
+        case AtDepth():
+            return "depth", state.depth / tabor
+        case AtForce():
+            return "force", state.force * LOAD
+        case AtRadius():
+            return "radius", state.contact_radius * ROOT
+    raise AssertionError(state)

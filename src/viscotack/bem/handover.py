@@ -1,0 +1,57 @@
+"""Forces of so short a range that the theory answers in place of a simulation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.problem import Groups, Problem
+from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
+from viscotack.result import Outcome, Result
+from viscotack.theory.crack.contact import profile_of
+
+from .by_crack import LARGEST_TABOR, METHOD, crack_contact
+from .crack_problem import start_of
+
+
+def too_short(groups: Groups) -> bool:
+    """Return whether the range of the forces is too short to be simulated."""
+    least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
+    return least < groups.effective_tabor <= LARGEST_TABOR
+
+
+def has_start(groups: Groups) -> bool:
+    """Return whether the relaxed contact exists in which a test begins."""
+    try:
+        start_of(groups, profile_of(groups.geometry))
+    except InputError:
+        return False
+    return True
+
+
+def answered(problem: Problem | Groups) -> Result:
+    """Return the answer of :func:`crack_contact` as a simulation would give it.
+
+    Energies are not known; the error of the force is the band.
+    """
+    found = crack_contact(problem)
+    outcome = Outcome.DETACHED if found.status == "detached" else Outcome.IN_CONTACT
+    if not np.any(found.contact_radius > 0):
+        outcome = Outcome.NEVER
+    groups, radius = problem.groups(), found.contact_radius
+    return Result(
+        problem=problem,
+        time=found.time,
+        depth=found.depth,
+        force=found.force,
+        contact_radius=np.where(radius > 0, radius, np.nan),
+        edge_speed=np.where(radius > 0, found.edge_speed, np.nan),
+        status=(
+            f"{outcome}; the range of the forces, a Tabor number of {groups.effective_tabor:.4g}, "
+            "is too short to be simulated: answered as a contact whose edge is a steady crack"
+        ),
+        statistics={"steps": found.time.size - 1},
+        error_estimate=None if found.pull_off_force is None else {"force": found.band},
+        move=found.move,
+        method=METHOD,
+    )
