@@ -1,7 +1,5 @@
 """The commands ``viscotack forecast`` and ``viscotack report``: from a study to what to expect."""
 
-import csv
-import io
 import json
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,7 +13,7 @@ from viscotack.files.whole import write_whole
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
-from .writing import Writing, check_files
+from .writing import Writing, check_files, rows_as_csv
 
 _MOST = 50  # speeds between two ends
 
@@ -96,7 +94,7 @@ def forecast_command(
         forecast = _forecast(found.fit, wish)
     write = Writing()
     rows = _rows(forecast)
-    write("wrote", table, lambda target: write_whole(target, _as_csv(rows)))
+    write("wrote", table, lambda target: write_whole(target, rows_as_csv(rows)))
     write.picture(plot_file, lambda: draw_rate_series(found.fit, forecast))
     _refusals(found)
     if as_json:
@@ -209,11 +207,3 @@ def _as_json(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str,
         "forecast": rows,
         "words": [*fit.words, *forecast.words],
     }
-
-
-def _as_csv(rows: list[dict[str, float]]) -> bytes:
-    stream = io.StringIO(newline="")
-    writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return stream.getvalue().encode()

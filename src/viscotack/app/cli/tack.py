@@ -1,7 +1,5 @@
 """The commands ``viscotack test ...``: from the files of a rig to what they say."""
 
-import csv
-import io
 import json
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,7 +13,7 @@ from viscotack.files.whole import write_whole
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
-from .writing import Writing, check_files
+from .writing import Writing, check_files, rows_as_csv
 
 tests = typer.Typer(
     help="From the files of a tack tester or a microscope to pull-off forces and speeds.",
@@ -171,7 +169,7 @@ def read_command(
         for one in found.evaluations
         for cycle in one.cycles
     ]
-    write("wrote", table, lambda target: write_whole(target, _as_csv(rows)))
+    write("wrote", table, lambda target: write_whole(target, rows_as_csv(rows)))
     write.picture(plot_file, lambda: draw_tests(found.cycles))
     for path, why in found.reasons:
         typer.echo(f"refused: {path}: {why}", err=True)
@@ -227,14 +225,6 @@ def nothing(found: Any) -> str:
     """Return why no cycle at all was read."""
     reasons = "\n  ".join(f"{path}: {why}" for path, why in found.reasons)
     return f"no cycle of a tack test could be read:\n  {reasons}"
-
-
-def _as_csv(rows: list[dict[str, Any]]) -> bytes:
-    stream = io.StringIO(newline="")
-    writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return stream.getvalue().encode()
 
 
 def _words(found: Any) -> str:
