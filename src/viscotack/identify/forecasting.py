@@ -23,7 +23,7 @@ from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
 from viscotack.protocol import Approach, AtForce, Dwell, Move
 
-from .doubt import allowed, log_forces, theory_covariance
+from .doubt import allowed, covariance, log_forces, theory_covariance
 from .rate_series import LEAST_TABOR, RateSeriesFit
 from .sampling import Posterior, posterior
 
@@ -76,7 +76,7 @@ def forecast_rates(
     dwell: float | None = None,
     approach_speed: float | None = None,
     stiffness: float | None = None,
-    theory: float = 0.02,
+    theory: float | None = None,
     level: float | None = None,
     seed: int = 0,
 ) -> RateForecast:
@@ -99,8 +99,8 @@ def forecast_rates(
         [m/s]; goes with `dwell`.
     stiffness : float, optional
         Of the machine [N/m], inf for a rigid one; else that of the series.
-    theory : float
-        Relative standard uncertainty of the forward model, as in the fit.
+    theory : float, optional
+        Relative standard uncertainty of the forward model; else that of the fit.
     level : float, optional
         Of the band; else that of the fit.
     seed : int
@@ -117,9 +117,8 @@ def forecast_rates(
     level = fit.level if level is None else level
     loads = np.array([one.preload for one in fit.series], dtype=float)
     load = float(loads.mean()) if preload is None else preload
-    _check(v, load, level, dwell, approach_speed)
-    if stiffness is not None and not stiffness > 0:
-        raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
+    spring = fit.stiffness if stiffness is None else stiffness
+    _check(v, load, level, spring, dwell, approach_speed)
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
     known = fit.forward.beside(passport.material)
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
@@ -129,11 +128,11 @@ def forecast_rates(
     pressed: tuple[Move, ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")
-    spring = fit.stiffness if stiffness is None else stiffness
     spring = None if spring == np.inf else spring
     changed = known.changed(w, gap, v, np.full(v.size, load), stiffness=spring, moves=pressed)
 
     measured = np.array([one.speed for one in fit.series])
+    theory = fit.theory if theory is None else theory
     spread = _together(fit, passport, (measured, loads), (v, load), theory)
     m = measured.size
     # of the fit: noise, theory and material of the forces that were measured
@@ -143,8 +142,7 @@ def forecast_rates(
 
     chain = posterior(fit.objective, fit.best, seed=seed)
     draws = chain.thinned(_DRAWS)
-    values = {"work_of_adhesion": draws[:, 0], "equilibrium_gap": draws[:, 1]}
-    works, gaps = values["work_of_adhesion"][:, None], values["equilibrium_gap"][:, None]
+    works, gaps = draws[:, :1], draws[:, 1:]
     forecast = np.log(known.pulled(works, gaps, v, load).force)
     at = fit.forward.pulled(works, gaps, measured, loads).force
     force = np.array([one.force.value for one in fit.series]) / fit.yielding
@@ -169,7 +167,12 @@ def forecast_rates(
 
 
 def _check(
-    speed: Array, preload: float, level: float, dwell: float | None, approach: float | None
+    speed: Array,
+    preload: float,
+    level: float,
+    stiffness: float | None,
+    dwell: float | None,
+    approach: float | None,
 ) -> None:
     if not (speed.ndim == 1 and 0 < speed.size <= _MOST and np.all(speed > 0)):
         raise InputError(f"a forecast is for 1 to {_MOST} positive speeds [m/s], got {speed!r}")
@@ -177,6 +180,8 @@ def _check(
         raise InputError(
             f"preload must be positive and level a part of one, got {preload} N, {level}"
         )
+    if stiffness is not None and not stiffness > 0:
+        raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
     if (dwell is None) != (approach is None):
         raise InputError("dwell time and approach speed go together; say both or neither")
     if dwell is not None and approach is not None and not (dwell >= 0 and approach > 0):
@@ -214,8 +219,7 @@ def _together(
     known = fit.forward.beside(passport.material)
     second = log_forces(known, moved, w, gap, wanted[0], load)
     rows = np.concatenate([first, second], axis=1)
-    away = rows - rows.mean(axis=0)
-    return spread + away.T @ away / (len(rows) - 1)
+    return spread + covariance(rows)
 
 
 def _slowed(first: Passport, second: Passport, solids: Sequence[object]) -> Sequence[object]:

@@ -83,6 +83,8 @@ class RateSeriesFit:
         Of the relative forces: noise, theory and material.
     objective : Objective
         To ask more of: its profiles, its density.
+    theory : float
+        Relative standard uncertainty of the forward model, which is in the covariance.
     level : float
         Confidence level of the intervals.
     stiffness : float or None
@@ -103,6 +105,7 @@ class RateSeriesFit:
     forward: Forward
     covariance: Array
     objective: Objective
+    theory: float
     level: float
     stiffness: float | None
     yielding: Array
@@ -240,6 +243,7 @@ def identify_rates(
         forward,
         spread,
         objective,
+        theory,
         level,
         stiffness,
         yielding,
