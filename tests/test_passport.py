@@ -1,11 +1,13 @@
 """Material passports: written and read back, refused when they lie."""
 
+import json
 import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from command_line import exit_status
 from viscotack.app import questions
 from viscotack.campaign import read_plan
 from viscotack.forecast import predict
@@ -249,6 +251,19 @@ def test_a_temperature_beside_a_file_is_that_in_it(tmp_path):
     with pytest.raises(ValueError, match="temperature goes with problem"):
         read_plan(plan)
     assert shift_deviation(case, temperature=273.15) == pytest.approx(0.15)
+
+
+def test_a_case_is_simulated_at_a_temperature_beside_its_file(tmp_path, capsys):
+    (tmp_path / "cold").mkdir()
+    case = lens_with(uncertain(), tmp_path)
+    cold = lens_with(uncertain(), tmp_path / "cold", temperature="0 degC")
+    forces = []
+    for words in ((case, "--temperature", "0 degC"), (cold,), (case,)):
+        assert exit_status(["simulate", "case", *words, "--until", "pull-off", "--json"]) == 0
+        forces.append(json.loads(capsys.readouterr().out)["pull_off_force_N"])
+    beside, within, warm = forces
+    assert beside == within
+    assert beside > 1.1 * warm
 
 
 def test_uncertain_times_widen_a_prediction(tmp_path):

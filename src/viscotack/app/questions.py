@@ -84,7 +84,10 @@ _OTHER_MATERIALS = (
 
 _TEMPERATURE = (
     'Of a material from a passport, "0 degC", within the range in which it was measured: its times '
-    "shift. Of answers in SI; without dimensions a rate counts in times of the material. Goes with "
+    "shift."
+)
+_ALONE = (
+    "Of answers in SI; without dimensions a rate counts in times of the material. Goes with "
     "CASE.toml as well."
 )
 
@@ -149,7 +152,7 @@ class Door:
             *(Question(name, question_of(card)) for name, card in self.numbers.items()),
             *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
-            Question("temperature", _TEMPERATURE, text=True),
+            Question("temperature", f"{_TEMPERATURE} {_ALONE}", text=True),
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
             Question("exponent", question_of(_SOLID["exponent"].card)),
         ]
@@ -201,6 +204,8 @@ PROFILE = Door(
     "power-law",
 )
 PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
+# Of a problem that a file states whole.
+OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
 
 
 def stated(

@@ -91,6 +91,11 @@ class Settings:
             mode_tolerance=0.05 * accuracy,
         )
 
+    @property
+    def coarseness(self) -> float:
+        """Return the length of steps over that at the default accuracy."""
+        return float(np.sqrt(self.accuracy / DEFAULT_ACCURACY))
+
     def grading(
         self, zone: float, law: Traction, outer_radius: float, *, more: float = 1.0
     ) -> Grading:

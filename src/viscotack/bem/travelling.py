@@ -295,11 +295,10 @@ def _strain(
     """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
     settings, speed = run.settings, (after.seen.edge - way.begin) / at.dt
     fastest = max(abs(speed), abs(goal.speed)) + goal.zone / at.dt
-    share = settings.force_change / 0.05
     faster = (speed - goal.speed) / fastest if run.body.weights.size else 0.0
     error = step(run.body.modes, at.dt).curvature * bend
     return max(
-        (faster / (_SPEED_CHANGE * share)) ** 2,
+        (faster / (_SPEED_CHANGE * settings.coarseness)) ** 2,
         error / (_LOOSER * settings.step_error * run.body.contact.span),
         changed(run, at, after.seen),
         ((after.seen.edge - mesh.edge) / (0.75 * mesh.grading.half_width)) ** 2,

@@ -1,4 +1,4 @@
-"""Commands that ask what a door asks: their flags are read from the cards."""
+"""Commands that ask what a problem takes: their flags are read from the cards."""
 
 import inspect
 from collections.abc import Callable
@@ -8,15 +8,16 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
-from viscotack.app.questions import Door, Question
+from viscotack.app.questions import Question
 
 _ANSWERS = "viscotack.answers"
 
 
-def asking(door: Door) -> type[TyperCommand]:
-    """Return the class of a command that has the flags of a door beside its own.
+def asking(questions: tuple[Question, ...]) -> type[TyperCommand]:
+    """Return the class of a command that has a flag for each question beside its own.
 
-    ``@application.command("advise", cls=asking(SPHERE))``; :func:`answers` has what was given.
+    ``@application.command("advise", cls=asking(SPHERE.questions))``; :func:`answers` has what was
+    given.
     """
 
     class Asking(TyperCommand):
@@ -25,7 +26,7 @@ def asking(door: Door) -> type[TyperCommand]:
             # arguments in front, then the problem, then what is to be done with it
             front = [p for p in own if p.param_type_name == "argument"]
             rest = [p for p in own if p not in front]
-            super().__init__(*args, params=[*front, *_flags(door.questions), *rest], **kwargs)
+            super().__init__(*args, params=[*front, *_flags(questions), *rest], **kwargs)
 
     return Asking
 

@@ -21,6 +21,7 @@ from typer import Argument, Context, Option
 from viscotack import __version__
 from viscotack.app.cli.asking import answers, asking
 from viscotack.app.questions import (
+    OF_FILE,
     PROFILE,
     PUNCH,
     SPHERE,
@@ -253,9 +254,10 @@ _HELP = {
     """,
 }
 for _word, _door in _DOORS.items():
-    simulate.command(_word, cls=asking(_door), help=_HELP[_word])(_simulate)
+    simulate.command(_word, cls=asking(_door.questions), help=_HELP[_word])(_simulate)
 simulate.command(
     "case",
+    cls=asking(OF_FILE),
     help="""Simulate what a file states in SI, with whatever indenter.
 
     Shapes of your own have their table by their word, and --with says where they are.

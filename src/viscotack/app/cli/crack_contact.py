@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@theory.command("crack-contact", cls=asking(SPHERE))
+@theory.command("crack-contact", cls=asking(SPHERE.questions))
 def _crack_contact(
     context: typer.Context,
     case: CaseFile = None,

@@ -35,7 +35,7 @@ _SAID_ONCE = ("problem", "run_id", "tabor", "modulus_ratio", "rate")
 _COMPARED = {"pull_off_force": "interval", "work_to_pull_off": "work_interval"}
 
 
-@application.command("predict", cls=asking(SPHERE))
+@application.command("predict", cls=asking(SPHERE.questions))
 def _predict(
     context: typer.Context,
     what: Annotated[

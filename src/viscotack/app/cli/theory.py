@@ -218,7 +218,7 @@ def theory_greenwood(
     _crack("greenwood", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
 
 
-@application.command("advise", cls=asking(SPHERE))
+@application.command("advise", cls=asking(SPHERE.questions))
 def _advise(
     context: typer.Context, case: CaseFile = None, own: With = None, as_json: AsJson = False
 ) -> None:
