@@ -339,3 +339,14 @@ def test_geometries_that_are_none_are_refused_in_words():
     with pytest.raises(ValueError, match="no radius and no Tabor number"):
         pad = Problem(solid, law, FlatPunch(1e-3), Retraction(AtDepth(0.0), 1e-5), Layer(1e-4))
         assert pad.tabor
+
+
+@pytest.mark.parametrize("radius, gap", [(5e-324, 1e-9), (1e300, 1e-9), (1e-3, 5e-324)])
+def test_lengths_whose_ratios_no_number_holds_are_refused(radius, gap):
+    with pytest.raises(ValueError, match="no number holds the unit of .* check their units"):
+        Problem(
+            material=MATERIALS[0],
+            traction=LennardJones(work_of_adhesion=0.1, equilibrium_gap=gap),
+            geometry=Sphere(radius=radius),
+            protocol=Retraction(start=AtForce(1e-3), speed=1e-6),
+        )

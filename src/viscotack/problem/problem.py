@@ -139,7 +139,22 @@ class Problem:
                 "a shape has the symmetry 'revolution', and only a FlatPunch is 'plane', got "
                 f"{self.geometry.symmetry!r} of {self.geometry!r}"
             )
-        self._kind.check(self)
+        with np.errstate(over="ignore", under="ignore"):
+            self._check_digits()
+            self._kind.check(self)
+
+    def _check_digits(self) -> None:
+        """Raise an InputError where a unit of the dimensionless problem is not a number."""
+        try:
+            lost = [name for name, unit in vars(self._scales).items() if not 0 < unit < np.inf]
+        except ArithmeticError:
+            lost = ["length"]
+        if lost:
+            raise InputError(
+                f"no number holds the unit of {', '.join(lost)} of this problem: {self.geometry}, "
+                f"{self.traction} and a contact modulus of {self.material.contact_modulus:.4g} Pa "
+                "lie too far apart; check their units"
+            )
 
     @property
     def tabor(self) -> float:
