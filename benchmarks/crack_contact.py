@@ -3,7 +3,8 @@
     python benchmarks/crack_contact.py --first 0 --count 10 --store compared.csv
 
 Problem i is the same whatever else is asked; with --learned it is a sphere on a power law, drawn
-from the whole range of the learned theory at Tabor numbers of 10 to 200. Rows that the store has
+from the whole range of the learned theory at Tabor numbers of 10 to 200, with --other the same on a
+Prony series of 1 to 8 arms. Rows that the store has
 are not run again, so that an interrupted comparison goes on; without --store nothing is kept.
 Prints a line a problem and, at the end, errors of the pull-off force by Tabor number, of the time,
 and how often the band held.
@@ -12,6 +13,7 @@ and how often the band held.
 import argparse
 import csv
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -84,6 +86,24 @@ def learned_problem(i, tabor=LEARNED_TABOR):
     )
     words = f"sphere power-law {exponent:.2f}"
     return words, vt.Groups(tabor=mu, material=solid, start=vt.AtDepth(depth * mu), rate=rate * mu)
+
+
+def other_problem(i, tabor=LEARNED_TABOR):
+    """Return the problem of the learned theory with the same numbers and another kind of solid."""
+    _, case = learned_problem(i, tabor)
+    rng = np.random.default_rng([2028, i])
+    k = case.modulus_ratio
+    common = dict(rubbery_modulus=1.0, poisson_ratio=0.0)
+    number = int(rng.integers(1, 9))
+    if number == 1:
+        solid = vt.StandardSolid(glassy_modulus=1 / k, tau0=1.0, **common)
+    else:
+        # arms whose strengths, and times, are spread over decades, as those of a rubber
+        strength = 10 ** rng.uniform(-2, 0, number)
+        times = np.sort(10 ** rng.uniform(-6, 0, number))
+        arms = zip(strength / strength.sum() * (1 / k - 1), times, strict=True)
+        solid = vt.Prony(branches=tuple(arms), **common)
+    return f"sphere {number} arms", replace(case, material=solid)
 
 
 def material(rng, k):
@@ -194,12 +214,13 @@ def main():
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=10)
     parser.add_argument("--learned", action="store_true", help="of the learned theory's range")
+    parser.add_argument("--other", action="store_true", help="of this range, other solids")
     parser.add_argument("--tabor", type=float, nargs=2, help="smallest and largest Tabor number")
     parser.add_argument("--accuracy", type=float, default=ACCURACY)
     parser.add_argument("--time-limit", type=float, default=None, help="seconds of a simulation")
     parser.add_argument("--store", type=Path)
     asked = parser.parse_args()
-    drawn = learned_problem if asked.learned else problem
+    drawn = other_problem if asked.other else learned_problem if asked.learned else problem
     tabor = () if asked.tabor is None else (tuple(asked.tabor),)
     known = {}
     if asked.store and asked.store.exists():

@@ -259,8 +259,8 @@ def test_a_problem_in_si_is_its_groups():
     assert found.pull_off_force == pytest.approx(twin.pull_off_force, rel=1e-9)
     assert problem.tabor > 500
     assert found.problem is problem
-    assert not found.inside
-    assert "compared up to 100" in found.why
+    assert found.inside
+    assert "compared up to a Tabor number of 200, beyond which it shrinks" in found.why
 
 
 def test_what_the_theory_cannot_answer_is_refused_with_the_reason():

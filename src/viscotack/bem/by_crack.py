@@ -33,6 +33,7 @@ from viscotack.theory.crack.contact import (
 )
 from viscotack.traction import grows
 
+from .crack_band import band_of
 from .crack_problem import LOAD, ROOT, drives_of, groups_of, start_of
 
 Array = npt.NDArray[np.float64]
@@ -42,8 +43,6 @@ METHOD = "crack contact"
 LEAST_TABOR = 2.0
 # Largest one: beyond, lengths of the zone and of the contact are no numbers side by side.
 LARGEST_TABOR = 1e9
-# Largest Tabor number for which simulations were compared.
-MEASURED_TABOR = 100.0
 # Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
 # How much larger than the largest relaxed state a contact may become.
@@ -303,7 +302,7 @@ def _answer(
             f"has gone {LEAST_ZONES:g}: the start is too small for this rate; press deeper, "
             "pull more slowly, or simulate it"
         )
-    band, inside, why = _band(groups, energy / interface, effective, zones)
+    band, inside, why = band_of(groups, energy / interface, effective, zones)
     return CrackContact(
         problem=problem,
         **series,
@@ -343,12 +342,6 @@ _AT_PULL_OFF = (
     "amplification_at_pull_off",
     "work_to_pull_off",
 )
-# Bands: what simulations at the default accuracy are off, what the second correction for the
-# range leaves [over effective^2], what a start a few zones wide does where Gamma is near 1/k, what
-# a history adds (`benchmarks/crack_contact.py`); and what simulations of interfaces that grow were
-# off beside that (`tests/ladder/test_growing_crack.py`).
-_GROWING_BAND = 0.02
-_LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.2, 0.012
 
 
 def _zones(
@@ -369,42 +362,6 @@ def _zones(
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
     return max(way, 0.0) / zone
-
-
-def band_parts(energy: Any, modulus_ratio: Any, effective: Any, zones: Any) -> tuple[Any, Any, Any]:
-    """Return what the band of a retraction from rest is made of, parts of the force.
-
-    What simulations themselves are off, the range of the forces, and few zones on the way.
-
-    Parameters
-    ----------
-    energy, modulus_ratio, effective, zones : float or ndarray
-        Amplification at the pull-off, relaxed over glassy modulus, effective Tabor number, and way
-        of the edge in zones.
-    """
-    share = (energy - 1) * modulus_ratio
-    by_way = _START_BAND * share / np.maximum(zones, 1.0)
-    return _LEAST_BAND, _RANGE_BAND / effective**2, by_way
-
-
-def _band(groups: Groups, energy: float, effective: float, zones: float) -> tuple[float, bool, str]:
-    """Return the band of the force, whether it was measured there, and words."""
-    accuracy, by_range, by_way = band_parts(energy, groups.modulus_ratio, effective, zones)
-    parts = {
-        "accuracy of the simulations compared with": accuracy,
-        f"range of the forces, effective Tabor number {effective:.3g}": by_range,
-        f"way of {zones:.3g} zones to the pull-off": by_way,
-    }
-    if groups.moves:
-        parts["history"] = _HISTORY_BAND * min(1.0, 10 / effective)
-    if grows(groups.traction):
-        parts["interface that grows with the opening speed"] = _GROWING_BAND
-    band = float(sum(parts.values()))
-    why = "; ".join(f"{name}: {part:.2%}" for name, part in parts.items())
-    inside = effective <= MEASURED_TABOR
-    if not inside:
-        why += f"; compared up to {MEASURED_TABOR:g}, beyond which the theory is nearer its limit"
-    return band, inside, why
 
 
 def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:

@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from viscotack.bem.by_crack import MEASURED_TABOR, METHOD, crack_contact
+from viscotack.bem.by_crack import METHOD, crack_contact
+from viscotack.bem.crack_band import ELSEWHERE, not_measured
 from viscotack.bem.handover import too_short
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
@@ -515,7 +516,7 @@ def _by_crack(problem: Problem | Groups, groups: Groups) -> Estimate:
         return Estimate(METHOD, None, None, False, "it comes to no pull-off")
     why = "the edge is a steady crack, the bulk remembers, and no constant is fitted"
     if not found.inside:
-        why += f"; compared with simulations to a Tabor number of {MEASURED_TABOR:g}"
+        why += f"; its band {ELSEWHERE}{not_measured(groups)}"
     return Estimate(METHOD, found.pull_off_force, found.band, True, why)
 
 

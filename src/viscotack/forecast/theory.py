@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from viscotack.bem.by_crack import METHOD, band_parts, crack_contact
+from viscotack.bem.by_crack import METHOD, crack_contact
+from viscotack.bem.crack_band import ELSEWHERE, band_parts, not_measured, outside
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
@@ -38,14 +39,6 @@ _MEASURED = {
 }
 
 
-# Simulated contacts with which the theory of a crack at the edge was compared
-# (`benchmarks/crack_contact.py`); rate in h0 over the unit of time.
-_MEASURED_CRACK = {
-    "tabor": (3.0, 100.0),
-    "modulus_ratio": (0.03, 1.0),
-    "rate over the Tabor number": (0.3, 100.0),
-}
-_ELSEWHERE = "was measured elsewhere, and is not known to hold here: "
 # What the slowest and the fastest pull-off are known to, with Lennard-Jones and with other laws.
 _BOUND_ERROR, _OTHER_BOUND_ERROR = 0.005, 0.05
 # Other laws: effective range, and the steepest fall of the tension [strength^2/work].
@@ -95,8 +88,8 @@ def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: f
     why = f"{out}; by the theory {best.tier!r}: {best.why}"
     interval = (force * (1 - error), force * (1 + error))
     crack = best.tier == METHOD
-    if elsewhere := (_crack_not_measured(groups) if crack else _not_measured(groups)):
-        why += f"; its band of {error:.2g} of the force {_ELSEWHERE}{elsewhere}"
+    if elsewhere := (not_measured(groups) if crack else _not_measured(groups)):
+        why += f"; its band of {error:.2g} of the force {ELSEWHERE}{elsewhere}"
         if not crack:
             interval = _bounds(groups, force)
             why += (
@@ -127,13 +120,13 @@ def by_learned_theory(
     """
     force, zones = float(said.pull_off_force[0]), float(said.zones[0])
     energy, effective = float(said.amplification[0]), float(said.effective[0])
-    band = error + sum(map(float, band_parts(energy, groups.modulus_ratio, effective, zones)))
+    band = error + sum(map(float, band_parts(energy, effective, zones)))
     why = (
         f"{out}; learned from the theory {METHOD!r}, from which it differs by {error:.2%}: "
         f"effective Tabor number {effective:.3g}, way of {zones:.3g} zones to the pull-off"
     )
-    if elsewhere := _crack_not_measured(groups):
-        why += f"; its band of {band:.2g} of the force {_ELSEWHERE}{elsewhere}"
+    if elsewhere := not_measured(groups):
+        why += f"; its band of {band:.2g} of the force {ELSEWHERE}{elsewhere}"
     interval = (force * (1 - band), force * (1 + band))
     return _without_curve(
         problem, force, interval, LEARNED, why, confidence, not elsewhere, inside=True
@@ -199,10 +192,6 @@ def by_crack(problem: Problem | Groups, out: str) -> Prediction:
     if found.pull_off_force is None or found.interval is None:
         raise OutOfRange(f"{out}, and by the theory of a crack at the edge it comes to no pull-off")
     why = f"{out}; by the theory {METHOD!r}: {found.why}"
-    groups = problem.groups()
-    assert isinstance(groups, Groups), "the theory refuses others"
-    if elsewhere := _crack_not_measured(groups):
-        why += f"; its band {_ELSEWHERE}{elsewhere}"
     return _without_curve(
         problem,
         found.pull_off_force,
@@ -210,29 +199,9 @@ def by_crack(problem: Problem | Groups, out: str) -> Prediction:
         METHOD,
         why,
         THEORY_CONFIDENCE,
-        not elsewhere,
+        found.inside,
         work=found.work_to_pull_off,
     )
-
-
-def _crack_not_measured(groups: Groups) -> str:
-    """Return in words where the crack's band was not measured on problems like it, or ""."""
-    values = {"tabor": groups.effective_tabor, "modulus_ratio": groups.modulus_ratio}
-    if groups.rate is not None:
-        values["rate over the Tabor number"] = groups.rate * groups.material.time_unit
-        values["rate over the Tabor number"] /= groups.tabor
-    return _not_within(values, _MEASURED_CRACK)
-
-
-def _not_within(values: dict[str, float], ranges: dict[str, tuple[float, float]]) -> str:
-    """Return in words which values lie outside their ranges, or ""."""
-    found = []
-    for name, value in values.items():
-        least, most = ranges[name]
-        # the ends themselves, whichever way they were rounded
-        if not least * (1 - 1e-9) <= value <= most * (1 + 1e-9):
-            found.append(f"{name} {least:g} to {most:g}, not {value:.4g}")
-    return "for " + ", ".join(found) if found else ""
 
 
 def _not_measured(groups: Groups) -> str:
@@ -249,7 +218,7 @@ def _not_measured(groups: Groups) -> str:
     if not isinstance(groups.traction, LennardJones):
         values["effective range"] = effective_range(groups.traction)
         values["steepest fall"] = softening(groups.traction)
-    return _not_within(values, _MEASURED | _MEASURED_LAWS)
+    return outside(values, _MEASURED | _MEASURED_LAWS)
 
 
 def _start_radius(groups: Groups) -> float:

@@ -1,0 +1,102 @@
+"""How far a contact whose edge is a steady crack may be from a simulation.
+
+`benchmarks/crack_contact.py` compares the two, and here is where. What the theory leaves out is the
+length of the zone beside the contact, and beside the way of its edge: both are in the band.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from viscotack.geometry import Sphere
+from viscotack.problem import Groups
+from viscotack.traction import LennardJones, grows
+
+# Bands: what simulations at the default accuracy are off, what the second correction for the
+# range leaves [over effective^2], what is left of the start when the edge has gone some zones, what
+# a history adds (`benchmarks/crack_contact.py`); and what simulations of interfaces that grow were
+# off beside that (`tests/ladder/test_growing_crack.py`).
+_GROWING_BAND = 0.02
+_LEAST_BAND, _RANGE_BAND, _START_BAND, _HISTORY_BAND = 0.004, 0.12, 0.15, 0.012
+# Largest Tabor number for which simulations were compared.
+SIMULATED = 200.0
+# Simulated contacts with which the theory was compared; rate in h0 over the unit of time. From
+# rest, Lennard-Jones forces, a sphere and a rigid machine: beyond what was simulated zones only
+# become shorter beside the contact and the way of its edge.
+_MEASURED = {
+    "tabor": (3.0, 100.0),
+    "modulus_ratio": (0.03, 1.0),
+    "rate over the Tabor number": (0.3, 100.0),
+}
+_MEASURED_FROM_REST = {
+    "tabor": (3.0, 1e6),
+    "modulus_ratio": (1e-4, 1.0),
+    "rate over the Tabor number": (1e-6, 1e6),
+}
+
+
+ELSEWHERE = "was measured elsewhere, and is not known to hold here: "
+
+
+def band_parts(energy: Any, effective: Any, zones: Any) -> tuple[Any, Any, Any]:
+    """Return what the band of a retraction from rest is made of, parts of the force.
+
+    What simulations themselves are off, the range of the forces, and few zones on the way: in
+    simulations the force is some 0.1 over the zones lower, whatever part of 1/k the energy is,
+    and not where the crack takes hardly more than at rest.
+
+    Parameters
+    ----------
+    energy, effective, zones : float or ndarray
+        Amplification at the pull-off, effective Tabor number, and way of the edge in zones.
+    """
+    by_way = _START_BAND * (1 - 1 / np.maximum(energy, 1.0)) / np.maximum(zones, 1.0)
+    return _LEAST_BAND, _RANGE_BAND / effective**2, by_way
+
+
+def band_of(
+    groups: Groups, energy: float, effective: float, zones: float
+) -> tuple[float, bool, str]:
+    """Return the band of the force, whether it was measured there, and words."""
+    accuracy, by_range, by_way = band_parts(energy, effective, zones)
+    parts = {
+        "accuracy of the simulations compared with": accuracy,
+        f"range of the forces, effective Tabor number {effective:.3g}": by_range,
+        f"way of {zones:.3g} zones to the pull-off": by_way,
+    }
+    if groups.moves:
+        parts["history"] = _HISTORY_BAND * min(1.0, 10 / effective)
+    if grows(groups.traction):
+        parts["interface that grows with the opening speed"] = _GROWING_BAND
+    band = float(sum(parts.values()))
+    why = "; ".join(f"{name}: {part:.2%}" for name, part in parts.items())
+    if elsewhere := not_measured(groups):
+        why += f"; this band {ELSEWHERE}{elsewhere}"
+    elif groups.effective_tabor > SIMULATED:
+        why += f"; compared up to a Tabor number of {SIMULATED:g}, beyond which it shrinks"
+    return band, not elsewhere, why
+
+
+def not_measured(groups: Groups) -> str:
+    """Return in words where the band was not measured on problems like it, or ""."""
+    values = {"tabor": groups.effective_tabor, "modulus_ratio": groups.modulus_ratio}
+    # an elastic contact knows no rate
+    if groups.rate is not None and groups.modulus_ratio < 1:
+        rate = groups.rate * groups.material.time_unit
+        values["rate over the Tabor number"] = rate / groups.tabor
+    simple = isinstance(groups.geometry, Sphere) and isinstance(groups.traction, LennardJones)
+    from_rest = simple and not groups.moves and groups.stiffness is None
+    return outside(values, _MEASURED_FROM_REST if from_rest else _MEASURED)
+
+
+def outside(values: dict[str, float], ranges: dict[str, tuple[float, float]]) -> str:
+    """Return in words which values lie outside their ranges, or ""."""
+    found = []
+    for name, value in values.items():
+        least, most = ranges[name]
+        # the ends themselves, whichever way they were rounded
+        if not least * (1 - 1e-9) <= value <= most * (1 + 1e-9):
+            found.append(f"{name} {least:g} to {most:g}, not {value:.4g}")
+    return "for " + ", ".join(found) if found else ""
