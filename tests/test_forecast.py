@@ -168,6 +168,12 @@ def test_the_summary_has_the_names_of_a_simulation():
     simulated = vt.summary(vt.solve(problem, until="pull-off", accuracy=1e-2))
     own = {"interval", "interval_N", "work_interval", "work_interval_J"}
     own |= {"inside", "confidence", "band", "curve_band", "why"}
+    own |= {
+        "zero_force_depth",
+        "zero_force_depth_m",
+        "zero_force_interval",
+        "zero_force_interval_m",
+    }
     assert set(answer) - set(simulated) == own
     for name in ("problem", "run_id", "tabor", "modulus_ratio", "rate"):
         assert answer[name] == simulated[name]
@@ -190,7 +196,7 @@ def test_outside_the_range_it_is_no_longer_the_surrogate_that_answers(name, end)
         why = str(error)
         assert why.endswith("`viscotack simulate` answers it")
     else:
-        if (name, end) in {("tabor", 0), ("rate", 1)}:
+        if (name, end) in {("tabor", 0), ("rate", 1), ("modulus_ratio", 0)}:
             at_end = vt.predict(sphere(**{name: bound}))
             assert answer.method == "surrogate" and not answer.inside and answer.curve is None
             assert answer.value == pytest.approx(at_end.value, rel=0.01, abs=0)
@@ -235,12 +241,54 @@ def test_beyond_the_largest_rate_it_lies_between_the_last_one_and_the_fast_limit
         assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
 
 
+def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt():
+    for rate, exponent in ((10.0, 0.3), (1e4, 0.8), (1e9, 2.0)):
+        case = dict(rate=rate, exponent=exponent, preload=300.0)
+        said = [vt.predict(sphere(modulus_ratio=k, **case)) for k in (1e-4, 9.99e-5, 1e-5, 1e-6)]
+        force = [each.value for each in said]
+        assert said[0].inside and not said[1].inside and said[1].band == "measured"
+        assert force[1] == pytest.approx(force[0], rel=1e-3)
+        assert force[0] <= force[1] <= force[2] <= force[3] <= 100 * force[0]
+        # most of what is left is in the first decade
+        assert force[3] - force[2] <= force[2] - force[0] + 1e-12
+    assert "goes on by how the force depends on it there" in said[1].why
+    far = vt.predict(sphere(modulus_ratio=9e-7))
+    assert far.method != "surrogate" and far.band == "not measured"
+    with pytest.raises(vt.OutOfRange, match="modulus_ratio is 1e-05, .*; rate is 1e[+]12"):
+        vt.predict(sphere(modulus_ratio=1e-5, rate=1e12))
+
+
 def test_the_curve_has_a_band():
     answer = vt.predict(sphere())
     assert 0 < answer.curve_band < answer.value
     wider = vt.predict(sphere(), confidence=0.98)
     assert wider.curve_band > answer.curve_band
     assert vt.predict(sphere(rate=1e12)).curve_band is None
+
+
+def test_the_depth_of_zero_force_has_an_interval():
+    answer, wider = vt.predict(sphere()), vt.predict(sphere(), confidence=0.98)
+    low, high = answer.zero_force_interval
+    assert answer.curve.force[8] == 0 and answer.zero_force_depth == answer.curve.depth[8]
+    assert low < answer.zero_force_depth < high < answer.curve.depth[0]
+    assert wider.zero_force_interval[0] < low and high < wider.zero_force_interval[1]
+    assert vt.predict(sphere(preload=0.01)).zero_force_depth is None
+    assert vt.predict(sphere(rate=1e12)).zero_force_interval is None
+    times = vt.predict(sphere(), shift_deviation=0.5)
+    assert np.ptp(times.zero_force_interval) > 2 * (high - low)
+    assert times.curve_band > answer.curve_band
+
+
+@pytest.mark.parametrize("depth", [20.0, 300.0])
+def test_zero_force_is_where_the_simulation_has_it(depth):
+    problem = sphere(preload=depth)
+    answer = vt.predict(problem)
+    found = vt.solve(problem, until="pull-off", accuracy=1e-3)
+    crossing = int(np.flatnonzero(found.force > 0)[-1])
+    ends = slice(crossing, crossing + 2)
+    zero = np.interp(0.0, found.force[ends][::-1], found.depth[ends][::-1])
+    low, high = answer.zero_force_interval
+    assert low < zero < high
 
 
 def test_what_is_out_of_range_is_said_in_si_too():
@@ -468,9 +516,10 @@ def test_a_picture_has_the_curve_its_interval_and_the_simulation(tmp_path):
     figure = vt.draw_prediction(answer, result)
     (axes,) = figure.axes
     labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == ["prediction", "simulation", "pull-off, 90% interval"]
+    interval = "pull-off, 90% interval"
+    assert labels == ["prediction", "zero force, interval", "simulation", interval]
     assert axes.get_xlabel() == "depth [µm]" and axes.get_ylabel() == "force [mN]"
-    drawn = axes.lines[1].get_ydata()
+    drawn = axes.lines[1].get_ydata()[::8]
     assert drawn == pytest.approx(answer.curve.force * problem.scales().force * 1e3, rel=1e-12)
     vt.save_figure(figure, tmp_path / "curve.png")
     assert (tmp_path / "curve.png").stat().st_size > 1000

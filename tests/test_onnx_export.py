@@ -92,6 +92,7 @@ def assert_same_digits(exported, surrogate, groups):
         "curve_force": curves.force,
         "curve_contact_radius": curves.contact_radius,
         "curve_band": intervals.curve,
+        "travel_interval": intervals.travel,
     }
     assert names == list(wanted)
     for name, value in wanted.items():
@@ -102,7 +103,7 @@ def assert_same_digits(exported, surrogate, groups):
         assert np.isfinite(value).all()
         size = np.abs(value) if value.ndim == 1 else np.abs(value).max(axis=1, keepdims=True)
         # widths are told by small differences of networks
-        limit = 30 * DIGITS if name == "curve_band" else DIGITS
+        limit = 30 * DIGITS if name in ("curve_band", "travel_interval") else DIGITS
         assert np.max(np.abs(found[name] - value) / size) < limit, name
 
 

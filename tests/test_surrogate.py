@@ -275,8 +275,8 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
         assert at_random[name]["work"]["mse_log10"] < 1e-5
     assert at_random["all"]["curve"]["median"] < 0.01
     for what in ("force", "work"):
-        # of `thesis`, easy materials, a little more than they promise
-        assert 0.88 < at_random["all"][what]["cover"] < 0.95
+        # more than they promise: on the faces, where errors are larger, they hold as many
+        assert 0.88 < at_random["all"][what]["cover"] < 0.97
         assert min(at_random["all"][what]["cover by region"]) > 0.8
     for one in scores["bands kept apart"]:
         assert one["r2"] > (0.99 if one["edge"] else 0.999)
@@ -293,9 +293,10 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     new = ~drawing.measuring(designs.tolist()) & certain("fresh")
     apart = judged(shipped(), rows.chosen(new))
     held = covers(shipped().trust, apart)
-    assert np.all((held.mean(axis=0) > 0.88) & (held.mean(axis=0) < 0.94))
+    every = np.nanmean(held, axis=0)
+    assert np.all((every > 0.88) & (every < 0.94))
     for name in ("even", "faces"):
-        assert np.all(held[designs[new] == name].mean(axis=0) > 0.85)
+        assert np.all(np.nanmean(held[designs[new] == name], axis=0) > 0.85)
     # in the boxes in which intervals held 18 %, 49 % and 64 % of forces
     for box in drawing.BOXES:
         assert held[designs[new] == box, 0].mean() > 0.8

@@ -15,6 +15,7 @@ from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
+from viscotack.result.trajectory import PRESSED
 from viscotack.theory import jkr
 from viscotack.traction import LennardJones
 from viscotack.traction.growing import check_of_gap_alone
@@ -24,7 +25,7 @@ from .prediction import MEASURED, Prediction
 from .theory import by_crack, by_learned_theory, by_theory
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Surrogate
+    from viscotack.surrogate.model import Curves, Intervals, Surrogate
 
 Array = npt.NDArray[np.float64]
 
@@ -155,8 +156,7 @@ def _by_learned(
         why = f"{'; '.join(out)}; {further.why}"
     else:
         return _large(problem, groups, rows, "; ".join(out), confidence)
-    curves, at_end = learned.curves(at, answers), at is not rows
-    return Prediction(
+    found = Prediction(
         value=float(answers.pull_off_force[0]),
         interval=_pair(held.pull_off_force[0]),
         work_to_pull_off=float(answers.work_to_pull_off[0]) if with_work else None,
@@ -164,13 +164,30 @@ def _by_learned(
         confidence=confidence,
         band=MEASURED,
         method="surrogate",
-        inside=not at_end,
+        inside=at is rows,
         why=why,
-        curve=None
-        if at_end
-        else type(curves)(curves.depth[0], curves.force[0], curves.contact_radius[0]),
-        curve_band=None if at_end else float(held.curve[0] * answers.pull_off_force[0]),
+        curve=None,
+        curve_band=None,
         problem=problem,
+    )
+    return _with_curve(found, learned.curves(at, answers), held) if found.inside else found
+
+
+def _with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
+    """Return a prediction with its curve, the first of several, and how well it is known."""
+    depth = curves.depth[0]
+    found = replace(
+        found,
+        curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
+        curve_band=float(held.curve[0] * found.value),
+    )
+    if curves.force[0, 0] <= 0:
+        return found
+    least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
+    return replace(
+        found,
+        zero_force_depth=float(depth[PRESSED]),
+        zero_force_interval=(float(least), float(most)),
     )
 
 
@@ -219,13 +236,30 @@ def _uncertain(problem: Problem | Groups, confidence: float, deviation: float) -
     if found.work_to_pull_off is not None and found.work_interval is not None:
         known = [each.work_to_pull_off for each in others if each.work_to_pull_off is not None]
         work = _widened(found.work_to_pull_off, found.work_interval, known)
+    forces = [each.value for each in others]
     return replace(
         found,
-        interval=_widened(found.value, found.interval, [each.value for each in others]),
+        interval=_widened(found.value, found.interval, forces),
         work_interval=work,
+        **_curve_widened(found, others),
         why=f"{found.why}; intervals hold times of the material known to {deviation:.2g} decades, "
         "from its shift",
     )
+
+
+def _curve_widened(found: Prediction, others: list[Prediction]) -> dict[str, Any]:
+    """Return the bands of a curve with the reach of others, by their forces and beginnings."""
+    curve = found.curve
+    if curve is None or found.curve_band is None:
+        return {}
+    far = max(abs(each.value - found.value) for each in others)
+    wider: dict[str, Any] = {"curve_band": float(np.hypot(found.curve_band, far))}
+    if found.zero_force_depth is None or found.zero_force_interval is None:
+        return wider
+    start, (low, high) = float(curve.depth[0]), found.zero_force_interval
+    known = [start - x for each in others if (x := each.zero_force_depth) is not None]
+    least, most = _widened(start - found.zero_force_depth, (start - high, start - low), known)
+    return wider | {"zero_force_interval": (start - most, start - least)}
 
 
 def _widened(

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from viscotack.surrogate.model import Curves
 
 MEASURED, NOT_MEASURED = "measured", "not measured"
+# An observable in the same unit as what is none.
+_MEASURED_LIKE = {"zero_force_depth": "pull_off_depth"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,8 +56,13 @@ class Prediction:
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
         retraction, shape (24,) each; the last point is the pull-off. None where a theory answers.
     curve_band : float or None
-        How far the force of the part in tension is off at the worst of its depths, with that
-        confidence [1.5 pi R dg0]; None without a curve.
+        How far the force in tension is off at worst, at the same travel from zero force (or from a
+        start in tension), with that confidence [1.5 pi R dg0]; None without a curve.
+    zero_force_depth : float or None
+        Depth at which the force of a pressed start is zero [h0]; None for starts in tension, and
+        without a curve.
+    zero_force_interval : tuple of float, or None
+        Between which it lies with that confidence [h0].
     problem : Problem or Groups
         What was asked.
     """
@@ -72,6 +79,8 @@ class Prediction:
     curve: Curves | None
     curve_band: float | None
     problem: Problem | Groups
+    zero_force_depth: float | None = None
+    zero_force_interval: tuple[float, float] | None = None
 
 
 def prediction_summary(prediction: Prediction) -> dict[str, Any]:
@@ -86,17 +95,19 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
         "pull_off_force": prediction.value,
         "work_to_pull_off": prediction.work_to_pull_off,
         "pull_off_depth": None if curve is None else float(curve.depth[-1]),
+        "zero_force_depth": prediction.zero_force_depth,
         "contact_radius_at_pull_off": None if curve is None else _known(curve.contact_radius[-1]),
     }
     intervals = {
         "interval": (prediction.interval, "pull_off_force"),
         "work_interval": (prediction.work_interval, "work_to_pull_off"),
+        "zero_force_interval": (prediction.zero_force_interval, "pull_off_depth"),
     }
     answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
     answer = values | answer
     if (scales := problem.scales()) is not None:
         for name, value in values.items():
-            unit = REVOLUTION.observables[name].unit
+            unit = REVOLUTION.observables[_MEASURED_LIKE.get(name, name)].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
         for name, (pair, of) in intervals.items():

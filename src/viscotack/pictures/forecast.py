@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
 
 from viscotack.errors import InputError
 from viscotack.forecast.prediction import Prediction
@@ -19,7 +21,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from viscotack.surrogate.model import Curves
+
+Array = npt.NDArray[np.float64]
+
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
+# Pieces of the line from one point of a curve to the next.
+_BETWEEN = 8
 
 
 def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
@@ -55,7 +63,8 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         figure = Figure()
         axes = figure.subplots()
         axes.axhline(0, color="0.6", lw=1, zorder=0)
-        axes.plot(curve.depth * length, curve.force * load, color="C1", label="prediction")
+        depth, force = _smooth(curve)
+        axes.plot(depth * length, force * load, color="C1", label="prediction")
         _band(axes, prediction, length, load)
         low, high = -np.array(prediction.interval)[::-1] * load
         axes.errorbar(
@@ -79,21 +88,24 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     return figure
 
 
+def _smooth(curve: Curves) -> tuple[Array, Array]:
+    """Return a curve between its points too, every ``_BETWEEN``-th place one of them."""
+    place = np.arange(len(curve.depth))
+    fine = np.linspace(0, place[-1], place[-1] * _BETWEEN + 1)
+    depth, force = (PchipInterpolator(place, x)(fine) for x in (curve.depth, curve.force))
+    return depth, force
+
+
 def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> None:
-    """Shade how far the part in tension may be off at its worst depth."""
+    """Shade how far the force in tension may be off, and draw how far its beginning may be."""
     curve, band = prediction.curve, prediction.curve_band
     if curve is None or band is None:
         return
     tense = curve.force <= 0
     low, high = (curve.force[tense] + side * band for side in (-1, 1))
-    # a deep start's band is wider than its picture
-    least = float(curve.force.min())
-    axes.fill_between(
-        curve.depth[tense] * length,
-        np.maximum(low, 2 * least) * load,
-        np.minimum(high, -least) * load,
-        color="C1",
-        alpha=0.2,
-        lw=0,
-        zorder=0.5,
-    )
+    shade = {"color": "C1", "alpha": 0.2, "lw": 0, "zorder": 0.5}
+    axes.fill_between(curve.depth[tense] * length, low * load, high * load, **shade)
+    if prediction.zero_force_interval is not None:
+        ends = np.array(prediction.zero_force_interval) * length
+        label = "zero force, interval"
+        axes.plot(ends, [0.0, 0.0], "|-", color="C1", ms=10, zorder=0.6, label=label)

@@ -54,13 +54,16 @@ class Intervals:
     pull_off_force, work_to_pull_off : ndarray, shape (n, 2)
         As in :class:`Answers`.
     curve : ndarray, shape (n,)
-        How far forces of the part in tension are off at the worst of its depths, over the pull-off
-        force.
+        How far forces in tension are off at worst, over the pull-off force, at the same travel from
+        zero force or from a start in tension.
+    travel : ndarray, shape (n, 2)
+        From a pressed start to zero force, over what a curve has.
     """
 
     pull_off_force: Array
     work_to_pull_off: Array
     curve: Array
+    travel: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,13 +165,13 @@ class Surrogate:
         """
         rows = _rows(groups)
         spreads = answers.force_spread, answers.work_spread
-        *halves, curve = self.trust.widths(rows, spreads, confidence)
+        *halves, curve, travel = self.trust.widths(rows, spreads, confidence)
         values = answers.pull_off_force, answers.work_to_pull_off
         force, work = (
             np.column_stack([v / 10**half, v * 10**half])
             for v, half in zip(values, halves, strict=True)
         )
-        return Intervals(force, work, curve)
+        return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the derivatives of log force and log work by the logarithms of the inputs, exact.

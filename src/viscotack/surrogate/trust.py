@@ -1,9 +1,10 @@
 r"""How wide an interval is: as far as errors usually reach there, times what was measured to hold.
 
-A network of its own says how far errors of log10 of force, of work and of the curve reach nine
-times of ten around a case, from its inputs and from how far the networks are apart
-(:mod:`viscotack.surrogate.training.calibration`). It is smooth, so that widths are. An interval is
-as many times that wide as held the wanted share of cases from which no network had learned.
+A network of its own says how far errors of log10 of force, of work, of the curve in tension and of
+log10 of the travel to zero force reach nine times of ten around a case, from its inputs and from
+how far the networks are apart (:mod:`viscotack.surrogate.training.calibration`). It is smooth, so
+that widths are. An interval is as many times that wide as held the wanted share of cases from
+which no network had learned.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ Array = npt.NDArray[np.float64]
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
 # What the network says of, and how many inputs it has: the groups, how near they are to ends of
 # their ranges, and the spreads of two answers.
-OF, INPUTS = ("force", "work", "curve"), len(physics.INPUTS) + 3
+OF, INPUTS = ("force", "work", "curve", "travel"), len(physics.INPUTS) + 3
 # How far from an end an input counts as near it, in halves of its range.
 _NEAR = 0.03
 # Spreads of log10 below this tell nothing more, and their logarithms are of order one.
@@ -54,9 +55,9 @@ class Trust:
     Attributes
     ----------
     reach : Networks
-        log10 of how far errors of ``OF`` usually reach, shape (m, n, 3) for m networks; their mean
-        counts. Errors of force and work are of log10, those of a curve parts of the pull-off force.
-    levels : ndarray, shape (3, confidences)
+        log10 of how far errors of ``OF`` usually reach, shape (m, n, 4) for m networks; their mean
+        counts. Errors of a curve are parts of the pull-off force, the others of log10.
+    levels : ndarray, shape (4, confidences)
         How many times as wide half an interval is.
     """
 
@@ -65,7 +66,7 @@ class Trust:
 
     def widths(
         self, groups: Array, spreads: tuple[Array, Array], confidence: float
-    ) -> tuple[Array, Array, Array]:
+    ) -> tuple[Array, ...]:
         """Return the half widths of the intervals of ``OF``, arrays of shape (n,)."""
         if confidence not in CONFIDENCES:
             raise InputError(
@@ -74,4 +75,4 @@ class Trust:
             )
         usual = 10.0 ** self.reach(told(groups, spreads)).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
-        return usual[:, 0] * level[0], usual[:, 1] * level[1], usual[:, 2] * level[2]
+        return tuple(usual[:, i] * level[i] for i in range(len(OF)))

@@ -230,25 +230,33 @@ def _words(found: Prediction, answer: dict[str, Any]) -> str:
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
     for name, observable in REVOLUTION.observables.items():
-        value, unit = answer.get(name), observable.unit
-        if value is None:
-            continue
-        line = f"  {observable.words:<21}{value:>12.5g}  {unit.text:<30}"
-        if f"{name}_{unit.tail}" in answer:
-            line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
-        lines.append(line.rstrip())
-        interval = _COMPARED.get(name)
-        if interval is None or answer[interval] is None:
-            continue
-        low, high = answer[interval]
-        line = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
-        if f"{interval}_{unit.tail}" in answer:
-            low, high = answer[f"{interval}_{unit.tail}"]
-            line += f"= {low:.4g} to {high:.4g} {unit.si}"
-        lines.append(line.rstrip())
+        told = observable.words, observable.unit, _COMPARED.get(name)
+        lines += _number_words(name, *told, answer, held)
+    depth = REVOLUTION.observables["pull_off_depth"].unit
+    interval = "zero_force_interval"
+    lines += _number_words("zero_force_depth", "depth at zero force", depth, interval, answer, held)
     if "simulation" in answer:
         lines += _comparison_words(answer)
     return "\n".join(lines)
+
+
+def _number_words(
+    name: str, words: str, unit: Any, interval: str | None, answer: dict[str, Any], held: str
+) -> list[str]:
+    """Return a number and its interval as lines, none where the answer has it not."""
+    if (value := answer.get(name)) is None:
+        return []
+    line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
+    if f"{name}_{unit.tail}" in answer:
+        line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+    if interval is None or answer[interval] is None:
+        return [line.rstrip()]
+    low, high = answer[interval]
+    between = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
+    if f"{interval}_{unit.tail}" in answer:
+        low, high = answer[f"{interval}_{unit.tail}"]
+        between += f"= {low:.4g} to {high:.4g} {unit.si}"
+    return [line.rstrip(), between.rstrip()]
 
 
 def _comparison_words(answer: dict[str, Any]) -> list[str]:

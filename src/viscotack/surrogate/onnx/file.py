@@ -43,7 +43,12 @@ OUTPUTS = {
     "curve_depth": ((POINTS,), f"depth from start to pull-off [{_LENGTH}]"),
     "curve_force": ((POINTS,), f"force at these depths [{_FORCE}], compression positive"),
     "curve_contact_radius": ((POINTS,), f"contact radius at these depths [{_RADIUS}]"),
-    "curve_band": ((), "how far forces in tension are off, over the pull-off force"),
+    "curve_band": (
+        (),
+        "how far forces in tension are off, over the pull-off force, at the same travel from zero "
+        "force or from a start in tension",
+    ),
+    "travel_interval": ((2,), "from a pressed start to zero force, over what the curve has"),
 }
 
 
@@ -116,6 +121,7 @@ def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, An
         "curve_force": curves.force,
         "curve_contact_radius": curves.contact_radius,
         "curve_band": between.curve,
+        "travel_interval": between.travel,
     }
 
 

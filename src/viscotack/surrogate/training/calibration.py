@@ -6,14 +6,16 @@ networks agree in them, so that no spread shows it. Overfitting makes them small
 that were learned from, most on the faces of the range; so rows that were kept apart count more. The
 levels, by which all widths are multiplied, come from the latter: two networks of the reach learn
 from a half of them each, and each is judged by the other half (cross-conformal prediction, Vovk,
-doi:10.1007/s10472-013-9368-4). What the rows themselves are uncertain by is in both.
+doi:10.1007/s10472-013-9368-4). Each set of them has levels of its own, and the largest counts: what
+holds in cases that are spread evenly must hold in those on faces too. What the rows themselves are
+uncertain by is in both.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..model import Surrogate
 from ..network import together
@@ -21,12 +23,12 @@ from ..physics import Array
 from ..trust import CONFIDENCES, OF, Trust, told
 from .fitting import Fit, Task
 from .rows import Rows
-from .scores import curve_errors
+from .scores import curve_errors, travel_errors
 from .shop import Shop
 
 # The part of the errors that a network of their reach is to hold, and smaller errors than those of
-# the rows themselves [log10, log10, part of the pull-off force], which are not worth telling.
-REACH, _LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4])
+# the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
+REACH, _LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 _WEIGHT = 8.0
 HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
@@ -39,8 +41,9 @@ class Apart:
     Attributes
     ----------
     groups : ndarray, shape (n, 5)
-    error : ndarray, shape (n, 3)
-        Of log10 of force and of work, and the largest of the curve over the pull-off force.
+    error : ndarray, shape (n, 4)
+        Of log10 of force and of work, the largest of the curve in tension over the pull-off force,
+        and of log10 of the travel to zero force; that is nan for starts in tension.
     force_spread, work_spread : ndarray, shape (n,)
         Of the networks, log10.
     """
@@ -67,6 +70,7 @@ def judged(surrogate: Surrogate, rows: Rows) -> Apart:
         np.log10(said.pull_off_force / rows.force),
         np.log10(said.work_to_pull_off / rows.work),
         np.nanmax(np.abs(curve_errors(surrogate, rows, said)), axis=1),
+        travel_errors(surrogate, rows, said),
     )
     return Apart(
         groups=rows.groups,
@@ -77,7 +81,7 @@ def judged(surrogate: Surrogate, rows: Rows) -> Apart:
 
 
 def trusted(
-    surrogate: Surrogate, learned: Apart, kept: Apart, shop: Shop, *, how: Fit = HOW
+    surrogate: Surrogate, learned: Apart, kept: Sequence[Apart], shop: Shop, *, how: Fit = HOW
 ) -> Surrogate:
     """Return a surrogate with intervals.
 
@@ -85,33 +89,37 @@ def trusted(
     ----------
     surrogate : Surrogate
         Whose errors they are.
-    learned, kept : Apart
-        Of rows that it learned from, and of others.
+    learned : Apart
+        Of rows that it learned from.
+    kept : sequence of Apart
+        Of others, a set each for which intervals are to hold.
     shop : Shop
         Where networks are fitted.
     how : Fit
         Of the networks of the reach.
     """
-    halves = [np.arange(len(kept.groups)) % 2 == i for i in (0, 1)]
-    begun = [
-        shop.fit(_reach(learned, kept.chosen(half)), how, seed=seed)
-        for seed, half in enumerate(halves)
+    halves = [
+        [one.chosen(np.arange(len(one.groups)) % 2 == half) for one in kept] for half in (0, 1)
     ]
+    begun = [shop.fit(_reach([learned], half), how, seed=seed) for seed, half in enumerate(halves)]
     members = [one.result() for one in begun]
-    scores = [
-        scored(Trust(one, untested()), kept.chosen(~half))
-        for one, half in zip(members, halves, strict=True)
+    of_each = [
+        [scored(Trust(one, untested()), some) for some in half]
+        for one, half in zip(members, halves[::-1], strict=True)
     ]
-    return replace(surrogate, trust=Trust(together(members), _levels(np.concatenate(scores))))
+    levels = [_levels(np.concatenate(scores)) for scores in zip(*of_each, strict=True)]
+    return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
 
 
-def _reach(learned: Apart, kept: Apart) -> Task:
+def _reach(learned: Sequence[Apart], kept: Sequence[Apart]) -> Task:
     """Return the task to learn how far errors reach."""
-    inputs = np.concatenate([told(one.groups, one.spreads) for one in (learned, kept)])
-    error = np.concatenate([learned.error, kept.error])
-    target = np.log10(np.maximum(np.abs(error), _LEAST))
-    weight = np.ones_like(target)
-    weight[len(learned.groups) :] = _WEIGHT
+    inputs = np.concatenate([told(one.groups, one.spreads) for one in (*learned, *kept)])
+    error = np.concatenate([one.error for one in (*learned, *kept)])
+    first = sum(len(one.groups) for one in learned)
+    known = np.isfinite(error)
+    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), _LEAST))
+    weight = known.astype(float)
+    weight[first:] *= _WEIGHT
     return Task(inputs, target, weight, quantile=REACH)
 
 
@@ -136,21 +144,26 @@ def measured(trust: Trust, apart: Apart) -> Trust:
 
 
 def scored(trust: Trust, apart: Apart) -> Array:
-    """Return errors over how far they usually reach, shape (n, 3)."""
+    """Return errors over how far they usually reach, shape (n, 4); nan where there is none."""
     return np.abs(apart.error) / np.column_stack(
         trust.widths(apart.groups, apart.spreads, CONFIDENCES[0])
     )
 
 
 def _levels(scores: Array) -> Array:
-    """Return the levels that hold the wanted shares of scores, shape (3, confidences)."""
-    scores, count = np.sort(scores, axis=0), len(scores)
+    """Return the levels that hold the wanted shares of scores, shape (4, confidences)."""
+    return np.array([_level(column[np.isfinite(column)]) for column in scores.T])
+
+
+def _level(scores: Array) -> Array:
+    scores, count = np.sort(scores), len(scores)
     # a score of one more case is below the i-th of them in i of count + 1 cases
     place = np.ceil(np.array(CONFIDENCES) * (count + 1)).astype(int) - 1
-    return scores[np.minimum(place, count - 1)].T
+    return scores[np.minimum(place, count - 1)]
 
 
-def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> npt.NDArray[np.bool_]:
-    """Return which errors of force, work and curve intervals hold, shape (n, 3)."""
-    widths = trust.widths(apart.groups, apart.spreads, confidence)
-    return np.abs(apart.error) <= np.column_stack(widths)
+def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> Array:
+    """Return 1.0 where an interval holds, 0.0 where not, and nan where there is none, (n, 4)."""
+    widths = np.column_stack(trust.widths(apart.groups, apart.spreads, confidence))
+    held = np.abs(apart.error) <= widths
+    return np.where(np.isfinite(apart.error), held, np.nan)

@@ -72,7 +72,7 @@ def make(
         surrogate = refine(rough, learned, fast, refinement, shop)
         _say(began, "networks of what they leave over")
         how = QUICK.line if quick else HOW
-        apart = judged(surrogate, measuring_rows(test))
+        apart = [judged(surrogate, measuring) for measuring in measuring_rows(test)]
         some = judged(surrogate, learned.chosen(slice(None, None, 2)))
         surrogate = trusted(surrogate, some, apart, shop, how=how)
         _say(began, "intervals")
@@ -89,16 +89,15 @@ def make(
     return found
 
 
-def measuring_rows(test: rows.Rows) -> rows.Rows:
+def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, rows.Rows]:
     """Return the rows that measure intervals: those kept apart, and every second one of `fresh`.
 
     Of the former without those of `thesis`, most of which are materials of a few kinds; of the
     latter without those whose own errors are larger than what is to be measured.
     """
-    some = test.chosen(test.origin != LEARNED.index("thesis"))
     fresh = rows.read("fresh")
     measuring = drawing.measuring(drawing.designs_of(fresh.groups)) & rows.certain("fresh")
-    return rows.joined([some, fresh.chosen(measuring)])
+    return test.chosen(test.origin != LEARNED.index("thesis")), fresh.chosen(measuring)
 
 
 def kept_apart(count: int) -> npt.NDArray[np.bool_]:

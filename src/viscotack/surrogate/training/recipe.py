@@ -115,10 +115,10 @@ def learn(
         Another recipe for the curves, where they are not to be judged.
     """
     forces = begin_forces(rows, limits, recipe.force, shop, members=recipe.members)
-    task, *of_work = _work(rows)
+    task, *of_work = work_task(rows)
     works = [shop.fit(task, recipe.work, seed=i) for i in range(recipe.members)]
     curves = curves or recipe
-    task, *of_give = _give(rows.chosen(rows.start_force > 0))
+    task, *of_give = give_task(rows.chosen(rows.start_force > 0))
     gives = [shop.fit(task, curves.work, seed=i) for i in range(curves.members)]
     task, *of_line = _line(rows)
     shapes = shop.fit(task, curves.line)
@@ -163,13 +163,15 @@ def _fast(fast: Rows) -> Task:
     return Task(inputs, target, np.ones_like(target), limits)
 
 
-def _work(rows: Rows) -> tuple[Task, Array, Array]:
+def work_task(rows: Rows) -> tuple[Task, Array, Array]:
+    """Return the task to learn work over force, and centre and spread of its target."""
     force = np.log10(rows.force)
     told = physics.with_start(rows.groups, rows.start_force, rows.start_radius, force)
     return _scaled(told, (np.log10(rows.work) - force)[:, None])
 
 
-def _give(rows: Rows) -> tuple[Task, Array, Array]:
+def give_task(rows: Rows) -> tuple[Task, Array, Array]:
+    """Return the task to learn the travel to zero force of pressed starts, as `rows` have it."""
     return _scaled(_told(rows), np.log10(rows.give)[:, None])
 
 

@@ -5,7 +5,7 @@ are uncertain by, and more steps or nodes hardly change it. A second one that le
 the first, magnified, halves them in a fraction of the steps; its hidden layers stand beside those
 of the first, so that both are one network when they are asked. Fast limit and relaxed start, which
 were one network each, get members of their own here: the spread of the answers counts their doubt
-too.
+too. Work, and the travel to zero force, are looked at again in the same way.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from .. import physics
 from ..model import Scaled, Surrogate
 from ..network import Networks, added, single, together
 from .fitting import Fit, Task
+from .recipe import give_task, work_task
 from .rows import Rows
 from .shop import Shop
 
@@ -45,14 +46,14 @@ class Refinement:
 
     Attributes
     ----------
-    start, force : Stage
-        Of the relaxed start and the force.
+    start, force, work, give : Stage
+        Of the relaxed start, the force, the work and the travel to zero force.
     fast : tuple of Stage
         Of the fast limit, one after the other.
     thinned : int
         Every so many rows tell the start, which depends on two of the inputs.
     members : int
-        So many of the networks of the force are looked at again, and kept.
+        So many of the networks of the force, the work and the travel are looked at again, and kept.
     """
 
     start: Stage = Stage(Fit((16, 16, 16), steps=1000, scale=0.1, penalty=1e-6), 0.03)
@@ -61,6 +62,8 @@ class Refinement:
         Stage(Fit((32, 32, 32), steps=4000, scale=1e-4, penalty=1e-5), 2e-3),
     )
     force: Stage = Stage(Fit((32, 32, 32), steps=2000, scale=1e-3, penalty=1e-6), 1e-2)
+    work: Stage = Stage(Fit((32, 32, 32), steps=2000, scale=2e-3, penalty=1e-6), 2e-2)
+    give: Stage = Stage(Fit((32, 32, 32), steps=2000, scale=2e-3, penalty=1e-6), 2e-2)
     thinned: int = 8
     members: int = 3
 
@@ -69,7 +72,7 @@ class Refinement:
 _ONE, _TWO = (
     Stage(Fit(hidden, steps=100, scale=1e-2, penalty=1e-6), 0.1) for hidden in ((8,), (8, 8))
 )
-QUICK_REFINEMENT = Refinement(start=_ONE, fast=(_ONE,), force=_TWO, members=2)
+QUICK_REFINEMENT = Refinement(start=_ONE, fast=(_ONE,), force=_TWO, work=_ONE, give=_ONE, members=2)
 
 
 def refine(rough: Surrogate, rows: Rows, fast: Rows, how: Refinement, shop: Shop) -> Surrogate:
@@ -93,11 +96,16 @@ def refine(rough: Surrogate, rows: Rows, fast: Rows, how: Refinement, shop: Shop
     ]
     some = rows.chosen(slice(None, None, how.thinned))
     starts = [_start(rough.start, some, how.start, shop, seed) for seed in range(members)]
+    works = _scaled(rough.work, work_task(rows)[0], how.work, members, shop)
+    pressed = rows.chosen(rows.start_force > 0)
+    gives = _scaled(rough.give, give_task(pressed)[0], how.give, members, shop)
     return replace(
         rough,
         fast=together(limiting),
-        force=together([_done(one) for one in forces]),
-        start=replace(rough.start, networks=together([_done(one) for one in starts])),
+        force=_all(forces),
+        start=replace(rough.start, networks=_all(starts)),
+        work=replace(rough.work, networks=_all(works)),
+        give=replace(rough.give, networks=_all(gives)),
     )
 
 
@@ -111,6 +119,10 @@ class _Begun:
 
 def _done(begun: _Begun) -> Networks:
     return added(begun.first, begun.second.result())
+
+
+def _all(begun: list[_Begun]) -> Networks:
+    return together([_done(one) for one in begun])
 
 
 def _again(first: Networks, task: Task, stage: Stage, shop: Shop, seed: int) -> _Begun:
@@ -137,6 +149,11 @@ def _force(
     slow, high = physics.way(rows.groups, limit)
     task = Task(physics.scaled(rows.groups), target, np.ones_like(target), (slow, high[0]))
     return _again(first, task, how.force, shop, seed)
+
+
+def _scaled(rough: Scaled, task: Task, stage: Stage, members: int, shop: Shop) -> list[_Begun]:
+    """Begin to look again at a task by several networks, whose outputs are scaled."""
+    return [_again(single(rough.networks, i), task, stage, shop, i) for i in range(members)]
 
 
 def _start(rough: Scaled, rows: Rows, stage: Stage, shop: Shop, seed: int) -> _Begun:

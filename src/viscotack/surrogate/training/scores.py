@@ -81,27 +81,40 @@ def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
 
 
 def curve_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
-    """Return how far curves are off at the depths of the stored points in tension, shape (n, 24).
+    """Return how far curves are off at the stored points in tension, shape (n, 24).
 
-    Parts of the pull-off force; nan for points in compression.
+    Parts of the pull-off force, at the same travel from zero force, or from a start in tension; nan
+    for points in compression. Where zero force is: :func:`travel_errors`.
     """
     found = surrogate.curves(rows.groups, said)
-    depth = rows.groups[:, physics.PRELOAD, None] - (
-        rows.trajectory_left[:, :1] - rows.trajectory_left
-    )
-    error = np.full(depth.shape, np.nan)
+    travel = rows.trajectory_left[:, :1] - rows.trajectory_left - _to_zero(rows)[:, None]
+    error = np.full(travel.shape, np.nan)
     for i in range(len(rows)):
         first = PRESSED if rows.start_force[i] > 0 else 0
-        force = _at(depth[i, first:], found.depth[i], found.force[i])
+        known = found.depth[i, first] - found.depth[i, first:]
+        force = _at(travel[i, first:], known, found.force[i, first:])
         error[i, first:] = (force - rows.trajectory_force[i, first:]) / rows.force[i]
     return error
 
 
-def _at(depth: Array, known: Array, force: Array) -> Array:
-    """Return forces at depths; beyond the last known depth the last force."""
-    kept = np.append(np.diff(known) < 0, True)
-    curve = PchipInterpolator(known[kept][::-1], force[kept][::-1])
-    return curve(np.clip(depth, known[-1], known[0]))
+def travel_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
+    """Return errors of log10 of the travel to zero force, shape (n,); nan for starts in tension."""
+    found = surrogate.curves(rows.groups, said)
+    pressed = rows.start_force > 0
+    travel = np.where(pressed, found.depth[:, 0] - found.depth[:, PRESSED], 1.0)
+    return np.where(pressed, np.log10(travel / np.where(pressed, _to_zero(rows), 1.0)), np.nan)
+
+
+def _to_zero(rows: Rows) -> Array:
+    """Return the travel to zero force, 0 for starts in tension."""
+    return np.where(rows.start_force > 0, rows.give * rows.start_force / rows.start_radius, 0.0)
+
+
+def _at(travel: Array, known: Array, force: Array) -> Array:
+    """Return forces at travels; beyond the last known one the last force."""
+    kept = np.append(True, np.diff(known) > 0)
+    curve = PchipInterpolator(known[kept], force[kept])
+    return curve(np.clip(travel, known[0], known[-1]))
 
 
 @dataclass(frozen=True, eq=False)
