@@ -3,7 +3,8 @@ r"""How wide the intervals are to be: how far errors reach around a case, and co
 How far they reach is learned from the errors of all rows, most of which the networks learned from:
 where limits or inputs are told badly, errors are the same for those and for others, and several
 networks agree in them, so that no spread shows it. Overfitting makes them smaller for rows
-that were learned from, most on the faces of the range; so rows that were kept apart count more. The
+that were learned from, most on the faces of the range; so rows that were kept apart count more, and
+those that an adversary sought where intervals of an earlier surrogate failed. The
 levels, by which all widths are multiplied, come from the latter: two networks of the reach learn
 from a half of them each, and each is judged by the other half (cross-conformal prediction, Vovk,
 doi:10.1007/s10472-013-9368-4). Each set of them has levels of its own, and the largest counts: what
@@ -81,7 +82,13 @@ def judged(surrogate: Surrogate, rows: Rows) -> Apart:
 
 
 def trusted(
-    surrogate: Surrogate, learned: Apart, kept: Sequence[Apart], shop: Shop, *, how: Fit = HOW
+    surrogate: Surrogate,
+    learned: Apart,
+    kept: Sequence[Apart],
+    hard: Apart,
+    shop: Shop,
+    *,
+    how: Fit = HOW,
 ) -> Surrogate:
     """Return a surrogate with intervals.
 
@@ -93,6 +100,9 @@ def trusted(
         Of rows that it learned from.
     kept : sequence of Apart
         Of others, a set each for which intervals are to hold.
+    hard : Apart
+        Of others, that were sought where intervals fail: they tell how far errors reach there, and
+        nothing of how often.
     shop : Shop
         Where networks are fitted.
     how : Fit
@@ -101,7 +111,9 @@ def trusted(
     halves = [
         [one.chosen(np.arange(len(one.groups)) % 2 == half) for one in kept] for half in (0, 1)
     ]
-    begun = [shop.fit(_reach([learned], half), how, seed=seed) for seed, half in enumerate(halves)]
+    begun = [
+        shop.fit(_reach(learned, [*half, hard]), how, seed=seed) for seed, half in enumerate(halves)
+    ]
     members = [one.result() for one in begun]
     of_each = [
         [scored(Trust(one, untested()), some) for some in half]
@@ -111,15 +123,14 @@ def trusted(
     return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
 
 
-def _reach(learned: Sequence[Apart], kept: Sequence[Apart]) -> Task:
+def _reach(learned: Apart, kept: Sequence[Apart]) -> Task:
     """Return the task to learn how far errors reach."""
-    inputs = np.concatenate([told(one.groups, one.spreads) for one in (*learned, *kept)])
-    error = np.concatenate([one.error for one in (*learned, *kept)])
-    first = sum(len(one.groups) for one in learned)
+    inputs = np.concatenate([told(one.groups, one.spreads) for one in (learned, *kept)])
+    error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
     target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), _LEAST))
     weight = known.astype(float)
-    weight[first:] *= _WEIGHT
+    weight[len(learned.groups) :] *= _WEIGHT
     return Task(inputs, target, weight, quantile=REACH)
 
 

@@ -74,7 +74,8 @@ def make(
         how = QUICK.line if quick else HOW
         apart = [judged(surrogate, measuring) for measuring in measuring_rows(test)]
         some = judged(surrogate, learned.chosen(slice(None, None, 2)))
-        surrogate = trusted(surrogate, some, apart, shop, how=how)
+        hard = judged(surrogate, rows.read("hard").chosen(rows.certain("hard")))
+        surrogate = trusted(surrogate, some, apart, hard, shop, how=how)
         _say(began, "intervals")
         found: dict[str, Any] = {"kept apart at random": scores.scores(surrogate, test)}
         facts = _facts(len(learned), len(test), recipe, refinement)
