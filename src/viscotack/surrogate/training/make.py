@@ -90,15 +90,19 @@ def make(
     return found
 
 
-def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, rows.Rows]:
+def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, ...]:
     """Return the rows that measure intervals: those kept apart, and every second one of `fresh`.
 
     Of the former without those of `thesis`, most of which are materials of a few kinds; of the
-    latter without those whose own errors are larger than what is to be measured.
+    latter without those whose own errors are larger than what is to be measured, and those on faces
+    of the range as a set of their own, for errors reach further there.
     """
     fresh = rows.read("fresh")
-    measuring = drawing.measuring(drawing.designs_of(fresh.groups)) & rows.certain("fresh")
-    return test.chosen(test.origin != LEARNED.index("thesis")), fresh.chosen(measuring)
+    designs = drawing.designs_of(fresh.groups)
+    measuring = drawing.measuring(designs) & rows.certain("fresh")
+    faces = np.array(designs) == "faces"
+    kept = test.chosen(test.origin != LEARNED.index("thesis"))
+    return kept, fresh.chosen(measuring & ~faces), fresh.chosen(measuring & faces)
 
 
 def kept_apart(count: int) -> npt.NDArray[np.bool_]:
