@@ -134,6 +134,11 @@ class Store:
         return CaseSettings(**self._provenance["settings"])
 
     @property
+    def merging(self) -> list[str]:
+        """The folders of a merge that has not ended; [] for a campaign that is whole."""
+        return self._provenance.get("merging", [])
+
+    @property
     def provenance(self) -> Mapping[str, Any]:
         """Kind, settings and runs, as in provenance.json."""
         return self._provenance
@@ -205,10 +210,10 @@ class Store:
         return number
 
     def note_merged(self, runs: list[dict[str, Any]]) -> None:
-        """Keep the runs of the campaigns that this one was made of; the caller holds the lock."""
+        """Keep the runs of the campaigns that this one is whole of; the caller holds the lock."""
         for parts in (self._results, self._failures):
             parts.settle()
-        self._write(runs=runs)
+        self._write(runs=runs, merging=[])
 
     def standing(self, cases: Cases) -> Standing:
         """Return how cases stand, by what is stored."""
