@@ -1,6 +1,7 @@
 import errno
 import json
 import os
+import random
 import subprocess
 import sys
 
@@ -323,6 +324,25 @@ def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
         Store.create(tmp_path, plan_of(tmp_path / "p", text="settings.accuracy = 1e-3"))
     with pytest.raises(ValueError, match=r"until = pull-off, the plan asks for detached; .*--out"):
         Store.create(tmp_path, plan_of(tmp_path / "p", text='settings.until = "detached"'))
+
+
+def test_rows_that_are_too_many_to_be_held_are_sorted_on_the_disk(tmp_path, monkeypatch):
+    plan = plan_of(tmp_path, cases=23)
+    store = Store.create(tmp_path, plan)
+    rows = [{"name": c.name, "rate": c.inputs["rate"], "curve": [1.0] * 3} for c in plan.cases]
+    random.Random(3).shuffle(rows)
+    for begin in range(0, 20, 5):
+        store.add(rows[begin : begin + 5], [])
+    store.add([{"name": "of an earlier plan", "word": "w", "curve": [2.0] * 7}], [])
+    whole = store.results()
+    monkeypatch.setattr("viscotack.campaign.ordering._HELD", 4)
+    with store.ordered_results() as ordered:
+        chunks = [*ordered.chunks()]
+        assert (ordered.rows, ordered.widths) == (21, {"curve": 7})
+    assert [len(chunk) for chunk in chunks] == [4, 4, 4, 4, 4, 1]
+    assert pa.concat_tables(chunks).equals(whole)
+    stated = [c.name for c in plan.cases if c.name in {row["name"] for row in rows[:20]}]
+    assert whole.column("name").to_pylist() == [*stated, "of an earlier plan"]
 
 
 def test_failures_never_enter_the_results(tmp_path):
