@@ -1,6 +1,7 @@
 """Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
 
 import ctypes
+import json
 import os
 import signal
 from contextlib import contextmanager
@@ -178,7 +179,7 @@ class InlineCrew:
         return 2 * self.count + 1 - len(self.waiting)
 
     def hand(self, number, problem):
-        rate = float(problem.split('"rate": ')[1].split(",")[0].rstrip("}"))
+        rate = json.loads(problem).get("rate")
         if rate in self.deaths:
             self.deaths.remove(rate)
             self.alone.append(not self.waiting)

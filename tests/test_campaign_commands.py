@@ -138,6 +138,6 @@ def test_a_missing_extra_is_named(cases, tmp_path, monkeypatch, capsys):
 
 
 def test_the_commands_explain_themselves(capsys):
-    for command in ("plan", "run", "status", "verify", "merge", "export"):
+    for command in ("inputs", "plan", "run", "status", "verify", "merge", "export"):
         assert call(command, "--help") == 0
         assert "Example: viscotack campaign" in " ".join(capsys.readouterr().out.split())

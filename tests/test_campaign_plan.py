@@ -215,12 +215,24 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ("p.toml", f"[[grid]]\n{CASE.replace('10', '{ log = [1, 2] }')}", "needs its count"),
         ("p.toml", f"[[fill]]\ncases = 3\n{CASE}", "at least one range"),
         ("p.toml", f"[[fill]]\n{CASE}", "needs cases ="),
-        ("p.toml", sphere_fill(3, rate="{ log = [-1, 1] }"), "log range must be positive"),
+        ("p.toml", sphere_fill(3, preload="{ log = [-1, 1] }"), "log range must be positive"),
+        ("p.toml", sphere_fill(3, rate="{ log = [-1, 1] }"), "rate must be positive, got -1.0 h0"),
+        ("p.toml", sphere_fill(3, seed="-1"), "needs cases = a whole number.*-1"),
+        ("p.toml", sphere_fill("true"), "needs cases = a whole number"),
+        (
+            "p.toml",
+            f"[[grid]]\n{CASE.replace('= 5', '= [-90, -80]')}",
+            "none of its 2 points is a contact.*The first: there is no relaxed contact",
+        ),
         ("p.toml", sphere_fill(3, rate="{ log = [2, 1] }"), "rising values"),
         ("p.toml", sphere_fill(3, rate="{ lin = [2, 1] }"), "must be|has the inputs"),
         ("p.toml", sphere_fill(3, rate="{ choose = [2], weights = [0] }"), "needs a weight"),
         ("p.toml", sphere_fill(3, method='"halton"'), "method must be one of sobol"),
-        ("p.toml", sphere_fill(3, preload="{ linear = [-90, -80] }"), "only 0 of the first"),
+        (
+            "p.toml",
+            sphere_fill(3, preload="{ linear = [-90, -80] }"),
+            "only 0 of the first .* first that is not: there is no relaxed",
+        ),
         ("p.toml", '[[list]]\nfil = "x.csv"', 'needs file = "cases.csv"'),
         ("c.csv", "", "first row of different column names"),
         ("c.csv", "tabor,rate\n1,2\n", "columns .* are of no kind; known are sphere: tabor"),
@@ -258,7 +270,7 @@ def test_cases_written_as_a_table_are_the_same_plan(tmp_path):
 
 def test_the_plans_of_the_docs_are_plans(tmp_path):
     page = (Path(__file__).parents[1] / "docs/campaigns.md").read_text()
-    table, whole, lens = re.findall(
+    table, whole, lens, pad = re.findall(
         r"```(?:toml)?\n((?:tabor|kind|problem).*?)```", page, re.DOTALL
     )
     written(tmp_path, LENS, "lens.toml")
@@ -267,6 +279,9 @@ def test_the_plans_of_the_docs_are_plans(tmp_path):
     plan = read_plan(written(tmp_path, whole.replace("cases = 10000", "cases = 16")))
     assert len(plan.cases) == 3 * 5 * 13 + 2 + 16
     assert len(read_plan(written(tmp_path, lens)).cases) == 14
+    own = Path(__file__).parents[1] / "examples/from_toml/pad.toml"
+    written(tmp_path, own.read_text().replace("frictionless", "bonded"), "pad.toml")
+    assert len(read_plan(written(tmp_path, pad.replace("1000", "16"))).cases) == 16
 
 
 def test_the_plan_of_the_benchmark_has_the_statistics_of_the_thesis():

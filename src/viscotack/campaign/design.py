@@ -5,7 +5,7 @@ With more than two values, equal shares of the points lie between neighbours: th
 equally spaced quantiles, and any distribution can be stated.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -74,29 +74,37 @@ def fill(
 
 @dataclass
 class Tally:
-    """Counts points that are no contacts, and so are not run."""
+    """Counts points that are not run, and keeps why the first of them is not."""
 
     rejected: int = 0
+    why: str = ""
+
+    def note(self, why: str) -> None:
+        """Count a point."""
+        self.rejected, self.why = self.rejected + 1, self.why or why
 
 
 def accepted(
-    rows: Iterator[dict[str, float]], accept: Any, wanted: int | None, tally: Tally
+    rows: Iterator[dict[str, float]],
+    refusal: Callable[[dict[str, float]], str],
+    wanted: int | None,
+    tally: Tally,
 ) -> Iterator[dict[str, float]]:
-    """Yield the rows that are accepted, up to the wanted number, and count those that are not."""
+    """Yield the rows that nothing refuses, up to the wanted number, and count the others."""
     kept = rejected = 0
     for row in rows:
-        if accept(row):
+        if why := refusal(row):
+            rejected += 1
+            tally.note(why)
+        else:
             kept += 1
             yield row
-        else:
-            rejected += 1
-            tally.rejected += 1
         if wanted is not None and kept == wanted:
             break
         if rejected > 2 / _LEAST_ACCEPTED and kept < _LEAST_ACCEPTED * rejected:
             raise InputError(
                 f"only {kept} of the first {kept + rejected} points of a fill are contacts; "
-                "change its ranges"
+                f"change its ranges. The first that is not: {tally.why}"
             )
 
 

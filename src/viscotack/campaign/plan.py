@@ -5,7 +5,7 @@ import io
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from .case import CaseSettings
 from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
+from .inputs import check_exponent
 from .own import digests
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
@@ -45,6 +46,8 @@ class Plan:
         Record of the problem in which inputs are replaced, with ``problem = "FILE.toml"``.
     rejected, repeated : int
         Points of grids and fills that are not contacts, and cases stated more than once.
+    refusal : str
+        Why the first of the points that were rejected was.
     source : str
         Text of the file; "" for a plan made otherwise.
     suffix : str
@@ -59,6 +62,7 @@ class Plan:
     base: dict[str, Any] | None = None
     rejected: int = 0
     repeated: int = 0
+    refusal: str = ""
     source: str = ""
     suffix: str = ".toml"
     shard: str | None = None
@@ -121,16 +125,110 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         changed |= {"own": own} if own else {}
         kind, base = _kind(path, tables, blocks, own)
     settings = _settings(path, tables.get("settings", {}), changed)
-    cases, rejected, repeated = _cases(path, kind, blocks)
+    return replace(
+        _planned(str(path), kind, blocks, settings, base),
+        source=source,
+        suffix=".csv" if path.suffix == ".csv" else ".toml",
+    )
+
+
+def space_filling(
+    problem: Any,
+    over: Mapping[str, Any],
+    *,
+    cases: int,
+    method: str = "sobol",
+    seed: int = 0,
+    settings: CaseSettings | None = None,
+) -> Plan:
+    """Return a plan of points that fill ranges of any numbers of a problem evenly.
+
+    Parameters
+    ----------
+    problem : Problem, Groups or PunchGroups
+        Shape, body, solid, law and history that all cases have; the numbers that are not varied.
+    over : mapping
+        Ranges by the paths of numbers, as in a file: ``{"geometry.radius": {"log": ["1 mm", "1
+        cm"]}}``; `inputs_of` returns the paths. Text with units where the problem is in SI.
+    cases, method, seed
+        As in a ``[[fill]]`` of a file.
+    settings : CaseSettings, optional
+        How cases are solved; those with files of the user's own, where the problem has any.
+
+    Raises
+    ------
+    ValueError
+        If a path is no number of the problem, a range is impossible, or next to no point of the
+        region is a contact.
+
+    Examples
+    --------
+    Cones of all slopes, after dwells of all lengths:
+
+    >>> from viscotack import AtDepth, Cone, Dwell, Elastic, LennardJones, Problem, Retraction
+    >>> soft = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    >>> law = LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
+    >>> test = Retraction(start=AtDepth(2e-6), speed=1e-5, moves=(Dwell(1.0),))
+    >>> base = Problem(material=soft, traction=law, geometry=Cone(0.1), protocol=test)
+    >>> plan = space_filling(
+    ...     base,
+    ...     {
+    ...         "geometry.slope": {"log": [0.05, 0.2]},
+    ...         "protocol.moves.0.duration": {"log": ["1 s", "1 h"]},
+    ...     },
+    ...     cases=8,
+    ... )
+    >>> len(plan.cases), plan.rejected
+    (8, 0)
+    """
+    block = {**over, "cases": cases, "method": method, "seed": seed}
+    return _of_problem(problem, "fill", block, settings)
+
+
+def every_combination(
+    problem: Any, over: Mapping[str, Any], *, settings: CaseSettings | None = None
+) -> Plan:
+    """Return a plan of every combination of values of any numbers of a problem.
+
+    Parameters and errors are those of :func:`space_filling`; values are a number, a list, or a
+    range with a count, ``{"log": ["1 um/s", "1 mm/s"], "count": 7}``.
+    """
+    return _of_problem(problem, "grid", dict(over), settings)
+
+
+def _of_problem(
+    problem: Any, key: str, block: dict[str, Any], settings: CaseSettings | None
+) -> Plan:
+    settings = settings or CaseSettings()
+    names = _inputs(key, block)
+    check_exponent(problem, names)
+    kind = kind_of_problem(problem, names, settings.nouns())
+    return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
+
+
+def _planned(
+    where: str,
+    kind: Kind,
+    blocks: list[tuple[str, Any]],
+    settings: CaseSettings,
+    base: dict[str, Any] | None,
+) -> Plan:
+    tally = Tally()
+    stated = Cases.of(_stated(where, kind, blocks, tally))
+    cases = stated.first_of_each()
+    if not len(cases):
+        raise InputError(
+            f"{where}: none of its {tally.rejected} points is a contact, so there is nothing to "
+            f"run. The first: {tally.why}"
+        )
     return Plan(
         kind=kind,
         cases=cases,
         settings=settings,
         base=base,
-        rejected=rejected,
-        repeated=repeated,
-        source=source,
-        suffix=".csv" if path.suffix == ".csv" else ".toml",
+        rejected=tally.rejected,
+        repeated=len(stated) - len(cases),
+        refusal=tally.why,
     )
 
 
@@ -228,6 +326,7 @@ def _kind(
         )
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
+            check_exponent(problem, names)
             return kind_of_problem(problem, names, also), to_dict(problem)
         except ValueError as error:
             raise InputError(f"{path}: {error}") from None
@@ -287,43 +386,74 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return found if prefix else _named(found)
 
 
-def _cases(path: Path, kind: Kind, blocks: list[tuple[str, Any]]) -> tuple[Cases, int, int]:
-    """Return the cases of all blocks, each once, how many were rejected and how many repeated."""
-    tally = Tally()
-
-    def stated() -> Iterator[Case]:
-        for number, (key, block) in enumerate(blocks, 1):
-            try:
-                kind.check(_inputs(key, block))
-                for row in _rows(path, kind, key, block, tally):
-                    yield Case(run_id(kind.problem(row)), row)
-            except (ValueError, TypeError) as error:
-                text, where = str(error), f"{path}, block {number} ([[{key}]])"
-                is_placed = text.startswith((str(path), str(getattr(block, "path", path))))
-                raise InputError(text if is_placed else f"{where}: {text}") from None
-
-    found = Cases.of(stated())
-    cases = found.first_of_each()
-    return cases, tally.rejected, len(found) - len(cases)
+def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:
+    """Yield the cases of all blocks, in their order."""
+    for number, (key, block) in enumerate(blocks, 1):
+        try:
+            kind.check(_inputs(key, block))
+            for row in _rows(kind, key, block, tally):
+                yield Case(run_id(kind.problem(row)), row)
+        except (ValueError, TypeError) as error:
+            text, place = str(error), f"{where}, block {number} ([[{key}]])"
+            is_placed = text.startswith((where, str(getattr(block, "path", where))))
+            raise InputError(text if is_placed else f"{place}: {text}") from None
 
 
-def _rows(path: Path, kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
+def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
     if key == "list":
         return _checked(block, kind)
 
-    def accept(row: dict[str, float]) -> bool:
-        return has_relaxed_contact(kind.problem(row))
+    def refusal(row: dict[str, float]) -> str:
+        try:
+            is_contact = has_relaxed_contact(kind.problem(row))
+        except InputError as error:
+            if key == "grid":  # its values were chosen, each with all the others
+                raise
+            return str(error)
+        return "" if is_contact else "there is no relaxed contact to begin with"
 
     values = _flat(block)
     if key == "grid":
-        return accepted(grid(values), accept, None, tally)
+        return accepted(grid(_read(kind, values)), refusal, None, tally)
     cases, method = values.pop("cases", None), values.pop("method", "sobol")
     seed = values.pop("seed", 0)
-    if not isinstance(cases, int) or cases < 1 or not isinstance(seed, int):
+    if not _is_whole(cases) or cases < 1 or not _is_whole(seed) or seed < 0:
         raise InputError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
     ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
-    return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases, tally)
+    points = fill(_read(kind, ordered), cases=cases, method=method, seed=seed)
+    return accepted(points, refusal, cases, tally)
+
+
+def _is_whole(number: Any) -> bool:
+    return isinstance(number, int) and not isinstance(number, bool)
+
+
+def _read(kind: Kind, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values, lists and ranges with their text as numbers, each within its card's range."""
+
+    def number(name: str, given: Any) -> Any:
+        entry = kind.inputs.get(name)
+        if isinstance(given, str) and not kind.in_si:
+            raise InputError(
+                f"{name} must be a number, and without a unit, for cases of kind {kind.name!r} are "
+                f"dimensionless; got {given!r}"
+            )
+        if isinstance(given, str) and entry is not None:
+            try:
+                given = parse(given, entry.unit)
+            except InputError as error:
+                raise InputError(f"{name}: {error}") from None
+        is_number = isinstance(given, int | float) and not isinstance(given, bool)
+        return entry.card.checked(name, given, entry.unit) if entry and is_number else given
+
+    def read(name: str, given: Any) -> Any:
+        if isinstance(given, Mapping):
+            kept = ("count", "weights")
+            return {key: v if key in kept else read(name, v) for key, v in given.items()}
+        return [number(name, v) for v in given] if isinstance(given, list) else number(name, given)
+
+    return {name: read(name, given) for name, given in values.items()}
 
 
 def _checked(rows: _Listed, kind: Kind) -> Iterator[dict[str, float]]:
