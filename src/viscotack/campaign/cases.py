@@ -7,8 +7,9 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-# Bytes of a name by content, and how many cases are gathered before they are put into an array.
-_NAME, _BLOCK = 16, 4096
+# Bytes of a name by content, and how many cases are gathered before they are put into arrays: those
+# of so many numbers the system takes back when they have been joined.
+_NAME, _BLOCK = 16, 20_000
 
 
 @dataclass(frozen=True)
