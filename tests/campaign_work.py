@@ -1,5 +1,6 @@
 """Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
 
+import atexit
 import ctypes
 import json
 import os
@@ -42,6 +43,12 @@ def rounded(problem, settings):
 def slow(problem, settings):
     """Do the same in about 20 ms."""
     sleep(0.02)
+    return stand_in(problem, settings)
+
+
+def unhurried(problem, settings):
+    """Do the same in about 0.1 s."""
+    sleep(0.1)
     return stand_in(problem, settings)
 
 
@@ -124,6 +131,18 @@ def threads(problem, settings):
 
     row = {name: os.environ.get(name) for name in os.environ if name.endswith("NUM_THREADS")}
     return row | {"blas": max(pool["num_threads"] for pool in threadpool_info())}
+
+
+def brief(problem, settings):
+    """Take a moment."""
+    sleep(0.05)
+    return stand_in(problem, settings)
+
+
+def last_words(problem, settings):
+    """Leave a file when the process ends by itself."""
+    atexit.register(Path(os.environ["CAMPAIGN_TEST_LAST_WORDS"], "last words").touch)
+    return {}
 
 
 def bare(problem, settings):
