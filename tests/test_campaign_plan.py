@@ -10,7 +10,7 @@ from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
-from viscotack.campaign.design import fill, grid
+from viscotack.campaign.design import Tally, accepted, fill, grid
 from viscotack.campaign.running import expected_costs
 from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
@@ -127,6 +127,55 @@ def test_equal_shares_fall_between_the_values_of_a_range():
     x = np.array([row["x"] for row in rows])
     assert np.mean(x < 1) == 0.5 and np.mean(x < 5.5) == 0.75
     assert np.mean([row["y"] == 1 for row in rows]) == 0.75
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"x": float("inf")}, "x must be finite"),
+        ({"x": []}, "x must be a number or a list"),
+        ({"x": True}, "x must be a number or a list"),
+        ({"x": "1 m"}, "x must be a number or a list"),
+        ({"x": {"log": [0, 1], "count": 3}}, "a log range must be positive"),
+        ({"x": {"log": [1, 2], "count": 0}}, "needs its count"),
+        ({"x": {"log": [1, 2], "count": 2.0}}, "needs its count"),
+        ({"x": {"linear": [1], "count": 2}}, "two or more rising values"),
+        ({"x": {"linear": [1, 2], "log": [1, 2], "count": 2}}, "x must be a number,"),
+        ({"x": {"linear": [1, 2], "weights": [1], "count": 2}}, "x must be a number,"),
+        ({"x": {"choose": [1, 2], "weights": [1], "count": 2}}, "needs a weight"),
+        ({"x": {"choose": [1, 2], "weights": [1, -1], "count": 2}}, "needs a weight"),
+        ({"x": {"choose": [1, 2], "weights": [float("nan"), 1], "count": 2}}, "must be finite"),
+    ],
+)
+def test_values_that_cannot_be_are_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        list(grid(given))
+
+
+def test_ranges_are_as_wide_as_they_are_written():
+    (row,) = grid({"x": {"log": [2, 32], "count": 1}, "y": {"choose": [3, 4]} | {"count": 1}})
+    assert row == {"x": 2.0, "y": 3.0}
+    rows = list(grid({"x": {"log": [1, 4, 64], "count": 5}, "y": {"linear": [-1, -1], "count": 1}}))
+    assert [r["x"] for r in rows] == [1.0, 2.0, 4.0, 16.0, 64.0] and rows[0]["y"] == -1.0
+    third = fill({"x": {"choose": [1, 2, 3], "weights": [1, 0, 1]}}, cases=8)
+    assert {next(third)["x"] for _ in range(64)} == {1.0, 3.0}
+    # nine digits, so that machines name the same cases
+    (x,) = [next(fill({"x": {"linear": [0, 1]}}, cases=1, seed=3))["x"]]
+    assert x == float(f"{x:.9g}")
+
+
+def test_the_search_for_contacts_ends_where_next_to_none_is():
+    tally = Tally()
+    numbers = [{"x": float(i)} for i in range(2000)]
+    few = accepted(iter(numbers), lambda row: "" if row["x"] == 5 else "none", 10, tally)
+    with pytest.raises(ValueError, match="only 1 of the first 202 points .*not: none"):
+        list(few)
+    assert (tally.rejected, tally.why) == (201, "none")
+    # one in fifty is enough, and no more are drawn than are wanted
+    rest = iter(numbers)
+    found = [*accepted(rest, lambda row: "" if row["x"] % 50 == 0 else "none", 10, Tally())]
+    assert [row["x"] for row in found] == [50.0 * i for i in range(10)]
+    assert next(rest)["x"] == 451.0
 
 
 def test_what_is_not_a_contact_is_rejected_before_it_is_run(tmp_path):

@@ -1,6 +1,7 @@
 """Shards of one plan in folders of their own, and one folder of all."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -82,6 +83,32 @@ def test_what_does_not_belong_together_is_not_merged(tmp_path, crew, monkeypatch
     assert not (tmp_path / "m").exists()
     with pytest.raises(InputError, match="holds a campaign already"):
         merge([one], one)
+
+
+def test_rows_of_an_earlier_plan_are_merged_too_and_once(tmp_path, crew):
+    run(plan_of(tmp_path, cases=5), tmp_path / "a", work=stand_in)
+    run(plan_of(tmp_path, cases=2), tmp_path / "a", work=stand_in)
+    run(plan_of(tmp_path, cases=4), tmp_path / "b", work=stand_in)
+    run(plan_of(tmp_path, cases=1), tmp_path / "b", work=stand_in)
+    store = merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
+    assert len(store.plan().cases) == 2
+    assert sorted(store.results().column("rate").to_pylist()) == [1, 2, 3, 4, 5]
+    assert sum(part.rows for part in store.parts()["results"].kept()) == 5
+
+
+def test_campaigns_of_another_kind_are_not_merged(tmp_path, crew):
+    run(plan_of(tmp_path / "p", cases=2), tmp_path / "a", work=stand_in)
+    other = plan_of(tmp_path / "q", cases=2)
+    run(replace(other, kind=replace(other.kind, name="punch")), tmp_path / "b", work=stand_in)
+    with pytest.raises(InputError, match="hold cases of another kind: they are no shards"):
+        merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
+    run(
+        plan_of(tmp_path / "r", cases=2, text='settings.until = "detached"'),
+        tmp_path / "c",
+        work=stand_in,
+    )
+    with pytest.raises(InputError, match="has until = pull-off, .* has detached"):
+        merge([tmp_path / "a", tmp_path / "c"], tmp_path / "m")
 
 
 def test_a_result_of_one_folder_stands_before_the_failure_of_another(tmp_path, crew):
