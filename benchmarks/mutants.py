@@ -212,11 +212,16 @@ def main() -> None:
     known: list[dict[str, Any]] = []
     if chosen.log and chosen.log.exists():
         known = [json.loads(line) for line in chosen.log.read_text().splitlines()]
+    asked = [(one.module, list(one.begin), one.operator) for one in found]
+    judged_before = [(one["module"], one["begin"], one["operator"]) for one in known]
+    assert asked[: len(known)] == judged_before, "the log is of other mutants; give another --log"
     with tempfile.TemporaryDirectory(prefix="mutants-") as name:
         copy = Path(name)
         for part in COPIED:
             whole = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
             whole(ROOT / part, copy / part)
+        if chosen.log:
+            chosen.log.parent.mkdir(parents=True, exist_ok=True)
         if not known:
             passed, words = run_tests(copy, tests_for("running.py"))
             assert passed, f"the tests fail without any mutant: {words}"

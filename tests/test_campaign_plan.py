@@ -10,7 +10,7 @@ from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
-from viscotack.campaign.design import Tally, accepted, fill, grid
+from viscotack.campaign.design import METHODS, Tally, accepted, fill, grid
 from viscotack.campaign.running import expected_costs
 from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
@@ -162,6 +162,23 @@ def test_ranges_are_as_wide_as_they_are_written():
     # nine digits, so that machines name the same cases
     (x,) = [next(fill({"x": {"linear": [0, 1]}}, cases=1, seed=3))["x"]]
     assert x == float(f"{x:.9g}")
+
+
+def test_a_plan_has_an_end(tmp_path):
+    wide = {"log": [1, 2], "count": 4000}
+    for values in ({"x": {"log": [1, 2], "count": 10**15}}, dict.fromkeys("xyz", wide)):
+        with pytest.raises(
+            ValueError, match="a plan has at most 10000000 cases, and this is one of"
+        ):
+            next(grid(values))
+    for method in ("sobol", "latin-hypercube"):
+        path = written(tmp_path, sphere_fill(10**13, method=f'"{method}"'))
+        with pytest.raises(ValueError, match=r"block 1 .*at most 10000000 cases.* of 1e\+13"):
+            read_plan(path)
+    assert len([*grid(dict.fromkeys("xy", {"log": [1, 2], "count": 30}))]) == 900
+    # a hypercube that is drawn in several blocks is one
+    points = [row["x"] for row in fill({"x": {"linear": [0, 1]}}, cases=3000, method=METHODS[1])]
+    assert np.array_equal(np.sort(np.floor(np.array(points) * 3000)), np.arange(3000))
 
 
 def test_the_search_for_contacts_ends_where_next_to_none_is():

@@ -170,16 +170,19 @@ def test_old_parts_go_only_when_the_merged_one_is_safe(tmp_path, monkeypatch):
         assert merged in there and [part.name for part in kept] == [merged]
 
 
-def test_a_reader_follows_a_merge(tmp_path, monkeypatch):
+@pytest.mark.parametrize("read", [1, 2, 3])
+def test_a_reader_follows_a_merge(tmp_path, monkeypatch, read):
     monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
-    parts = table_in(tmp_path)
-    appended(parts, 3)
+    parts, rows = table_in(tmp_path), [{"name": f"case {i}"} for i in range(12)]
+    for begin in (0, 3, 6):
+        parts.append(rows[begin : begin + 3])
     tables = parts.tables()
-    first = next(tables).column("name").to_pylist()
-    appended(table_in(tmp_path, parts.book), 1, begin=3)
+    told = [name for _ in range(read) for name in next(tables).column("name").to_pylist()]
+    table_in(tmp_path, parts.book).append(rows[9:])
     assert len(files(parts)) == 1
-    rest = [name for table in tables for name in table.column("name").to_pylist()]
-    assert first + rest == [f"case {i}" for i in range(4)]
+    # every row once, whatever was read before and in however large a part the others are now
+    told += [name for table in tables for name in table.column("name").to_pylist()]
+    assert told == [f"case {i}" for i in range(12 if read < 3 else 9)]
 
 
 def test_a_damaged_part_is_named(tmp_path):
