@@ -70,6 +70,13 @@ class Cluster:
             subprocess.Popen(command, env=env, cwd=self.folder, **self.quiet) for _ in range(count)
         ]
 
+    def await_workers(self, count):
+        """Wait until the scheduler knows so many."""
+        from distributed import Client
+
+        with Client(self.address, set_as_default=False) as client:
+            until(lambda: len(client.nthreads()) == count)
+
     def end(self):
         for process in [*self.workers, self.scheduler]:
             process.kill()
@@ -174,6 +181,7 @@ def test_no_worker_no_case(tmp_path, monkeypatch):
         # one with altered physics, and one whose package cannot be imported
         dask.hire(1, altered(tmp_path / "altered"))
         dask.hire(1, broken_package(tmp_path / "broken"))
+        dask.await_workers(2)
         with pytest.raises(NoWorker, match="of another program") as caught:
             run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in)
         words = str(caught.value)

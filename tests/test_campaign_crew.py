@@ -20,8 +20,9 @@ ANSWER = Answer({"pull_off_force": 1.0}, "", "", 0.1, 1e6)
 class Future:
     """What a cluster owes."""
 
-    def __init__(self, function, address):
-        self.function, self.address = function, address
+    def __init__(self, function, arguments, address):
+        self.asked = eval(*arguments) if function is eval else None
+        self.address = address
         self.status, self.told, self.error, self.is_cancelled = "pending", None, None, False
 
     def add_done_callback(self, call):
@@ -59,7 +60,7 @@ class Client:
 
     def submit(self, function, *arguments, workers, **options):
         assert options.pop("allow_other_workers") is False
-        self.futures.append(Future(function, workers[0]))
+        self.futures.append(Future(function, arguments, workers[0]))
         return self.futures[-1]
 
     def last(self, address):
@@ -83,7 +84,7 @@ def test_a_machine_is_given_nothing_before_it_has_said_what_it_runs(clock):
     client = Client(a=1, b=3)
     crew = crew_of(client)
     assert crew.room() == 0 and crew.workers() == 1
-    assert [future.function for future in client.futures] == [identity, identity]
+    assert [future.asked for future in client.futures] == [identity(), identity()]
     client.last("a").end(identity())
     assert crew.collect(0.0) == [] and (crew.room(), crew.workers()) == (2, 1)
     client.last("b").end(identity())
@@ -185,7 +186,7 @@ def test_what_a_machine_had_is_lost_when_it_leaves_and_nobody_is_blamed(clock):
     assert crew.collect(0.0) == [] and crew.workers() == 1
     # one that comes back is asked again
     client.threads["a"] = 1
-    assert crew.room() == 0 and client.last("a").function is identity
+    assert crew.room() == 0 and client.last("a").asked == identity()
     client.last("a").end({"viscotack": "0.0"})
     crew.collect(0.0)
     assert crew.room() == 0 and crew.workers() == 1

@@ -250,6 +250,25 @@ def test_a_worker_that_cannot_begin_ends_the_run(tmp_path, monkeypatch):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
 
 
+def test_three_starts_in_a_row_that_come_to_nothing_end_a_run(monkeypatch):
+    good, wanted, asked = supervisor._program, ["bad", "bad", "good", "bad", "bad", "bad"], []
+
+    def program(handle):
+        asked.append(wanted[len(asked)])
+        return good(handle) if asked[-1] == "good" else "raise SystemExit(3)"
+
+    monkeypatch.setattr(supervisor, "_program", program)
+    with local(stand_in, CaseSettings(), 1) as crew:
+        ready(crew)
+        assert asked == wanted[:3]
+        os.kill(crew.processes()[0], signal.SIGKILL)
+        while crew.processes():
+            assert crew.collect(0.1) == []
+        with pytest.raises(NoWorker, match="3 worker processes in a row.*ended with status 3"):
+            ready(crew)
+    assert asked == wanted
+
+
 def test_a_worker_of_another_program_is_given_nothing(tmp_path, monkeypatch):
     monkeypatch.setattr(supervisor, "identity", lambda: {"viscotack": "0.0"})
     with pytest.raises(NoWorker, match=r"viscotack \S+ and not 0.0.*changed while this run"):
