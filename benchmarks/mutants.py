@@ -50,6 +50,7 @@ JUDGES = {
     "exporting": ("store", "commands", "trust"),
     "identity": ("case", "sharing", "supervisor"),
     "inputs": ("inputs", "plan"),
+    "listed": ("plan", "sharing"),
     "memory": ("supervisor", "case"),
     "ordering": ("store", "sharing", "trust"),
     "own": ("trust",),
@@ -64,6 +65,8 @@ JUDGES = {
     "verifying": ("trust", "sharing"),
     "worker": ("supervisor", "run"),
 }
+# Those that read what version 0.1 wrote.
+OLDER = {"parts.py", "provenance.py", "store.py"}
 
 
 @dataclass(frozen=True)
@@ -127,8 +130,9 @@ def drawn(folder: Path, seed: int, count: int) -> list[Mutant]:
 
 def tests_for(module: str) -> list[str]:
     """Return what judges a module, its own examples first."""
-    suites = JUDGES[module.removesuffix(".py")]
-    return [f"{PACKAGE}/{module}", *(f"tests/test_campaign_{suite}.py" for suite in suites)]
+    suites = (f"tests/test_campaign_{suite}.py" for suite in JUDGES[module.removesuffix(".py")])
+    of_older_versions = ["tests/test_saved_by_0_1.py"] if module in OLDER else []
+    return [f"{PACKAGE}/{module}", *suites, *of_older_versions]
 
 
 def run_tests(copy: Path, tests: list[str]) -> tuple[bool, str]:

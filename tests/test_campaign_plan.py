@@ -68,6 +68,17 @@ def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     assert plan.settings == CaseSettings() and plan.suffix == ".csv"
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_table_has_the_line_ends_of_any_system(tmp_path, end):
+    rows = [HEADER.strip(), "1,0.1,0.8,5,10", "", '1,0.1,0.8,5,"20"']
+    path = tmp_path / "cases.csv"
+    path.write_bytes(end.join(rows).encode())
+    assert columns(read_plan(path).cases, "rate").tolist() == [10.0, 20.0]
+    path.write_bytes(end.join([*rows, "1,0.1,0.8,deep,20"]).encode() + end.encode())
+    with pytest.raises(ValueError, match="line 5: .*'deep'"):
+        read_plan(path)
+
+
 def test_a_preload_may_be_a_force_or_a_radius(tmp_path):
     for name in ("preload_force", "preload_radius"):
         header = HEADER.replace("preload", name)

@@ -107,6 +107,15 @@ def test_settings_that_were_edited_are_refused(study):
     assert Store(study).results().num_rows == 16
 
 
+def test_cases_of_another_campaign_are_refused(study, tmp_path):
+    (tmp_path / "d").mkdir()
+    Store.create(tmp_path / "d", plan_of(tmp_path / "p", cases=9))
+    shutil.copy(tmp_path / "d/cases.parquet", study / "cases.parquet")
+    for use in (Store.plan, Store.results, Store.failures):
+        with pytest.raises(InputError, match="cases.parquet is damaged: it is not what was writ"):
+            use(Store(study))
+
+
 def test_a_provenance_of_something_else_is_refused(study):
     for change, words in (
         (lambda content: content.update(format="a diary"), "damaged: it is of another kind"),

@@ -1,12 +1,9 @@
 """A plan: which cases to run and how, from a TOML file or a bare CSV file."""
 
-import csv
 import json
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, replace
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +13,6 @@ from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import own_nouns
-from viscotack.problem.older import upgraded_path
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 from ..units import parse
@@ -25,11 +21,12 @@ from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
 from .inputs import check_exponent
+from .listed import Listed, renamed
 from .own import digests
 
-# Of a text with the line ends of any system; as a file in memory it would be four times as large.
-_LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
+# Tables and blocks of a file, kind and base problem of its cases, settings that replace its own.
+_Read = tuple[dict[str, Any], list[tuple[str, Any]], Kind, dict[str, Any] | None, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -99,39 +96,43 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     path = Path(path)
     changed = {name: value for name, value in changed.items() if value is not None}
     source = read_text(path)
-    if path.suffix == ".csv":
-        if "temperature" in changed:
-            raise InputError(f"{path} states cases without dimensions, which have no temperature")
-        rows = _Listed(path, source)
-        try:
-            kind = KINDS[kind_of_columns(set(rows.names))]
-        except ValueError as error:
-            raise InputError(f"{path}: {error}") from None
-        tables: dict[str, Any] = {}
-        blocks: list[tuple[str, Any]] = [("list", rows)]
-        base = None
-    else:
-        tables = parse_toml(source, path)
-        unknown = tables.keys() - set(_KEYS)
-        if unknown:
-            raise InputError(
-                f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
-            )
-        blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
-        blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
-        if not blocks:
-            raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
-        if "temperature" in changed:
-            tables["temperature"] = changed.pop("temperature")
-        own = (*_own(path, tables), *changed.get("own", ()))
-        changed |= {"own": own} if own else {}
-        kind, base = _kind(path, tables, blocks, own)
+    read = _from_csv if path.suffix == ".csv" else _from_toml
+    tables, blocks, kind, base, changed = read(path, source, changed)
     settings = _settings(path, tables.get("settings", {}), changed)
     return replace(
         _planned(str(path), kind, blocks, settings, base),
         source=source,
         suffix=".csv" if path.suffix == ".csv" else ".toml",
     )
+
+
+def _from_csv(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+    if "temperature" in changed:
+        raise InputError(f"{path} states cases without dimensions, which have no temperature")
+    rows = Listed(path, source)
+    try:
+        kind = KINDS[kind_of_columns(set(rows.names))]
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    return {}, [("list", rows)], kind, None, changed
+
+
+def _from_toml(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+    tables = parse_toml(source, path)
+    unknown = tables.keys() - set(_KEYS)
+    if unknown:
+        raise InputError(
+            f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
+        )
+    blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
+    blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
+    if not blocks:
+        raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+    if "temperature" in changed:
+        tables["temperature"] = changed.pop("temperature")
+    own = (*_own(path, tables), *changed.get("own", ()))
+    kind, base = _kind(path, tables, blocks, own)
+    return tables, blocks, kind, base, changed | ({"own": own} if own else {})
 
 
 def space_filling(
@@ -246,64 +247,11 @@ def restored_kind(
     return KINDS[name]
 
 
-def read_words(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    """Return the names in the first row of a CSV file, and the other rows with their lines.
-
-    Rows are read as they are asked for; one that is wrong is refused then.
-    """
-    return _words(path, read_text(path))
-
-
-def _words(path: Path, text: str) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    rows = _filled(path, text)
-    names = [name.strip() for name in next(rows, (0, []))[1]]
-    first = next(rows, None)
-    if first is None or len(set(names)) != len(names):
-        raise InputError(
-            f"{path}: needs a first row of different column names and a case a row below it"
-        )
-
-    def checked() -> Iterator[tuple[int, list[str]]]:
-        for line, row in chain([first], rows):
-            if len(row) != len(names):
-                raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
-            yield line, row
-
-    return names, checked()
-
-
-def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a text in CSV that are not empty, with their lines; the first as it is."""
-    reader = csv.reader(found[0] for found in _LINE.finditer(text))
-    try:
-        yield 1, next(reader, [])
-        for row in reader:
-            if any(x.strip() for x in row):
-                yield reader.line_num, row
-    except csv.Error as error:
-        raise InputError(f"{path}, line {reader.line_num}: {error}") from None
-
-
-class _Listed:
-    """The rows of a CSV file of numbers, each with its line; read anew each time."""
-
-    def __init__(self, path: Path, text: str) -> None:
-        self.path, self._text = path, text
-        self.names = list(_named(dict.fromkeys(_words(path, text)[0])))
-
-    def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
-        for line, row in _words(self.path, self._text)[1]:
-            try:
-                yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
-            except ValueError as error:
-                raise InputError(f"{self.path}, line {line}: {error}; inputs are numbers") from None
-
-
-def _listed(path: Path, block: Mapping[str, Any]) -> _Listed:
+def _listed(path: Path, block: Mapping[str, Any]) -> Listed:
     if block.keys() != {"file"}:
         raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
     file = path.parent / str(block["file"])
-    return _Listed(file, read_text(file))
+    return Listed(file, read_text(file))
 
 
 def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
@@ -365,17 +313,6 @@ def _inputs(key: str, block: Any) -> set[str]:
     return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
 
 
-def _named(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values by the paths that numbers have now; one that is stated twice is refused."""
-    found: dict[str, Any] = {}
-    for name, value in values.items():
-        new = upgraded_path(name)
-        if new in found:
-            raise InputError(f"{new} is stated twice, also as {name}; leave out one")
-        found[new] = value
-    return found
-
-
 def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Return a block with dotted names: TOML reads ``protocol.speed = 1`` as a table."""
     found: dict[str, Any] = {}
@@ -385,7 +322,7 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             found |= _flat(value, f"{prefix}{key}.")
         else:
             found[f"{prefix}{key}"] = value
-    return found if prefix else _named(found)
+    return found if prefix else renamed(found)
 
 
 def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:
@@ -458,7 +395,7 @@ def _read(kind: Kind, values: Mapping[str, Any]) -> dict[str, Any]:
     return {name: read(name, given) for name, given in values.items()}
 
 
-def _checked(rows: _Listed, kind: Kind) -> Iterator[dict[str, float]]:
+def _checked(rows: Listed, kind: Kind) -> Iterator[dict[str, float]]:
     for line, row in rows:
         try:
             kind.problem(row)
