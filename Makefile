@@ -10,7 +10,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors lint types bench verification clean
+.PHONY: demo test test-slow test-outside test-processors lint types bench mutants verification clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -49,6 +49,12 @@ lint: $(VENV)/.installed
 
 types: $(VENV)/.installed
 	$(BIN)/pyright
+
+# SEED draws which; a log keeps what was judged, so that it may be stopped.
+SEED ?= 1
+mutants: $(VENV)/.installed
+	$(INSTALL) --editable ".[mutants]"
+	$(BIN)/python benchmarks/mutants.py --seed $(SEED) --log out/mutants-$(SEED).jsonl
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -1,26 +1,23 @@
-"""Campaigns put to the test: `python benchmarks/campaign.py [speed overhead kill cluster disk]`.
+"""Campaigns put to the test: `python benchmarks/campaign.py [speed overhead million ...]`.
 
 speed: 1,000 cases like those of the thesis on two cores. overhead: stand-ins for cases that take no
-time, up to 1e5. kill: the same 1,000 cases through 50 kills at random instants. cluster: the same
-on a Dask cluster of two processes, one of which is killed half way. disk: a full disk. All compare
-their tables with that of an undisturbed run, wall times aside.
+time, up to 1e5; million: a million of them, with status, export and verify. cluster: the 1,000 on a
+Dask cluster of two processes, one of which is killed half way, compared with the first table, wall
+times aside. flips: 2,000 bits turned. disk: a full disk. Kills are in kills.py.
 """
 
 from __future__ import annotations
 
 import argparse
-import ctypes
 import os
 import random
 import resource
-import signal
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import replace
+from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter, sleep
 from typing import Any
@@ -33,8 +30,6 @@ from viscotack.campaign import CaseSettings, Plan, Progress, Store, read_plan, r
 PLAN = Path(__file__).parent / "plans/thesis_like.toml"
 WORKERS = 2
 PUBLISHED_SIZE = 8505
-# What a child says before the number of its stored cases.
-STORED = "stored"
 
 
 def stand_in(problem: Any, settings: CaseSettings) -> dict[str, Any]:
@@ -43,16 +38,6 @@ def stand_in(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     row: dict[str, Any] = {"status": "detached", "outcome": "detached", "versions": "none"}
     row |= {f"number_{i}": float(i) for i in range(24)}
     return row | {f"trajectory_{name}": curve for name in ("depth", "force", "contact_radius")}
-
-
-def trouble(problem: Any, settings: CaseSettings) -> dict[str, Any]:
-    """Do the same, but for one case in a hundred that waits in C, and another that dies."""
-    number = int(1e6 * problem.rate) % 100
-    if number == 3:
-        ctypes.PyDLL(None).sleep(1000)  # and lets no other thread do anything
-    if number == 4:
-        os._exit(1)
-    return stand_in(problem, settings)
 
 
 def table(folder: Path) -> Any:
@@ -141,7 +126,7 @@ def million(root: Path, cases: int) -> None:
 
 def part_of_million(folder: Path, part: str, cases: int) -> None:
     """Do one part, and say how much memory this process had at most."""
-    from viscotack.campaign import export, verify
+    from viscotack.campaign import export
 
     if part == "run":
         began = perf_counter()
@@ -169,100 +154,6 @@ def part_of_million(folder: Path, part: str, cases: int) -> None:
                 print(f"{(folder / f'table{ending}').stat().st_size / 1e6:.0f} MB", end=", ")
                 (folder / f"table{ending}").unlink()
     print(f"this process {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
-
-
-def harassed(fast: bool) -> tuple[Plan, dict[str, Any]]:
-    """Return what is run under kills: the real thing, or stand-ins that are stored one by one."""
-    if fast:
-        plan = many(600)
-        limits = replace(plan.settings, time_limit=0.3)
-        return replace(plan, settings=limits), {"work": trouble, "store_every": 0.02}
-    return read_plan(PLAN), {"store_every": 0.2}
-
-
-def child(folder: Path, fast: bool) -> None:
-    """Run a plan and say what was stored, until somebody kills this process."""
-
-    def say(now: Progress) -> None:
-        print(STORED, now.done, flush=True)
-
-    plan, options = harassed(fast)
-    run(plan, folder, workers=WORKERS, report=say, **options)
-
-
-SORTS = ("parent", "worker", "group", "sigterm to the group")
-
-
-def strike(started: subprocess.Popen[str], sort: str, chance: random.Random) -> None:
-    """Kill a run, its whole group or one of its workers; or ask all of them to end."""
-    if sort == "worker":
-        task = Path(f"/proc/{started.pid}/task/{started.pid}/children")
-        workers = task.read_text().split() if task.exists() else []
-        if workers:
-            with suppress(ProcessLookupError):
-                os.kill(int(chance.choice(workers)), signal.SIGKILL)
-        sleep(chance.uniform(0.0, 0.5))
-        started.kill()
-    elif sort == "parent":
-        started.kill()
-    else:
-        with suppress(ProcessLookupError):
-            os.killpg(started.pid, signal.SIGKILL if sort == "group" else signal.SIGTERM)
-
-
-def kill(root: Path, reference: Path, kills: int, *, fast: bool, seed: int = 2026) -> None:
-    """Kill a run at random instants, in turn as each of the sorts; then let it finish."""
-    folder, chance = root / f"killed-{fast}", random.Random(seed)
-    command = [sys.executable, __file__, "child", "--folder", str(folder)]
-    told, met, known = 0, 0, set(orphans())
-    for number in range(kills):
-        started = subprocess.Popen(
-            [*command, *(["--fast"] if fast else [])],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            start_new_session=True,
-        )
-        # one in five in the start, the others in the middle of things
-        assert started.stdout is not None
-        lines = (line for line in started.stdout if int(line.split()[1]) > told)
-        first = next(lines, "") if number % 5 else ""
-        sleep(chance.uniform(0.0, 1.0 if fast else 4.0))
-        met += started.poll() is None
-        strike(started, SORTS[number % len(SORTS)], chance)
-        words = (first + (started.communicate()[0] or "")).split()
-        told = max([told, *map(int, words[1::2])])
-        if (folder / "provenance.json").exists():
-            assert not verify(Store(folder)).wrong
-            done, _ = Store(folder).finished()
-            assert len(done) >= told, f"kill {number}: {told} were reported, {len(done)} are stored"
-            assert len(done) == Store(folder).results().num_rows, "a case is stored twice"
-    sleep(1.0)
-    assert not set(orphans()) - known, "a worker has outlived its run"
-    before = len(Store(folder).finished()[0])
-    plan, options = harassed(fast)
-    end = run(plan, folder, workers=WORKERS, **options)
-    ours, theirs = (Store(place).finished()[1] for place in (folder, reference))
-    assert ours == theirs, f"failures differ: {ours}, {theirs}"
-    assert end.failed == len(ours)
-    print(
-        f"{kills} kills, {met} of them met a run; {before} cases were stored by then, none lost "
-        f"that was reported; {same(folder, reference)}"
-    )
-
-
-def orphans() -> list[int]:
-    """Return workers whose parent, a run, has gone."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*"):
-        try:
-            command = (path / "cmdline").read_bytes()
-            parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
-        except (OSError, IndexError):
-            continue
-        if b"viscotack.campaign.worker" in command and parent == 1:
-            found.append(int(path.name))
-    return found
 
 
 @contextmanager
@@ -359,7 +250,7 @@ def disk(root: Path) -> None:
         subprocess.run(["umount", str(place)], check=True)
 
 
-PARTS = ("speed", "overhead", "million", "kill", "flips", "cluster", "disk")
+PARTS = ("speed", "overhead", "million", "flips", "cluster", "disk")
 
 
 def main() -> None:
@@ -368,30 +259,20 @@ def main() -> None:
     parser.add_argument("parts", nargs="*", help=", ".join(PARTS), default=[])
     parser.add_argument("--cases", type=int, default=1_000_000)
     parser.add_argument("--part", help=argparse.SUPPRESS)
-    parser.add_argument("--kills", type=int, default=50)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
-    parser.add_argument("--fast", action="store_true", help="kill runs of stand-ins only")
     chosen = parser.parse_args()
     if chosen.parts == ["child"] and chosen.part:
         return part_of_million(chosen.folder, chosen.part, chosen.cases)
-    if chosen.parts == ["child"]:
-        return child(chosen.folder, chosen.fast)
     parts = chosen.parts or PARTS
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     with tempfile.TemporaryDirectory() as name:
         root = Path(name)
-        solved = {"speed", "kill", "cluster"} & set(parts) and not chosen.fast
+        solved = {"speed", "cluster"} & set(parts)
         reference = speed(root) if solved else root
         if "overhead" in parts:
             overhead(root)
         if "million" in parts:
             million(root, chosen.cases)
-        if "kill" in parts:
-            if not chosen.fast:
-                kill(root, reference, chosen.kills, fast=False)
-            plan, options = harassed(True)
-            run(plan, root / "stand-ins", workers=WORKERS, **options)
-            kill(root, root / "stand-ins", chosen.kills, fast=True)
         if "flips" in parts:
             flips(root)
         if "cluster" in parts:

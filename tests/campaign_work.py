@@ -1,6 +1,8 @@
 """Stand-ins for the solution of a case, importable by workers, and a crew within this process."""
 
+import atexit
 import ctypes
+import json
 import os
 import signal
 from contextlib import contextmanager
@@ -41,6 +43,12 @@ def rounded(problem, settings):
 def slow(problem, settings):
     """Do the same in about 20 ms."""
     sleep(0.02)
+    return stand_in(problem, settings)
+
+
+def unhurried(problem, settings):
+    """Do the same in about 0.1 s."""
+    sleep(0.1)
     return stand_in(problem, settings)
 
 
@@ -125,6 +133,18 @@ def threads(problem, settings):
     return row | {"blas": max(pool["num_threads"] for pool in threadpool_info())}
 
 
+def brief(problem, settings):
+    """Take a moment."""
+    sleep(0.05)
+    return stand_in(problem, settings)
+
+
+def last_words(problem, settings):
+    """Leave a file when the process ends by itself."""
+    atexit.register(Path(os.environ["CAMPAIGN_TEST_LAST_WORDS"], "last words").touch)
+    return {}
+
+
 def bare(problem, settings):
     """Be said to come from elsewhere."""
 
@@ -178,7 +198,7 @@ class InlineCrew:
         return 2 * self.count + 1 - len(self.waiting)
 
     def hand(self, number, problem):
-        rate = float(problem.split('"rate": ')[1].split(",")[0].rstrip("}"))
+        rate = json.loads(problem).get("rate")
         if rate in self.deaths:
             self.deaths.remove(rate)
             self.alone.append(not self.waiting)

@@ -1,9 +1,13 @@
+import importlib
 import json
+import pkgutil
+from dataclasses import is_dataclass
 
 import numpy as np
 import pytest
 
 import synthetic
+import viscotack.campaign
 from viscotack import InputError, pull_off, pull_off_force, run_id, solve, to_dict
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
@@ -15,6 +19,17 @@ from viscotack.campaign.case import (
 
 PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
+
+
+def test_what_is_stated_is_frozen():
+    working = {"_Machine", "_Worker", "Tally"}  # count as they go
+    found = {}
+    for module in pkgutil.iter_modules(viscotack.campaign.__path__, "viscotack.campaign."):
+        things = vars(importlib.import_module(module.name)).values()
+        found |= {x.__name__: x for x in things if isinstance(x, type) and is_dataclass(x)}
+    assert {"Plan", "Part", "Lost", "Kind", "Answer", "Verdict"} <= found.keys()
+    thawed = {name for name, kind in found.items() if not kind.__dataclass_params__.frozen}
+    assert thawed == working
 
 
 def exact_force(depth):

@@ -13,7 +13,16 @@ from pathlib import Path
 
 import pytest
 
-from campaign_work import InlineCrew, employ, plan_of, slow, stand_in, told, trouble
+from campaign_work import (
+    InlineCrew,
+    employ,
+    plan_of,
+    slow,
+    stand_in,
+    told,
+    trouble,
+    unhurried,
+)
 from viscotack import InputError
 from viscotack.campaign import NoWorker, Store, cluster, run, supervisor
 from viscotack.campaign.cluster import Security, security_of
@@ -60,6 +69,13 @@ class Cluster:
         self.workers += [
             subprocess.Popen(command, env=env, cwd=self.folder, **self.quiet) for _ in range(count)
         ]
+
+    def await_workers(self, count):
+        """Wait until the scheduler knows so many."""
+        from distributed import Client
+
+        with Client(self.address, set_as_default=False) as client:
+            until(lambda: len(client.nthreads()) == count)
 
     def end(self):
         for process in [*self.workers, self.scheduler]:
@@ -147,6 +163,13 @@ def altered(folder):
     return os.pathsep.join([str(HERE), str(folder)])
 
 
+def broken_package(folder):
+    """Return the path of a program that cannot begin."""
+    (folder / "viscotack").mkdir(parents=True)
+    (folder / "viscotack/__init__.py").write_text("raise ImportError('half an installation')\n")
+    return str(folder)
+
+
 def test_no_worker_no_case(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "_FIRST", 5.0)
     plan = plan_of(tmp_path, cases=4)
@@ -155,10 +178,14 @@ def test_no_worker_no_case(tmp_path, monkeypatch):
         with pytest.raises(NoWorker, match="answers, but it has no workers; start some with"):
             run(plan, tmp_path / "a", scheduler=dask.address, work=stand_in)
         assert time.monotonic() - began < 15
-        # one with altered physics, and one that has no such package at all
+        # one with altered physics, and one whose package cannot be imported
         dask.hire(1, altered(tmp_path / "altered"))
-        with pytest.raises(NoWorker, match=r"of another program: source \S+ and not \S+"):
+        dask.hire(1, broken_package(tmp_path / "broken"))
+        dask.await_workers(2)
+        with pytest.raises(NoWorker, match="of another program") as caught:
             run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in)
+        words = str(caught.value)
+        assert "source " in words and "it cannot begin: ImportError: half an installation" in words
         assert Store(tmp_path / "b").failures().num_rows == 0
         # beside one that is fit it is given nothing
         dask.hire(1)
@@ -190,6 +217,29 @@ def test_limits_bind_on_a_cluster_too(tmp_path, monkeypatch):
         (7.0, "worker died"),
         (11.0, "time limit"),
     }
+
+
+@pytest.mark.slow
+def test_a_thousand_cases_over_tls_with_workers_replaced_every_5_s_are_the_local_table(
+    tmp_path, monkeypatch, certificates
+):
+    plan, replaced = plan_of(tmp_path, cases=1000), [(time.monotonic(), 0)]
+    with held(tmp_path, certificates) as dask:
+        dask.hire(4)
+
+        def replace(now):
+            # on a machine that is busy a worker takes longer to begin, and another one is awaited
+            if time.monotonic() - replaced[-1][0] > 5.0 and now.done > replaced[-1][1]:
+                oldest = dask.workers[len(replaced) - 1]
+                oldest.send_signal(signal.SIGKILL if len(replaced) % 2 else signal.SIGTERM)
+                dask.hire()
+                replaced.append((time.monotonic(), now.done))
+
+        options = {"security": security_of(*certificates), "store_every": 0.5}
+        options |= {"scheduler": dask.address, "work": unhurried, "report": replace}
+        end = run(plan, tmp_path / "c", **options)
+    assert (end.done, end.failed) == (1000, 0) and len(replaced) > 5
+    assert told(tmp_path / "c") == told_by_one_process(tmp_path, plan, monkeypatch)
 
 
 @pytest.mark.slow

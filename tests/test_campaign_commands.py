@@ -105,6 +105,14 @@ def test_a_run_that_was_stopped_has_another_exit_status(cases, tmp_path, monkeyp
     assert "is safe" in capsys.readouterr().err
 
 
+def test_cases_without_a_result_have_an_exit_status(tmp_path, crew, capsys):
+    rows = [",".join(INPUTS), ",".join(ROWS[0]), ",".join(ROWS[0]).replace("2.0", "-90")]
+    (tmp_path / "cases.csv").write_text("\n".join(rows) + "\n")
+    words = ["run", tmp_path / "cases.csv", "--out", tmp_path / "study", "--accuracy", 0.02]
+    assert call(*words) == 4
+    assert "1 of 2 cases done, 1 failed, 0 left" in capsys.readouterr().out
+
+
 def test_progress_in_words():
     now = Progress(100, 40, 1, rate=2.04, remaining_s=61.2, elapsed_s=20)
     assert _progress_words(now) == (
@@ -138,6 +146,6 @@ def test_a_missing_extra_is_named(cases, tmp_path, monkeypatch, capsys):
 
 
 def test_the_commands_explain_themselves(capsys):
-    for command in ("plan", "run", "status", "verify", "merge", "export"):
+    for command in ("inputs", "plan", "run", "status", "verify", "merge", "export"):
         assert call(command, "--help") == 0
         assert "Example: viscotack campaign" in " ".join(capsys.readouterr().out.split())

@@ -10,7 +10,7 @@ from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
-from viscotack.campaign.design import fill, grid
+from viscotack.campaign.design import METHODS, Tally, accepted, fill, grid
 from viscotack.campaign.running import expected_costs
 from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
@@ -66,6 +66,17 @@ def test_a_row_of_a_csv_file_is_the_problem_that_the_flags_state(tmp_path):
     assert case.inputs == INPUTS
     assert case.name == run_id(questions.stated(questions.SPHERE, flags))
     assert plan.settings == CaseSettings() and plan.suffix == ".csv"
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_table_has_the_line_ends_of_any_system(tmp_path, end):
+    rows = [HEADER.strip(), "1,0.1,0.8,5,10", "", '1,0.1,0.8,5,"20"']
+    path = tmp_path / "cases.csv"
+    path.write_bytes(end.join(rows).encode())
+    assert columns(read_plan(path).cases, "rate").tolist() == [10.0, 20.0]
+    path.write_bytes(end.join([*rows, "1,0.1,0.8,deep,20"]).encode() + end.encode())
+    with pytest.raises(ValueError, match="line 5: .*'deep'"):
+        read_plan(path)
 
 
 def test_a_preload_may_be_a_force_or_a_radius(tmp_path):
@@ -127,6 +138,72 @@ def test_equal_shares_fall_between_the_values_of_a_range():
     x = np.array([row["x"] for row in rows])
     assert np.mean(x < 1) == 0.5 and np.mean(x < 5.5) == 0.75
     assert np.mean([row["y"] == 1 for row in rows]) == 0.75
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"x": float("inf")}, "x must be finite"),
+        ({"x": []}, "x must be a number or a list"),
+        ({"x": True}, "x must be a number or a list"),
+        ({"x": "1 m"}, "x must be a number or a list"),
+        ({"x": {"log": [0, 1], "count": 3}}, "a log range must be positive"),
+        ({"x": {"log": [1, 2], "count": 0}}, "needs its count"),
+        ({"x": {"log": [1, 2], "count": 2.0}}, "needs its count"),
+        ({"x": {"linear": [1], "count": 2}}, "two or more rising values"),
+        ({"x": {"linear": [1, 2], "log": [1, 2], "count": 2}}, "x must be a number,"),
+        ({"x": {"linear": [1, 2], "weights": [1], "count": 2}}, "x must be a number,"),
+        ({"x": {"choose": [1, 2], "weights": [1], "count": 2}}, "needs a weight"),
+        ({"x": {"choose": [1, 2], "weights": [1, -1], "count": 2}}, "needs a weight"),
+        ({"x": {"choose": [1, 2], "weights": [float("nan"), 1], "count": 2}}, "must be finite"),
+    ],
+)
+def test_values_that_cannot_be_are_refused(given, words):
+    with pytest.raises(ValueError, match=words):
+        list(grid(given))
+
+
+def test_ranges_are_as_wide_as_they_are_written():
+    (row,) = grid({"x": {"log": [2, 32], "count": 1}, "y": {"choose": [3, 4]} | {"count": 1}})
+    assert row == {"x": 2.0, "y": 3.0}
+    rows = list(grid({"x": {"log": [1, 4, 64], "count": 5}, "y": {"linear": [-1, -1], "count": 1}}))
+    assert [r["x"] for r in rows] == [1.0, 2.0, 4.0, 16.0, 64.0] and rows[0]["y"] == -1.0
+    third = fill({"x": {"choose": [1, 2, 3], "weights": [1, 0, 1]}}, cases=8)
+    assert {next(third)["x"] for _ in range(64)} == {1.0, 3.0}
+    # nine digits, so that machines name the same cases
+    (x,) = [next(fill({"x": {"linear": [0, 1]}}, cases=1, seed=3))["x"]]
+    assert x == float(f"{x:.9g}")
+
+
+def test_a_plan_has_an_end(tmp_path):
+    wide = {"log": [1, 2], "count": 4000}
+    for values in ({"x": {"log": [1, 2], "count": 10**15}}, dict.fromkeys("xyz", wide)):
+        with pytest.raises(
+            ValueError, match="a plan has at most 10000000 cases, and this is one of"
+        ):
+            next(grid(values))
+    for method in ("sobol", "latin-hypercube"):
+        path = written(tmp_path, sphere_fill(10**13, method=f'"{method}"'))
+        with pytest.raises(ValueError, match=r"block 1 .*at most 10000000 cases.* of 1e\+13"):
+            read_plan(path)
+    assert len([*grid(dict.fromkeys("xy", {"log": [1, 2], "count": 30}))]) == 900
+    # a hypercube that is drawn in several blocks is one
+    points = [row["x"] for row in fill({"x": {"linear": [0, 1]}}, cases=3000, method=METHODS[1])]
+    assert np.array_equal(np.sort(np.floor(np.array(points) * 3000)), np.arange(3000))
+
+
+def test_the_search_for_contacts_ends_where_next_to_none_is():
+    tally = Tally()
+    numbers = [{"x": float(i)} for i in range(2000)]
+    few = accepted(iter(numbers), lambda row: "" if row["x"] == 5 else "none", 10, tally)
+    with pytest.raises(ValueError, match="only 1 of the first 202 points .*not: none"):
+        list(few)
+    assert (tally.rejected, tally.why) == (201, "none")
+    # one in fifty is enough, and no more are drawn than are wanted
+    rest = iter(numbers)
+    found = [*accepted(rest, lambda row: "" if row["x"] % 50 == 0 else "none", 10, Tally())]
+    assert [row["x"] for row in found] == [50.0 * i for i in range(10)]
+    assert next(rest)["x"] == 451.0
 
 
 def test_what_is_not_a_contact_is_rejected_before_it_is_run(tmp_path):
@@ -215,12 +292,24 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         ("p.toml", f"[[grid]]\n{CASE.replace('10', '{ log = [1, 2] }')}", "needs its count"),
         ("p.toml", f"[[fill]]\ncases = 3\n{CASE}", "at least one range"),
         ("p.toml", f"[[fill]]\n{CASE}", "needs cases ="),
-        ("p.toml", sphere_fill(3, rate="{ log = [-1, 1] }"), "log range must be positive"),
+        ("p.toml", sphere_fill(3, preload="{ log = [-1, 1] }"), "log range must be positive"),
+        ("p.toml", sphere_fill(3, rate="{ log = [-1, 1] }"), "rate must be positive, got -1.0 h0"),
+        ("p.toml", sphere_fill(3, seed="-1"), "needs cases = a whole number.*-1"),
+        ("p.toml", sphere_fill("true"), "needs cases = a whole number"),
+        (
+            "p.toml",
+            f"[[grid]]\n{CASE.replace('= 5', '= [-90, -80]')}",
+            "none of its 2 points is a contact.*The first: there is no relaxed contact",
+        ),
         ("p.toml", sphere_fill(3, rate="{ log = [2, 1] }"), "rising values"),
         ("p.toml", sphere_fill(3, rate="{ lin = [2, 1] }"), "must be|has the inputs"),
         ("p.toml", sphere_fill(3, rate="{ choose = [2], weights = [0] }"), "needs a weight"),
         ("p.toml", sphere_fill(3, method='"halton"'), "method must be one of sobol"),
-        ("p.toml", sphere_fill(3, preload="{ linear = [-90, -80] }"), "only 0 of the first"),
+        (
+            "p.toml",
+            sphere_fill(3, preload="{ linear = [-90, -80] }"),
+            "only 0 of the first .* first that is not: there is no relaxed",
+        ),
         ("p.toml", '[[list]]\nfil = "x.csv"', 'needs file = "cases.csv"'),
         ("c.csv", "", "first row of different column names"),
         ("c.csv", "tabor,rate\n1,2\n", "columns .* are of no kind; known are sphere: tabor"),
@@ -258,7 +347,7 @@ def test_cases_written_as_a_table_are_the_same_plan(tmp_path):
 
 def test_the_plans_of_the_docs_are_plans(tmp_path):
     page = (Path(__file__).parents[1] / "docs/campaigns.md").read_text()
-    table, whole, lens = re.findall(
+    table, whole, lens, pad = re.findall(
         r"```(?:toml)?\n((?:tabor|kind|problem).*?)```", page, re.DOTALL
     )
     written(tmp_path, LENS, "lens.toml")
@@ -267,6 +356,9 @@ def test_the_plans_of_the_docs_are_plans(tmp_path):
     plan = read_plan(written(tmp_path, whole.replace("cases = 10000", "cases = 16")))
     assert len(plan.cases) == 3 * 5 * 13 + 2 + 16
     assert len(read_plan(written(tmp_path, lens)).cases) == 14
+    own = Path(__file__).parents[1] / "examples/from_toml/pad.toml"
+    written(tmp_path, own.read_text().replace("frictionless", "bonded"), "pad.toml")
+    assert len(read_plan(written(tmp_path, pad.replace("1000", "16"))).cases) == 16
 
 
 def test_the_plan_of_the_benchmark_has_the_statistics_of_the_thesis():

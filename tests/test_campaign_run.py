@@ -1,10 +1,11 @@
 import errno
 import os
-import random
 import signal
 import subprocess
 import sys
-import time
+import threading
+from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -19,10 +20,9 @@ from campaign_work import (
     picky,
     plan_of,
     rounded,
-    slow,
     stand_in,
 )
-from viscotack.campaign import AllCrashed, Store, read_plan, run
+from viscotack.campaign import AllCrashed, Store, run
 from viscotack.campaign.crew import Gone
 from viscotack.campaign.running import PASSING
 
@@ -137,14 +137,27 @@ def test_what_is_reported_done_is_stored(tmp_path, crew):
     assert len(reports) > 10 and reports[-1] == 16
 
 
-def test_the_remaining_time_is_told(tmp_path, crew):
-    seen = []
-    plan = plan_of(tmp_path, cases=40)
-    run(plan, tmp_path / "c", work=slow, report=seen.append, store_every=0.0)
-    halfway = seen[len(seen) // 2]
-    assert 0.3 < halfway.remaining_s / halfway.elapsed_s < 3
-    assert seen[-1].remaining_s == pytest.approx(0, abs=1e-9)
-    assert seen[-1].rate > 10 and seen[-1].peak_memory > 1e6
+def test_the_remaining_time_is_told(tmp_path, crew, monkeypatch):
+    # a clock on which each case takes half a second, of which it says 0.2 s
+    now, collect, seen = [100.0], crew.collect, []
+
+    def ticking(seconds):
+        now[0] += 0.5
+        return [(number, replace(a, wall_time_s=0.2)) for number, a in collect(seconds)]
+
+    monkeypatch.setattr(crew, "collect", ticking)
+    monkeypatch.setattr(import_module("viscotack.campaign.running"), "perf_counter", lambda: now[0])
+    options = {"work": stand_in, "report": seen.append, "store_every": 0.0}
+    run(plan_of(tmp_path, cases=40), tmp_path / "c", **options)
+    assert [report.done for report in seen] == [*range(1, 41), 40]
+    for report in seen[:40]:
+        assert report.elapsed_s == report.done / 2 and report.rate == 2.0
+        # all cases cost about the same, and the first ones a little more
+        assert report.remaining_s == pytest.approx((40 - report.done) / 2, rel=0.08, abs=1e-9)
+        assert report.remaining_s <= (40 - report.done) / 2 + 1e-9
+        assert report.worker_use == pytest.approx(0.2 * report.done / report.elapsed_s / 2)
+        assert report.peak_memory > 1e6
+    assert seen[10].remaining_s < seen[9].remaining_s
 
 
 def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
@@ -156,6 +169,13 @@ def test_ctrl_c_finishes_the_cases_in_flight(tmp_path, crew):
     assert signal.getsignal(signal.SIGINT) is before
     assert run(plan, folder, work=stand_in).done == 20
     assert table(folder).equals(table_of_undisturbed(tmp_path))
+
+
+def test_ctrl_c_ends_a_run_for_which_no_worker_has_come(tmp_path, crew, monkeypatch):
+    monkeypatch.setattr(crew, "room", lambda: 0)
+    monkeypatch.setattr(crew, "collect", lambda _: os.kill(os.getpid(), signal.SIGINT) or [])
+    end = run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+    assert end.stopped and end.done == 0
 
 
 def test_the_second_ctrl_c_ends_at_once_and_keeps_what_has_come_back(tmp_path, crew, monkeypatch):
@@ -234,6 +254,35 @@ def test_a_full_disk_ends_the_run_and_leaves_a_store_that_opens(tmp_path, crew, 
     assert not set(crew.done) & set(stored)
 
 
+def test_a_run_in_a_thread_leaves_signals_to_the_program(tmp_path, crew):
+    ended = []
+
+    def work():
+        ended.append(run(plan_of(tmp_path, cases=3), tmp_path / "c", work=stand_in))
+
+    before = signal.getsignal(signal.SIGTERM)
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join(60)
+    assert ended[0].done == 3 and signal.getsignal(signal.SIGTERM) is before
+
+
+def test_what_is_stored_at_once_has_an_end(tmp_path, crew, monkeypatch):
+    monkeypatch.setattr(import_module("viscotack.campaign.running"), "_PART", 7)
+    run(plan_of(tmp_path), tmp_path / "c", work=picky, store_every=1e9)
+    store = Store(tmp_path / "c")
+    sizes = [
+        sum(
+            part.rows
+            for parts in store.parts().values()
+            for part in parts.kept()
+            if part.span[0] == n
+        )
+        for n in (1, 2, 3)
+    ]
+    assert sizes == [7, 7, 6]
+
+
 def test_a_run_says_who_made_it(tmp_path, crew):
     run(plan_of(tmp_path), tmp_path / "c", work=stand_in, workers=2)
     (made,) = Store(tmp_path / "c").provenance["runs"]
@@ -294,31 +343,6 @@ def child(folder):
 def news(started, told):
     """Return the first number that a child reports above what was told; "0" if it ends before."""
     return next((line for line in started.stdout if int(line) > told), "0")
-
-
-@pytest.mark.slow
-def test_random_kills_lose_nothing_that_was_reported_and_duplicate_nothing(tmp_path):
-    chance, told = random.Random(8), 0
-    for number in range(8):
-        started = child(tmp_path)
-        # one in four in the start, the others in the middle of things
-        words = [news(started, told)] if number % 4 else []
-        time.sleep(chance.uniform(0.0, 1.0))
-        started.kill()
-        words += started.communicate()[0].split()
-        told = max([told, *map(int, words)])
-        if (tmp_path / "c/provenance.json").exists():
-            done, failed = Store(tmp_path / "c").finished()
-            assert len(done) >= told and not failed
-            assert Store(tmp_path / "c").results().num_rows == len(done)
-    assert told > 0, "no run came as far as to store something"
-    left = 400 - len(Store(tmp_path / "c").finished()[0])
-    plan = read_plan(tmp_path / "plan.toml")
-    assert run(plan, tmp_path / "c", workers=2, work=stand_in).done == 400
-    if left:
-        assert Store(tmp_path / "c").provenance["runs"][-1]["to_run"] == left
-    run(plan, tmp_path / "d", workers=2, work=stand_in)
-    assert table(tmp_path / "c").equals(table(tmp_path / "d"))
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """Shards of one plan in folders of their own, and one folder of all."""
 
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -84,6 +85,32 @@ def test_what_does_not_belong_together_is_not_merged(tmp_path, crew, monkeypatch
         merge([one], one)
 
 
+def test_rows_of_an_earlier_plan_are_merged_too_and_once(tmp_path, crew):
+    run(plan_of(tmp_path, cases=5), tmp_path / "a", work=stand_in)
+    run(plan_of(tmp_path, cases=2), tmp_path / "a", work=stand_in)
+    run(plan_of(tmp_path, cases=4), tmp_path / "b", work=stand_in)
+    run(plan_of(tmp_path, cases=1), tmp_path / "b", work=stand_in)
+    store = merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
+    assert len(store.plan().cases) == 2
+    assert sorted(store.results().column("rate").to_pylist()) == [1, 2, 3, 4, 5]
+    assert sum(part.rows for part in store.parts()["results"].kept()) == 5
+
+
+def test_campaigns_of_another_kind_are_not_merged(tmp_path, crew):
+    run(plan_of(tmp_path / "p", cases=2), tmp_path / "a", work=stand_in)
+    other = plan_of(tmp_path / "q", cases=2)
+    run(replace(other, kind=replace(other.kind, name="punch")), tmp_path / "b", work=stand_in)
+    with pytest.raises(InputError, match="hold cases of another kind: they are no shards"):
+        merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
+    run(
+        plan_of(tmp_path / "r", cases=2, text='settings.until = "detached"'),
+        tmp_path / "c",
+        work=stand_in,
+    )
+    with pytest.raises(InputError, match="has until = pull-off, .* has detached"):
+        merge([tmp_path / "a", tmp_path / "c"], tmp_path / "m")
+
+
 def test_a_result_of_one_folder_stands_before_the_failure_of_another(tmp_path, crew):
     plan = plan_of(tmp_path, cases=10)
     run(plan, tmp_path / "a", work=picky)
@@ -94,6 +121,51 @@ def test_a_result_of_one_folder_stands_before_the_failure_of_another(tmp_path, c
         str(tmp_path / "a"),
         str(tmp_path / "b"),
     ]
+
+
+class Killed(BaseException):
+    """The process ends here."""
+
+
+def test_a_merge_that_was_killed_goes_on(tmp_path, crew, monkeypatch):
+    folders, out = shards(tmp_path, plan_of(tmp_path, cases=20)), tmp_path / "m"
+    whole = told(merge(folders, tmp_path / "undisturbed").folder)
+    add, left = Store.add, []
+
+    def kill(*arguments):
+        if not left:
+            raise Killed
+        left.pop()
+        add(*arguments)
+
+    monkeypatch.setattr(Store, "add", kill)
+    for survived in (0, 1, 2, 3, 4):
+        left += [True] * survived
+        with pytest.raises(Killed):
+            merge(folders, out)
+        # what is there by then is not taken for all of it
+        with pytest.raises(InputError, match="holds a merge of .*shard-1, .* that has not ended"):
+            run(None, out, work=stand_in)
+        with pytest.raises(InputError, match="that has not ended"):
+            run(plan_of(tmp_path), out, work=stand_in)
+        assert "a merge that has not ended" in verify(Store(out)).wrong[0]
+        with pytest.raises(InputError, match="give the same folders in the same order"):
+            merge(folders[:2], out)
+    left += [True] * 99
+    merge(folders, out)
+    assert told(out) == whole and not verify(Store(out)).wrong
+    with pytest.raises(InputError, match="holds a campaign already"):
+        merge(folders, out)
+
+
+def test_shards_that_have_cases_in_common_are_merged_once(tmp_path, crew):
+    plan = plan_of(tmp_path, cases=7)
+    one, two = shards(tmp_path, plan, count=2, work=stand_in)
+    run(plan, tmp_path / "all", work=stand_in)
+    store = merge([two, tmp_path / "all", one, two], tmp_path / "m")
+    assert not verify(store).wrong and store.results().num_rows == 7
+    # shards of one plan keep its order in whatever order they are given
+    assert merge([two, one, two], tmp_path / "n").plan().cases == plan.cases
 
 
 def test_the_commands_share_and_merge(tmp_path, crew, capsys):

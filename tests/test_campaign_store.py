@@ -1,8 +1,10 @@
 import errno
 import json
 import os
+import random
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pyarrow as pa
@@ -11,7 +13,8 @@ from scipy.io import loadmat
 
 from campaign_work import plan_of
 from viscotack.campaign import CaseSettings, Store, export
-from viscotack.campaign.parts import Ledger, Parts, parquet, table_of
+from viscotack.campaign.cases import Case, Cases
+from viscotack.campaign.parts import Ledger, Part, Parts, adopted, parquet, table_of
 from viscotack.files.lock import FolderInUse, locked
 
 
@@ -167,16 +170,19 @@ def test_old_parts_go_only_when_the_merged_one_is_safe(tmp_path, monkeypatch):
         assert merged in there and [part.name for part in kept] == [merged]
 
 
-def test_a_reader_follows_a_merge(tmp_path, monkeypatch):
+@pytest.mark.parametrize("read", [1, 2, 3])
+def test_a_reader_follows_a_merge(tmp_path, monkeypatch, read):
     monkeypatch.setattr("viscotack.campaign.parts._MERGED", 4)
-    parts = table_in(tmp_path)
-    appended(parts, 3)
+    parts, rows = table_in(tmp_path), [{"name": f"case {i}"} for i in range(12)]
+    for begin in (0, 3, 6):
+        parts.append(rows[begin : begin + 3])
     tables = parts.tables()
-    first = next(tables).column("name").to_pylist()
-    appended(table_in(tmp_path, parts.book), 1, begin=3)
+    told = [name for _ in range(read) for name in next(tables).column("name").to_pylist()]
+    table_in(tmp_path, parts.book).append(rows[9:])
     assert len(files(parts)) == 1
-    rest = [name for table in tables for name in table.column("name").to_pylist()]
-    assert first + rest == [f"case {i}" for i in range(4)]
+    # every row once, whatever was read before and in however large a part the others are now
+    told += [name for table in tables for name in table.column("name").to_pylist()]
+    assert told == [f"case {i}" for i in range(12 if read < 3 else 9)]
 
 
 def test_a_damaged_part_is_named(tmp_path):
@@ -204,6 +210,95 @@ def test_pages_have_checksums_of_their_own(tmp_path):
         from viscotack.campaign.parts import _parsed
 
         _parsed(tmp_path / "a.parquet", bytes(content), None)
+
+
+@pytest.mark.parametrize(
+    "name", ["notes.txt", "000002-000001.parquet", "1-2.parquet", "000001-000001.parquet.bak"]
+)
+def test_a_part_has_the_name_of_one(name):
+    with pytest.raises(ValueError, match=f"{name}' is no name of a part"):
+        Part(name, "", 1).span  # noqa: B018
+    assert Part("000002-000031.parquet", "", 1).span == (2, 31)
+
+
+def test_rows_that_were_not_written_are_missed(tmp_path):
+    parts = table_in(tmp_path)
+    appended(parts, 1)
+    (part,) = parts.kept()
+    assert parts.checked(part).num_rows == 1
+    with pytest.raises(ValueError, match="has 1 rows, 2 were written"):
+        parts.checked(Part(part.name, part.sha256, 2))
+    (tmp_path / part.name).unlink()
+    (tmp_path / part.name).mkdir()
+    with pytest.raises(ValueError, match="cannot be read: Is a directory"):
+        parts.read()
+
+
+def test_a_column_is_of_one_type(tmp_path):
+    rows = [{"a": True, "b": 1, "c": 1, "d": "w", "e": [1], "f": None}, {"b": 2, "c": 0.5}]
+    table = table_of(rows)
+    types = [str(field.type) for field in table.schema]
+    assert types == ["bool", "int64", "double", "string", "list<item: double>", "null"]
+    assert table.to_pylist()[0] == {**rows[0], "c": 1.0, "e": [1.0]}
+    kept = pa.parquet.read_table(pa.BufferReader(parquet(lambda: iter([table]))))
+    assert kept.equals(table)
+
+
+def test_a_store_that_has_lost_its_cases_says_so(tmp_path):
+    Store.create(tmp_path, plan_of(tmp_path / "p", cases=3))
+    (tmp_path / "cases.parquet").unlink()
+    with pytest.raises(ValueError, match="has lost its cases.parquet; run again with the plan"):
+        Store(tmp_path).plan()
+    assert len(Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)).plan().cases) == 3
+
+
+def test_drafts_are_tidied_away_and_nothing_else(tmp_path):
+    store = Store.create(tmp_path, plan_of(tmp_path / "p", cases=3))
+    store.add([{"name": "x"}], [])
+    strangers = [tmp_path / "notes.txt", tmp_path / "results/.viscotack-1.draft"]
+    drafts = [
+        tmp_path / ".viscotack-0123abcd.draft",
+        tmp_path / "results/.viscotack-0123abcd.draft",
+    ]
+    for path in (*strangers, *drafts):
+        path.write_text("")
+    store.tidy()
+    assert all(path.exists() for path in strangers) and not any(path.exists() for path in drafts)
+
+
+def test_many_cases_are_kept_in_several_blocks(tmp_path, monkeypatch):
+    monkeypatch.setattr("viscotack.campaign.cases._BLOCK", 3)
+    monkeypatch.setattr("viscotack.campaign.store._WRITTEN", 4)
+    stated = [Case(f"{i:016x}", {"a": float(i)} | ({"b": 2.0} if i > 4 else {})) for i in range(11)]
+    cases = Cases.of(iter(stated))
+    assert [*cases] == stated and len(cases) == 11 and cases[3] == stated[3]
+    assert [*cases[2:4]] == stated[2:4] and [*cases[np.array([7, 1])]] == [stated[7], stated[1]]
+    assert [*Cases.of([*stated[:2], *stated]).first_of_each()] == stated
+    wanted = [stated[10].name, "of nobody", stated[0].name]
+    assert cases.places(wanted).tolist() == [10, -1, 0]
+    assert Cases.of(()).places(wanted).tolist() == [-1] * 3 and not [*Cases.of(())]
+    assert cases == Cases.of(stated) and cases != stated
+    for other in (stated[1:], [*stated[:-1], Case(stated[-1].name, {"a": 0.0, "b": 2.0})]):
+        assert cases != Cases.of(other)
+    plan = replace(plan_of(tmp_path / "p"), cases=cases)
+    assert Store.create(tmp_path, plan).plan().cases == cases
+
+
+def test_parts_of_version_0_1_are_known_by_their_names(tmp_path):
+    for span in ((1, 1), (2, 2), (3, 4), (3, 3), (4, 4), (5, 7), (6, 6), (9, 9)):
+        rows = [{"name": f"of {span[0]}"}] * (span[1] - span[0] + 1)
+        path = tmp_path / f"{span[0]:06d}-{span[1]:06d}.parquet"
+        path.write_bytes(parquet(lambda rows=rows: iter([table_of(rows)])))
+    for name in ("000008-000007.parquet", "000010-000010 (copy).parquet", "notes.txt"):
+        (tmp_path / name).write_text("of somebody")
+    ledger = adopted(tmp_path)
+    # what was merged into a larger part lies within it, and does not count twice
+    assert [part.span for part in ledger.kept] == [(1, 1), (2, 2), (3, 4), (5, 7), (9, 9)]
+    assert [part.rows for part in ledger.kept] == [1, 1, 2, 3, 1]
+    assert adopted(tmp_path / "nowhere") == Ledger()
+    (tmp_path / "000006-000008.parquet").write_bytes(b"")
+    with pytest.raises(ValueError, match="000006-000008.*000005-000007.*overlap, which no run"):
+        adopted(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -325,6 +420,25 @@ def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
         Store.create(tmp_path, plan_of(tmp_path / "p", text='settings.until = "detached"'))
 
 
+def test_rows_that_are_too_many_to_be_held_are_sorted_on_the_disk(tmp_path, monkeypatch):
+    plan = plan_of(tmp_path, cases=23)
+    store = Store.create(tmp_path, plan)
+    rows = [{"name": c.name, "rate": c.inputs["rate"], "curve": [1.0] * 3} for c in plan.cases]
+    random.Random(3).shuffle(rows)
+    for begin in range(0, 20, 5):
+        store.add(rows[begin : begin + 5], [])
+    store.add([{"name": "of an earlier plan", "word": "w", "curve": [2.0] * 7}], [])
+    whole = store.results()
+    monkeypatch.setattr("viscotack.campaign.ordering._HELD", 4)
+    with store.ordered_results() as ordered:
+        chunks = [*ordered.chunks()]
+        assert (ordered.rows, ordered.widths) == (21, {"curve": 7})
+    assert [len(chunk) for chunk in chunks] == [4, 4, 4, 4, 4, 1]
+    assert pa.concat_tables(chunks).equals(whole)
+    stated = [c.name for c in plan.cases if c.name in {row["name"] for row in rows[:20]}]
+    assert whole.column("name").to_pylist() == [*stated, "of an earlier plan"]
+
+
 def test_failures_never_enter_the_results(tmp_path):
     plan = plan_of(tmp_path, cases=4)
     store = Store.create(tmp_path, plan)
@@ -389,3 +503,13 @@ def test_an_export_says_what_it_cannot_do(tmp_path):
         export(table_of(TABLE), tmp_path / "t.xls")
     with pytest.raises(ValueError, match="has no rows"):
         export(pa.table({}), tmp_path / "t.csv")
+
+
+def test_a_matlab_file_has_an_end(tmp_path, monkeypatch):
+    # two rows of four numbers and a list of two
+    monkeypatch.setattr("viscotack.campaign.exporting._MOST_MAT", 8 * 2 * (4 + 2))
+    export(table_of(TABLE), tmp_path / "t.mat")
+    monkeypatch.setattr("viscotack.campaign.exporting._MOST_MAT", 8 * 2 * (4 + 2) - 1)
+    with pytest.raises(ValueError, match="2 rows are 0 MB, more than the 0 MB .*--parquet or"):
+        export(table_of(TABLE), tmp_path / "u.mat")
+    assert not (tmp_path / "u.mat").exists()

@@ -3,10 +3,11 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 import pytest
@@ -15,9 +16,11 @@ import synthetic
 from campaign_work import (
     at_rest,
     bare,
+    brief,
     deadly,
     growing,
     holding,
+    last_words,
     plan_of,
     stand_in,
     stubborn,
@@ -30,6 +33,7 @@ from viscotack.campaign.case import Answer
 from viscotack.campaign.crew import Lost
 from viscotack.campaign.memory import peak_memory, resident_memory
 from viscotack.campaign.supervisor import local
+from viscotack.campaign.worker import Line
 
 HERE = Path(__file__).parent
 PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
@@ -139,6 +143,51 @@ def test_a_case_that_takes_too_much_memory_is_ended():
     assert peak_memory() > 1e6
 
 
+def test_workers_end_by_themselves_when_the_run_has_ended_and_at_once_when_it_has_failed(
+    tmp_path, monkeypatch
+):
+    for name, end in (("peace", nullcontext()), ("failure", pytest.raises(RuntimeError))):
+        (tmp_path / name).mkdir()
+        monkeypatch.setenv("CAMPAIGN_TEST_LAST_WORDS", str(tmp_path / name))
+        with end, local(last_words, CaseSettings(), 1) as crew:
+            ready(crew)
+            crew.hand(0, PROBLEM)
+            assert answer_of(crew).failure == ""
+            if name == "failure":
+                raise RuntimeError("the run has failed")
+        assert not crew.processes()
+    assert [path.name for path in tmp_path.glob("*/last words")] == ["last words"]
+    assert (tmp_path / "peace/last words").exists()
+
+
+def test_the_memory_of_a_process_that_is_not_there_is_none(monkeypatch):
+    assert resident_memory(99_999_999) == 0.0
+    assert resident_memory() > 1e7 and peak_memory() >= 0.9 * resident_memory()
+    monkeypatch.setattr(Path, "read_text", lambda _: "no such line")
+    assert peak_memory() == resident_memory() == 0.0
+
+
+def test_the_limits_of_a_case_begin_with_it(monkeypatch):
+    # neither the time at rest nor what an earlier case took is counted
+    now = [1000.0]
+    monkeypatch.setattr(supervisor, "monotonic", lambda: now[0])
+    monkeypatch.setattr(supervisor, "_LONGEST", 0.5)
+    with local(brief, CaseSettings(time_limit=1.0), 1) as crew:
+        while not crew.room():
+            crew.collect(0.0)
+            time.sleep(0.02)
+        for number in range(3):
+            for _ in range(4):
+                now[0] += 0.4
+                assert crew.collect(0.0) == []
+            crew.hand(number, PROBLEM)
+            found = []
+            while not found:
+                found = crew.collect(0.0)
+                time.sleep(0.02)
+            assert found[0][1].row is not None
+
+
 def test_a_worker_that_dies_takes_its_own_case_along():
     with local(waiting, CaseSettings(), 2) as crew:
         ready(crew)
@@ -157,6 +206,25 @@ def test_a_worker_that_dies_at_rest_costs_no_case():
         ready(crew)
         crew.hand(0, PROBLEM)
         assert answer_of(crew).row is not None
+
+
+def test_a_message_that_nobody_takes_does_not_hold_the_supervisor():
+    ours, theirs = socket.socketpair()
+    with theirs:
+        line, began = Line(ours), time.monotonic()
+        with pytest.raises(OSError):
+            line.send("x" * 10_000_000, 0.2)
+        assert 0.2 <= time.monotonic() - began < 5.0
+        line.close()
+    ours, theirs = socket.socketpair()
+    with theirs:
+        line, other = Line(ours), Line(theirs)
+        line.send("one", 5.0)
+        # the next one has all the time of the world
+        assert ours.gettimeout() is None
+        line.send("two")
+        assert other.receive() == ["one", "two"]
+        line.close()
 
 
 def test_workers_are_deaf_to_what_ends_their_parent_and_have_one_thread():
@@ -180,6 +248,25 @@ def test_a_worker_that_cannot_begin_ends_the_run(tmp_path, monkeypatch):
     monkeypatch.setattr(supervisor, "_START", 0.2)
     with pytest.raises(NoWorker, match="did not begin in 0.2 s"):
         run(plan_of(tmp_path), tmp_path / "c", work=stand_in)
+
+
+def test_three_starts_in_a_row_that_come_to_nothing_end_a_run(monkeypatch):
+    good, wanted, asked = supervisor._program, ["bad", "bad", "good", "bad", "bad", "bad"], []
+
+    def program(handle):
+        asked.append(wanted[len(asked)])
+        return good(handle) if asked[-1] == "good" else "raise SystemExit(3)"
+
+    monkeypatch.setattr(supervisor, "_program", program)
+    with local(stand_in, CaseSettings(), 1) as crew:
+        ready(crew)
+        assert asked == wanted[:3]
+        os.kill(crew.processes()[0], signal.SIGKILL)
+        while crew.processes():
+            assert crew.collect(0.1) == []
+        with pytest.raises(NoWorker, match="3 worker processes in a row.*ended with status 3"):
+            ready(crew)
+    assert asked == wanted
 
 
 def test_a_worker_of_another_program_is_given_nothing(tmp_path, monkeypatch):
@@ -269,29 +356,6 @@ def test_no_worker_outlives_its_parent(tmp_path, work):
         process.kill()
         process.wait()
         until(lambda: not any(map(lives, workers)), seconds=5.0)
-
-
-@LINUX
-def test_cases_that_hang_kill_and_work_end_as_they_should(tmp_path):
-    end = run(
-        plan_of(tmp_path, cases=20, text="settings.time_limit = 0.3"),
-        tmp_path / "c",
-        workers=2,
-        work=deadly_or_hanging(),
-    )
-    assert (end.done, end.failed) == (18, 2)
-    failures = Store(tmp_path / "c").failures().to_pylist()
-    assert {(row["rate"], row["failure"]) for row in failures} == {
-        (7.0, "worker died"),
-        (11.0, "time limit"),
-    }
-    assert all("viscotack" in row["versions"] for row in failures)
-
-
-def deadly_or_hanging():
-    from campaign_work import trouble
-
-    return trouble
 
 
 def test_the_death_of_a_worker_is_in_the_words(tmp_path):

@@ -13,7 +13,8 @@ import pytest
 from campaign_work import InlineCrew, employ, flipped, picky, plan_of, stand_in, told
 from command_line import exit_status
 from viscotack import InputError
-from viscotack.campaign import FolderInUse, Store, read_plan, run, verify
+from viscotack.campaign import FolderInUse, Store, Verdict, read_plan, run, verify
+from viscotack.campaign.provenance import write_provenance
 from viscotack.files import lock
 from viscotack.files.lock import locked
 from viscotack.files.whole import write_new
@@ -106,6 +107,61 @@ def test_settings_that_were_edited_are_refused(study):
     assert Store(study).results().num_rows == 16
 
 
+def test_cases_of_another_campaign_are_refused(study, tmp_path):
+    (tmp_path / "d").mkdir()
+    Store.create(tmp_path / "d", plan_of(tmp_path / "p", cases=9))
+    shutil.copy(tmp_path / "d/cases.parquet", study / "cases.parquet")
+    for use in (Store.plan, Store.results, Store.failures):
+        with pytest.raises(InputError, match="cases.parquet is damaged: it is not what was writ"):
+            use(Store(study))
+
+
+def test_a_provenance_of_something_else_is_refused(study):
+    for change, words in (
+        (lambda content: content.update(format="a diary"), "damaged: it is of another kind"),
+        (lambda content: content.pop("format"), "damaged: 'format'"),
+        (lambda content: content.update(runs=["x" * 60_000_000]), "damaged: it is far too long"),
+    ):
+        before = (study / "provenance.json").read_bytes()
+        edited(study, change)
+        with pytest.raises(InputError, match=words):
+            Store(study)
+        (study / "provenance.json").write_bytes(before)
+    assert Store(study).results().num_rows == 16
+    (study / "provenance.json").unlink()
+    with pytest.raises(InputError, match="holds no campaign"):
+        Store(study)
+
+
+@pytest.mark.parametrize("parts", [{}, {"results": {}}, {"results": {"kept": 1}}, {"results": 3}])
+def test_a_ledger_that_is_none_is_refused(study, parts):
+    write_provenance(study, {**Store(study).provenance, "parts": parts})
+    with pytest.raises(InputError, match="provenance.json is damaged"):
+        Store(study).results()
+
+
+def test_the_inputs_of_every_row_are_those_of_its_case(tmp_path, crew):
+    plan = plan_of(tmp_path, cases=4)
+    inputs = [case.inputs for case in plan.cases]
+    for number, (column, value) in enumerate((("rate", 9.0), ("tabor", None), ("preload", 5.0))):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        rows = [{"name": case.name, **case.inputs} for case in plan.cases]
+        for row in rows[1:] if column != "preload" else ():
+            row[column] = value
+        rows.append({"name": "of an earlier plan", "rate": 77.0})
+        Store.create(folder, plan).add(rows, [])
+        wrong = verify(Store(folder)).wrong
+        assert len(wrong) == (column != "preload"), wrong
+        assert not wrong or f"{column} of a row is not that of its case" in wrong[0]
+    # a column that a part has not at all says nothing against it
+    (tmp_path / "e").mkdir()
+    Store.create(tmp_path / "e", plan).add([{"name": plan.cases[0].name}], [])
+    assert not verify(Store(tmp_path / "e")).wrong and inputs[0]["rate"] == 1.0
+    Store(tmp_path / "e").add([{"name": plan.cases[1].name, "tabor": None}], [])
+    assert "tabor of a row" in verify(Store(tmp_path / "e")).wrong[0]
+
+
 @pytest.mark.parametrize("version", [0, -1, "2", None, 1.5])
 def test_versions_that_never_were_are_refused(study, version):
     edited(study, lambda content: content.update(format_version=version))
@@ -185,6 +241,24 @@ def test_rows_that_are_stored_twice_are_read_once(tmp_path, crew):
     table = Store(folder).results()
     assert table.num_rows == 4 and table.column("pull_off_force").to_pylist()[2] == 1 / 3
     assert "1 cases are stored more than once" in verify(Store(folder)).wrong[0]
+
+
+def test_a_case_that_has_failed_again_is_no_fault(tmp_path, crew):
+    folder, plan = tmp_path / "c", plan_of(tmp_path, cases=6)
+    for _ in range(2):
+        run(plan, folder, work=picky, retry=True)
+    verdict = verify(Store(folder))
+    assert verdict.rows == 5 + 2 and not verdict.wrong and Store(folder).failures().num_rows == 1
+
+
+def test_a_campaign_without_results_is_verified(tmp_path, crew):
+    plan = plan_of(tmp_path, cases=2)
+    (tmp_path / "c").mkdir()
+    Store.create(tmp_path / "c", plan)
+    assert verify(Store(tmp_path / "c")) == Verdict(2, 0, (), ())
+    failed = {"name": plan.cases[0].name, "failure": "refused", "reason": "no contact"}
+    Store(tmp_path / "c").add([], [failed])
+    assert verify(Store(tmp_path / "c")) == Verdict(3, 1, (), ())
 
 
 def test_a_row_of_another_case_is_found(tmp_path, crew):

@@ -6,7 +6,8 @@ from .case import CaseSettings, measure
 from .cluster import Security
 from .crew import NoWorker
 from .exporting import export
-from .plan import Plan, read_plan
+from .inputs import Input, inputs_of
+from .plan import Plan, every_combination, read_plan, space_filling
 from .running import AllCrashed, Progress, run
 from .sharing import merge, shard_of
 from .store import Store
@@ -16,17 +17,21 @@ __all__ = [
     "AllCrashed",
     "CaseSettings",
     "FolderInUse",
+    "Input",
     "NoWorker",
     "Plan",
     "Progress",
     "Security",
     "Store",
     "Verdict",
+    "every_combination",
     "export",
+    "inputs_of",
     "measure",
     "merge",
     "read_plan",
     "run",
     "shard_of",
+    "space_filling",
     "verify",
 ]

@@ -7,8 +7,9 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-# Bytes of a name by content, and how many cases are gathered before they are put into an array.
-_NAME, _BLOCK = 16, 4096
+# Bytes of a name by content, and how many cases are gathered before they are put into arrays: those
+# of so many numbers the system takes back when they have been joined.
+_NAME, _BLOCK = 16, 20_000
 
 
 @dataclass(frozen=True)
@@ -45,23 +46,24 @@ class Cases(Sequence[Case]):
     @classmethod
     def of(cls, cases: Iterable[Case]) -> "Cases":
         """Return cases that were made one by one; they may be more than there is room for twice."""
-        names: list[npt.NDArray] = []
-        blocks: list[dict[str, npt.NDArray]] = []
+        found = []
         for block in _blocks(cases):
-            names.append(packed(case.name for case in block))
             given = dict.fromkeys(name for case in block for name in case.inputs)
-            blocks.append(
-                {n: np.array([c.inputs.get(n, np.nan) for c in block], float) for n in given}
-            )
-        every = dict.fromkeys(name for block in blocks for name in block)
-        sizes = [len(block) for block in names]
+            columns = {n: np.array([c.inputs.get(n, np.nan) for c in block], float) for n in given}
+            found.append(cls(packed(case.name for case in block), columns))
+        return cls.joined(found)
+
+    @classmethod
+    def joined(cls, several: "Sequence[Cases]") -> "Cases":
+        """Return cases one behind another; they need not have the same inputs."""
+        every = dict.fromkeys(name for cases in several for name in cases.columns)
         columns = {
             name: np.concatenate(
-                [b.get(name, np.full(n, np.nan)) for b, n in zip(blocks, sizes, strict=True)]
+                [cases.columns.get(name, np.full(len(cases), np.nan)) for cases in several]
             )
             for name in every
         }
-        return cls(np.concatenate(names) if names else packed(()), columns)
+        return cls(np.concatenate([c.names for c in several]) if several else packed(()), columns)
 
     def __len__(self) -> int:
         return len(self.names)

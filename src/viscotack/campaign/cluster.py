@@ -30,6 +30,9 @@ _AHEAD = 1
 # Seconds in which an answer that is ready comes over the wire.
 _FETCH = 3.0
 _THREAD = threading.local()
+# Asks a worker who it is. In words: over a function that it cannot import it would break down and
+# leave without saying why.
+_WHO = "__import__('importlib').import_module('viscotack.campaign.identity').identity()"
 
 
 @dataclass(frozen=True)
@@ -133,13 +136,11 @@ class DaskCrew:
         machine = self._machines.get(address)
         if machine is not None:
             machine.flying.discard(what)
-        if future.status == "error":
-            error = future.exception(timeout=_FETCH)
-            self._dismiss(address, f"{type(error).__name__}: {error}")
-            yield what, Lost(f"its worker {address} cannot do it: {error}", blame=False)
-            return
-        answer = self._fetched(future)
-        if answer is None:
+        answer = _fetched(future)
+        if isinstance(answer, Exception):
+            self._dismiss(address, f"{type(answer).__name__}: {answer}")
+            yield what, Lost(f"its worker {address} cannot do it: {answer}", blame=False)
+        elif answer is None:
             self._check_connection()
             future.cancel()
             yield what, Lost(f"its worker {address} left with its answer", blame=False)
@@ -148,17 +149,6 @@ class DaskCrew:
             yield what, Lost(f"its worker {address} is of another program: {answer}", blame=False)
         else:
             yield what, answer
-
-    def _fetched(self, future: Any) -> Answer | Lost | str | None:
-        """Return what a future holds; None where that is gone, for it lies where it was made."""
-        from distributed import CancelledError
-
-        if future.status != "finished":
-            return None
-        try:
-            return future.result(timeout=_FETCH)
-        except (CancelledError, TimeoutError, OSError, LookupError):
-            return None
 
     def _dismiss(self, address: str, why: str) -> None:
         """Give a machine nothing any more."""
@@ -170,9 +160,12 @@ class DaskCrew:
         machine = self._machines.get(address)
         if machine is None or machine.probe is not future or future.cancelled():
             return
-        if (error := future.exception()) is not None:
-            self._dismiss(address, f"it cannot begin: {type(error).__name__}: {error}")
-        elif words := difference(future.result(), identity()):
+        found = _fetched(future)
+        if found is None:
+            del self._machines[address]  # if it is there still it is asked again
+        elif isinstance(found, Exception):
+            self._dismiss(address, f"it cannot begin: {type(found).__name__}: {found}")
+        elif words := difference(found, identity()):
             self._dismiss(address, f"it is of another program: {words}")
         else:
             machine.fit = self._ever = True
@@ -193,7 +186,7 @@ class DaskCrew:
         for address, threads in there.items():
             if address not in self._machines:
                 probe = self._client.submit(
-                    identity, workers=[address], allow_other_workers=False, pure=False
+                    eval, _WHO, workers=[address], allow_other_workers=False, pure=False
                 )
                 self._machines[address] = _Machine(threads, probe)
                 probe.add_done_callback(
@@ -245,6 +238,20 @@ class DaskCrew:
             "the connection to the scheduler was lost; what is stored is safe: run again when it "
             "is back"
         )
+
+
+def _fetched(future: Any) -> Any:
+    """Return what a future holds, an error too; None where that is gone: it lies where it was."""
+    from distributed import CancelledError
+
+    try:
+        if future.status == "error":
+            return future.exception(timeout=_FETCH)
+        if future.status == "finished":
+            return future.result(timeout=_FETCH)
+    except (CancelledError, TimeoutError, OSError, LookupError):
+        pass
+    return None
 
 
 def do_case(

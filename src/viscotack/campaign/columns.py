@@ -6,23 +6,23 @@ of a standard solid; with
 ``problem = "FILE.toml"`` any number of that problem in SI is an input, named by its path.
 """
 
-import copy
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from viscotack.bem import has_start
-from viscotack.cards import Quantity, card_of, cards
+from viscotack.cards import card_of, cards
 from viscotack.errors import InputError
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
-from viscotack.problem import Groups, PunchGroups, revolution
-from viscotack.problem.older import upgraded_path
-from viscotack.problem.record import from_dict, to_dict
+from viscotack.problem import Groups, Problem, PunchGroups, revolution
+from viscotack.problem.record import to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
+
+from .inputs import Input, check_paths, inputs_of, made
 
 Inputs = Mapping[str, float]
 
@@ -43,6 +43,10 @@ class Kind:
         Inputs of which a case has exactly one; () for none.
     cost : mapping
         Powers of the inputs to which the time of a case is about proportional; for the order.
+    inputs : mapping
+        What they are and what they are measured in, by name.
+    in_si : bool
+        Whether that is a unit of the world, so that they may be text, "5 mm".
     """
 
     name: str
@@ -50,6 +54,8 @@ class Kind:
     problem: Callable[[Inputs], Any]
     choices: tuple[str, ...] = ()
     cost: Mapping[str, float] = field(default_factory=dict)
+    inputs: Mapping[str, Input] = field(default_factory=lambda: INPUTS)
+    in_si: bool = False
 
     def check(self, given: set[str]) -> None:
         """Refuse input names that do not state a case of this kind."""
@@ -97,8 +103,8 @@ def _test(inputs: Inputs, solid: Any) -> dict[str, Any]:
     return {"material": material, "start": start, "rate": inputs["rate"]}
 
 
-def _cards() -> dict[str, tuple[Quantity, str]]:
-    """Return the card of every input, and its unit in a case."""
+def _inputs() -> dict[str, Input]:
+    """Return the inputs of all kinds, with their cards and units."""
     of, punch = cards(Groups), cards(PunchGroups)
     units = revolution.GROUPS
     found = {
@@ -111,13 +117,13 @@ def _cards() -> dict[str, tuple[Quantity, str]]:
     found |= {name: (punch[name].card, punch[name].card.unit) for name in ("size", "thickness")}
     found["cohesion"] = (punch["cohesion"].card, "1")
     for name, start in _STARTS.items():
-        (field,) = cards(start).values()
-        found[name] = (field.card, units[field.card.measure])
-    return found
+        (entry,) = cards(start).values()
+        found[name] = (entry.card, units[entry.card.measure])
+    return {name: Input(name, None, unit, card) for name, (card, unit) in found.items()}
 
 
 # What an input is, and what it is measured in; forces of a punch are stresses in sigma0.
-INPUTS = _cards()
+INPUTS = _inputs()
 
 
 def has_relaxed_contact(problem: Any) -> bool:
@@ -194,41 +200,12 @@ def kind_of_problem(base: Any, names: set[str], also: Iterable[Any] = ()) -> Kin
     >>> kind_of_problem(base, {"start.depth"}).problem({"start.depth": 20.0}).start
     AtDepth(depth=20.0)
     """
-    record = to_dict(base)
-    for name in names:
-        _put(copy.deepcopy(record), name, 0.0)
+    check_paths(base, names)
+    known = inputs_of(base)
     return Kind(
         name="problem",
         columns=tuple(sorted(names)),
-        problem=partial(_replaced, record, tuple(also)),
-    )
-
-
-def _replaced(record: dict[str, Any], also: tuple[Any, ...], inputs: Inputs) -> Any:
-    changed = copy.deepcopy(record)
-    for name, value in inputs.items():
-        _put(changed, name, float(value))
-    return from_dict(changed, also)
-
-
-def _put(record: Any, path: str, value: float) -> None:
-    """Replace the number at a path such as ``material.branches.0.1`` in a record."""
-    *way, last = upgraded_path(path).split(".")
-    at = record
-    for step in way:
-        at = _entry(at, step, path)
-    old = _entry(at, last, path)
-    if isinstance(old, bool) or not isinstance(old, int | float):
-        raise InputError(f"{path} is not a number of the problem but {old!r:.60}")
-    at[int(last) if isinstance(at, list) else last] = value
-
-
-def _entry(at: Any, step: str, path: str) -> Any:
-    if isinstance(at, dict) and step in at:
-        return at[step]
-    if isinstance(at, list) and step.isdigit() and int(step) < len(at):
-        return at[int(step)]
-    known = [k for k in at if k != "type"] if isinstance(at, dict) else range(len(at or []))
-    raise InputError(
-        f"the problem has no number {path!r}: at {step!r} there is {', '.join(map(str, known))}"
+        problem=partial(made, to_dict(base), known, tuple(also)),
+        inputs=known,
+        in_si=isinstance(base, Problem),
     )

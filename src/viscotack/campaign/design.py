@@ -5,9 +5,10 @@ With more than two values, equal shares of the points lie between neighbours: th
 equally spaced quantiles, and any distribution can be stated.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,8 @@ _BLOCK = 10
 # Values of a range are rounded to these digits: cases are named by their numbers, and the last
 # digit of an exponential is not the same on every machine.
 _DIGITS = 9
+# Cases that a plan may have: they are made before the first is run.
+_MOST = 10_000_000
 # A region in which fewer points than this share are contacts is not worth being searched.
 _LEAST_ACCEPTED = 1e-2
 
@@ -39,6 +42,7 @@ def grid(values: Mapping[str, Any]) -> Iterator[dict[str, float]]:
     [{'tabor': 1.0, 'rate': 1.0}, {'tabor': 1.0, 'rate': 10.0}, {'tabor': 1.0, 'rate': 100.0}]
     """
     lists = [_steps(name, given) for name, given in values.items()]
+    check_number(prod(map(len, lists)))
     for combination in product(*lists):
         yield dict(zip(values, combination, strict=True))
 
@@ -61,6 +65,7 @@ def fill(
     seed : int
         Of the scrambling.
     """
+    check_number(cases)
     if method not in METHODS:
         raise InputError(f"method must be one of {', '.join(METHODS)}, got {method!r}")
     makers = {name: _mapping(name, given) for name, given in values.items()}
@@ -72,31 +77,48 @@ def fill(
         yield {name: make(places.get(name, 0.0)) for name, make in makers.items()}
 
 
+def check_number(cases: int) -> None:
+    """Refuse more cases than a plan may have."""
+    if cases > _MOST:
+        raise InputError(
+            f"a plan has at most {_MOST} cases, and this is one of {cases:.3g}; make several of "
+            "it, with folders of their own"
+        )
+
+
 @dataclass
 class Tally:
-    """Counts points that are no contacts, and so are not run."""
+    """Counts points that are not run, and keeps why the first of them is not."""
 
     rejected: int = 0
+    why: str = ""
+
+    def note(self, why: str) -> None:
+        """Count a point."""
+        self.rejected, self.why = self.rejected + 1, self.why or why
 
 
 def accepted(
-    rows: Iterator[dict[str, float]], accept: Any, wanted: int | None, tally: Tally
+    rows: Iterator[dict[str, float]],
+    refusal: Callable[[dict[str, float]], str],
+    wanted: int | None,
+    tally: Tally,
 ) -> Iterator[dict[str, float]]:
-    """Yield the rows that are accepted, up to the wanted number, and count those that are not."""
+    """Yield the rows that nothing refuses, up to the wanted number, and count the others."""
     kept = rejected = 0
     for row in rows:
-        if accept(row):
+        if why := refusal(row):
+            rejected += 1
+            tally.note(why)
+        else:
             kept += 1
             yield row
-        else:
-            rejected += 1
-            tally.rejected += 1
         if wanted is not None and kept == wanted:
             break
         if rejected > 2 / _LEAST_ACCEPTED and kept < _LEAST_ACCEPTED * rejected:
             raise InputError(
                 f"only {kept} of the first {kept + rejected} points of a fill are contacts; "
-                "change its ranges"
+                f"change its ranges. The first that is not: {tally.why}"
             )
 
 
@@ -107,7 +129,9 @@ def _points(dimensions: int, cases: int, method: str, seed: int) -> Iterator[lis
     # The name that every supported version of scipy knows; the checker knows the newest only.
     generator: dict[str, Any] = {"seed": seed}
     if method == "latin-hypercube":
-        yield from qmc.LatinHypercube(dimensions, **generator).random(cases).tolist()
+        points = qmc.LatinHypercube(dimensions, **generator).random(cases)
+        for begin in range(0, cases, 2**_BLOCK):
+            yield from points[begin : begin + 2**_BLOCK].tolist()
         return
     sequence = qmc.Sobol(dimensions, **generator)
     while True:
@@ -119,6 +143,7 @@ def _steps(name: str, given: Any) -> list[float]:
         count = given.get("count")
         if not isinstance(count, int) or count < 1:
             raise InputError(f"{name}: a range of a grid needs its count, got {dict(given)}")
+        check_number(count)
         make = _mapping(name, {k: v for k, v in given.items() if k != "count"})
         places = np.linspace(0.0, 1.0, count) if count > 1 else [0.0]
         return [make(place) for place in places]

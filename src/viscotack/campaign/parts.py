@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
-from viscotack.files.whole import Target, is_draft, write_new, write_whole
+from viscotack.files.whole import is_draft, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
@@ -360,11 +360,6 @@ def parquet(tables: Callable[[], Iterator[Any]]) -> Any:
             writer.write_table(pa.concat_tables(both, promote_options="permissive"))
     pa.default_memory_pool().release_unused()
     return sink.getvalue()
-
-
-def write_table(table: Any, path: Target) -> None:
-    """Write a table to a Parquet file, whole or not at all, and durably."""
-    write_whole(path, parquet(lambda: iter([table])))
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:

@@ -1,12 +1,9 @@
 """A plan: which cases to run and how, from a TOML file or a bare CSV file."""
 
-import csv
-import io
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
-from itertools import chain
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +13,6 @@ from viscotack.files.text import read_text
 from viscotack.files.toml import parse_toml
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import own_nouns
-from viscotack.problem.older import upgraded_path
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 from ..units import parse
@@ -24,9 +20,13 @@ from .case import CaseSettings
 from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
+from .inputs import check_exponent
+from .listed import Listed, renamed
 from .own import digests
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
+# Tables and blocks of a file, kind and base problem of its cases, settings that replace its own.
+_Read = tuple[dict[str, Any], list[tuple[str, Any]], Kind, dict[str, Any] | None, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,8 @@ class Plan:
         Record of the problem in which inputs are replaced, with ``problem = "FILE.toml"``.
     rejected, repeated : int
         Points of grids and fills that are not contacts, and cases stated more than once.
+    refusal : str
+        Why the first of the points that were rejected was.
     source : str
         Text of the file; "" for a plan made otherwise.
     suffix : str
@@ -59,6 +61,7 @@ class Plan:
     base: dict[str, Any] | None = None
     rejected: int = 0
     repeated: int = 0
+    refusal: str = ""
     source: str = ""
     suffix: str = ".toml"
     shard: str | None = None
@@ -93,44 +96,142 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     path = Path(path)
     changed = {name: value for name, value in changed.items() if value is not None}
     source = read_text(path)
-    if path.suffix == ".csv":
-        if "temperature" in changed:
-            raise InputError(f"{path} states cases without dimensions, which have no temperature")
-        rows = _Listed(path, source)
-        try:
-            kind = KINDS[kind_of_columns(set(rows.names))]
-        except ValueError as error:
-            raise InputError(f"{path}: {error}") from None
-        tables: dict[str, Any] = {}
-        blocks: list[tuple[str, Any]] = [("list", rows)]
-        base = None
-    else:
-        tables = parse_toml(source, path)
-        unknown = tables.keys() - set(_KEYS)
-        if unknown:
-            raise InputError(
-                f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
-            )
-        blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
-        blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
-        if not blocks:
-            raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
-        if "temperature" in changed:
-            tables["temperature"] = changed.pop("temperature")
-        own = (*_own(path, tables), *changed.get("own", ()))
-        changed |= {"own": own} if own else {}
-        kind, base = _kind(path, tables, blocks, own)
+    read = _from_csv if path.suffix == ".csv" else _from_toml
+    tables, blocks, kind, base, changed = read(path, source, changed)
     settings = _settings(path, tables.get("settings", {}), changed)
-    cases, rejected, repeated = _cases(path, kind, blocks)
+    return replace(
+        _planned(str(path), kind, blocks, settings, base),
+        source=source,
+        suffix=".csv" if path.suffix == ".csv" else ".toml",
+    )
+
+
+def _from_csv(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+    if "temperature" in changed:
+        raise InputError(f"{path} states cases without dimensions, which have no temperature")
+    rows = Listed(path, source)
+    try:
+        kind = KINDS[kind_of_columns(set(rows.names))]
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+    return {}, [("list", rows)], kind, None, changed
+
+
+def _from_toml(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+    tables = parse_toml(source, path)
+    unknown = tables.keys() - set(_KEYS)
+    if unknown:
+        raise InputError(
+            f"{path}: unknown {', '.join(sorted(unknown))}; a plan has {', '.join(_KEYS)}"
+        )
+    blocks = [(key, b) for key in ("grid", "list", "fill") for b in _blocks(path, tables, key)]
+    blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
+    if not blocks:
+        raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
+    if "temperature" in changed:
+        tables["temperature"] = changed.pop("temperature")
+    own = (*_own(path, tables), *changed.get("own", ()))
+    kind, base = _kind(path, tables, blocks, own)
+    return tables, blocks, kind, base, changed | ({"own": own} if own else {})
+
+
+def space_filling(
+    problem: Any,
+    over: Mapping[str, Any],
+    *,
+    cases: int,
+    method: str = "sobol",
+    seed: int = 0,
+    settings: CaseSettings | None = None,
+) -> Plan:
+    """Return a plan of points that fill ranges of any numbers of a problem evenly.
+
+    Parameters
+    ----------
+    problem : Problem, Groups or PunchGroups
+        Shape, body, solid, law and history that all cases have; the numbers that are not varied.
+    over : mapping
+        Ranges by the paths of numbers, as in a file: ``{"geometry.radius": {"log": ["1 mm", "1
+        cm"]}}``; `inputs_of` returns the paths. Text with units where the problem is in SI.
+    cases, method, seed
+        As in a ``[[fill]]`` of a file.
+    settings : CaseSettings, optional
+        How cases are solved; those with files of the user's own, where the problem has any.
+
+    Raises
+    ------
+    ValueError
+        If a path is no number of the problem, a range is impossible, or next to no point of the
+        region is a contact.
+
+    Examples
+    --------
+    Cones of all slopes, after dwells of all lengths:
+
+    >>> from viscotack import AtDepth, Cone, Dwell, Elastic, LennardJones, Problem, Retraction
+    >>> soft = Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    >>> law = LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6)
+    >>> test = Retraction(start=AtDepth(2e-6), speed=1e-5, moves=(Dwell(1.0),))
+    >>> base = Problem(material=soft, traction=law, geometry=Cone(0.1), protocol=test)
+    >>> plan = space_filling(
+    ...     base,
+    ...     {
+    ...         "geometry.slope": {"log": [0.05, 0.2]},
+    ...         "protocol.moves.0.duration": {"log": ["1 s", "1 h"]},
+    ...     },
+    ...     cases=8,
+    ... )
+    >>> len(plan.cases), plan.rejected
+    (8, 0)
+    """
+    block = {**over, "cases": cases, "method": method, "seed": seed}
+    return _of_problem(problem, "fill", block, settings)
+
+
+def every_combination(
+    problem: Any, over: Mapping[str, Any], *, settings: CaseSettings | None = None
+) -> Plan:
+    """Return a plan of every combination of values of any numbers of a problem.
+
+    Parameters and errors are those of :func:`space_filling`; values are a number, a list, or a
+    range with a count, ``{"log": ["1 um/s", "1 mm/s"], "count": 7}``.
+    """
+    return _of_problem(problem, "grid", dict(over), settings)
+
+
+def _of_problem(
+    problem: Any, key: str, block: dict[str, Any], settings: CaseSettings | None
+) -> Plan:
+    settings = settings or CaseSettings()
+    names = _inputs(key, block)
+    check_exponent(problem, names)
+    kind = kind_of_problem(problem, names, settings.nouns())
+    return _planned("the plan", kind, [(key, block)], settings, to_dict(problem))
+
+
+def _planned(
+    where: str,
+    kind: Kind,
+    blocks: list[tuple[str, Any]],
+    settings: CaseSettings,
+    base: dict[str, Any] | None,
+) -> Plan:
+    tally = Tally()
+    stated = Cases.of(_stated(where, kind, blocks, tally))
+    cases = stated.first_of_each()
+    if not len(cases):
+        raise InputError(
+            f"{where}: none of its {tally.rejected} points is a contact, so there is nothing to "
+            f"run. The first: {tally.why}"
+        )
     return Plan(
         kind=kind,
         cases=cases,
         settings=settings,
         base=base,
-        rejected=rejected,
-        repeated=repeated,
-        source=source,
-        suffix=".csv" if path.suffix == ".csv" else ".toml",
+        rejected=tally.rejected,
+        repeated=len(stated) - len(cases),
+        refusal=tally.why,
     )
 
 
@@ -146,64 +247,11 @@ def restored_kind(
     return KINDS[name]
 
 
-def read_words(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    """Return the names in the first row of a CSV file, and the other rows with their lines.
-
-    Rows are read as they are asked for; one that is wrong is refused then.
-    """
-    return _words(path, read_text(path))
-
-
-def _words(path: Path, text: str) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    rows = _filled(path, text)
-    names = [name.strip() for name in next(rows, (0, []))[1]]
-    first = next(rows, None)
-    if first is None or len(set(names)) != len(names):
-        raise InputError(
-            f"{path}: needs a first row of different column names and a case a row below it"
-        )
-
-    def checked() -> Iterator[tuple[int, list[str]]]:
-        for line, row in chain([first], rows):
-            if len(row) != len(names):
-                raise InputError(f"{path}, line {line}: {len(row)} values for {len(names)} columns")
-            yield line, row
-
-    return names, checked()
-
-
-def _filled(path: Path, text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of a text in CSV that are not empty, with their lines; the first as it is."""
-    reader = csv.reader(io.StringIO(text, newline=""))
-    try:
-        yield 1, next(reader, [])
-        for row in reader:
-            if any(x.strip() for x in row):
-                yield reader.line_num, row
-    except csv.Error as error:
-        raise InputError(f"{path}, line {reader.line_num}: {error}") from None
-
-
-class _Listed:
-    """The rows of a CSV file of numbers, each with its line; read anew each time."""
-
-    def __init__(self, path: Path, text: str) -> None:
-        self.path, self._text = path, text
-        self.names = list(_named(dict.fromkeys(_words(path, text)[0])))
-
-    def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
-        for line, row in _words(self.path, self._text)[1]:
-            try:
-                yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
-            except ValueError as error:
-                raise InputError(f"{self.path}, line {line}: {error}; inputs are numbers") from None
-
-
-def _listed(path: Path, block: Mapping[str, Any]) -> _Listed:
+def _listed(path: Path, block: Mapping[str, Any]) -> Listed:
     if block.keys() != {"file"}:
         raise InputError(f'{path}, [[list]]: needs file = "cases.csv" and nothing else')
     file = path.parent / str(block["file"])
-    return _Listed(file, read_text(file))
+    return Listed(file, read_text(file))
 
 
 def _blocks(path: Path, tables: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
@@ -228,6 +276,7 @@ def _kind(
         )
         names = {name for key, block in blocks for name in _inputs(key, block)}
         try:
+            check_exponent(problem, names)
             return kind_of_problem(problem, names, also), to_dict(problem)
         except ValueError as error:
             raise InputError(f"{path}: {error}") from None
@@ -264,17 +313,6 @@ def _inputs(key: str, block: Any) -> set[str]:
     return set(_flat(block)) - ({"cases", "method", "seed"} if key == "fill" else set())
 
 
-def _named(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return values by the paths that numbers have now; one that is stated twice is refused."""
-    found: dict[str, Any] = {}
-    for name, value in values.items():
-        new = upgraded_path(name)
-        if new in found:
-            raise InputError(f"{new} is stated twice, also as {name}; leave out one")
-        found[new] = value
-    return found
-
-
 def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Return a block with dotted names: TOML reads ``protocol.speed = 1`` as a table."""
     found: dict[str, Any] = {}
@@ -284,49 +322,80 @@ def _flat(block: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
             found |= _flat(value, f"{prefix}{key}.")
         else:
             found[f"{prefix}{key}"] = value
-    return found if prefix else _named(found)
+    return found if prefix else renamed(found)
 
 
-def _cases(path: Path, kind: Kind, blocks: list[tuple[str, Any]]) -> tuple[Cases, int, int]:
-    """Return the cases of all blocks, each once, how many were rejected and how many repeated."""
-    tally = Tally()
-
-    def stated() -> Iterator[Case]:
-        for number, (key, block) in enumerate(blocks, 1):
-            try:
-                kind.check(_inputs(key, block))
-                for row in _rows(path, kind, key, block, tally):
-                    yield Case(run_id(kind.problem(row)), row)
-            except (ValueError, TypeError) as error:
-                text, where = str(error), f"{path}, block {number} ([[{key}]])"
-                is_placed = text.startswith((str(path), str(getattr(block, "path", path))))
-                raise InputError(text if is_placed else f"{where}: {text}") from None
-
-    found = Cases.of(stated())
-    cases = found.first_of_each()
-    return cases, tally.rejected, len(found) - len(cases)
+def _stated(where: str, kind: Kind, blocks: list[tuple[str, Any]], tally: Tally) -> Iterator[Case]:
+    """Yield the cases of all blocks, in their order."""
+    for number, (key, block) in enumerate(blocks, 1):
+        try:
+            kind.check(_inputs(key, block))
+            for row in _rows(kind, key, block, tally):
+                yield Case(run_id(kind.problem(row)), row)
+        except (ValueError, TypeError) as error:
+            text, place = str(error), f"{where}, block {number} ([[{key}]])"
+            is_placed = text.startswith((where, str(getattr(block, "path", where))))
+            raise InputError(text if is_placed else f"{place}: {text}") from None
 
 
-def _rows(path: Path, kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
+def _rows(kind: Kind, key: str, block: Any, tally: Tally) -> Iterator[dict[str, float]]:
     if key == "list":
         return _checked(block, kind)
 
-    def accept(row: dict[str, float]) -> bool:
-        return has_relaxed_contact(kind.problem(row))
+    def refusal(row: dict[str, float]) -> str:
+        try:
+            is_contact = has_relaxed_contact(kind.problem(row))
+        except InputError as error:
+            if key == "grid":  # its values were chosen, each with all the others
+                raise
+            return str(error)
+        return "" if is_contact else "there is no relaxed contact to begin with"
 
     values = _flat(block)
     if key == "grid":
-        return accepted(grid(values), accept, None, tally)
+        return accepted(grid(_read(kind, values)), refusal, None, tally)
     cases, method = values.pop("cases", None), values.pop("method", "sobol")
     seed = values.pop("seed", 0)
-    if not isinstance(cases, int) or cases < 1 or not isinstance(seed, int):
+    if not _is_whole(cases) or cases < 1 or not _is_whole(seed) or seed < 0:
         raise InputError(f"needs cases = a whole number, and perhaps a seed, got {cases!r}, {seed}")
     # The dimensions of the sequence follow the kind, not the order in which a file was written.
     ordered = {n: values[n] for n in [*kind.columns, *kind.choices] if n in values}
-    return accepted(fill(ordered, cases=cases, method=method, seed=seed), accept, cases, tally)
+    points = fill(_read(kind, ordered), cases=cases, method=method, seed=seed)
+    return accepted(points, refusal, cases, tally)
 
 
-def _checked(rows: _Listed, kind: Kind) -> Iterator[dict[str, float]]:
+def _is_whole(number: Any) -> bool:
+    return isinstance(number, int) and not isinstance(number, bool)
+
+
+def _read(kind: Kind, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values, lists and ranges with their text as numbers, each within its card's range."""
+
+    def number(name: str, given: Any) -> Any:
+        entry = kind.inputs.get(name)
+        if isinstance(given, str) and not kind.in_si:
+            raise InputError(
+                f"{name} must be a number, and without a unit, for cases of kind {kind.name!r} are "
+                f"dimensionless; got {given!r}"
+            )
+        if isinstance(given, str) and entry is not None:
+            try:
+                given = parse(given, entry.unit)
+            except InputError as error:
+                raise InputError(f"{name}: {error}") from None
+        is_number = isinstance(given, int | float) and not isinstance(given, bool)
+        return entry.card.checked(name, given, entry.unit) if entry and is_number else given
+
+    def read(name: str, given: Any) -> Any:
+        if isinstance(given, Mapping):
+            kept = ("count", "weights")
+            return {key: v if key in kept else read(name, v) for key, v in given.items()}
+        return [number(name, v) for v in given] if isinstance(given, list) else number(name, given)
+
+    return {name: read(name, given) for name, given in values.items()}
+
+
+def _checked(rows: Listed, kind: Kind) -> Iterator[dict[str, float]]:
     for line, row in rows:
         try:
             kind.problem(row)

@@ -138,6 +138,7 @@ def run(
         check_installed()
     folder.mkdir(parents=True, exist_ok=True)
     with locked(folder) as hold:
+        _check_whole(folder)
         store = Store(folder, hold) if plan is None else Store.create(folder, plan, hold)
         store.tidy()
         this = _Run(
@@ -170,6 +171,15 @@ def run(
             stopped=end.stopped,
         )
         return end
+
+
+def _check_whole(folder: Path) -> None:
+    """Refuse the folder of a merge that was killed: what it lacks is in other folders."""
+    if (folder / "provenance.json").exists() and (begun := Store(folder).merging):
+        raise InputError(
+            f"{folder} holds a merge of {', '.join(begun)} that has not ended; merge them again "
+            "into it"
+        )
 
 
 class _Run:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.lock import locked
@@ -50,7 +51,8 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
         Campaigns of the same kind, settings and program; each is verified before. Cases that are in
         several are taken from the first.
     out : path
-        Where to; must not hold a campaign yet.
+        Where to; must not hold a campaign yet. A merge that was killed goes on when it is called
+        again with the same folders.
 
     Raises
     ------
@@ -64,26 +66,44 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
         if wrong := verify(store).wrong:
             raise InputError(f"{store.folder} is not merged: {wrong[0]}")
         _check_alike(stores[0], store)
-    out = Path(out)
-    if (out / "provenance.json").exists():
-        raise InputError(f"{out} holds a campaign already; give another --out")
+    out, names = Path(out), [str(store.folder.resolve()) for store in stores]
+    _check_free(out, names)
     plans = [store.plan() for store in stores]
     cases = _together(plans)
     out.mkdir(parents=True, exist_ok=True)
     whole = replace(plans[0], cases=cases, shard=None, source="")
     with locked(out) as hold:
-        store = Store.create(out, whole, hold)
+        _check_free(out, names)  # nobody has begun meanwhile
+        store = Store.create(out, whole, hold, merging=names)
+        store.tidy()
         runs = [
             {**run, "folder": str(one.folder)} for one in stores for run in one.provenance["runs"]
         ]
-        _copy(stores, store)
+        _copy(stores, store, cases)
         store.note_merged(runs)
     return store
 
 
-def _copy(stores: Sequence[Store], out: Store) -> None:
+def _check_free(out: Path, names: list[str]) -> None:
+    """Refuse a folder that holds anything but the beginning of this very merge."""
+    if not (out / "provenance.json").exists():
+        return
+    begun = Store(out).merging
+    if not begun:
+        raise InputError(f"{out} holds a campaign already; give another --out")
+    if begun != names:
+        raise InputError(
+            f"{out} holds a merge of {', '.join(begun)} that has not ended; give the same folders "
+            "in the same order, or another --out"
+        )
+
+
+def _copy(stores: Sequence[Store], out: Store, cases: Cases) -> None:
     """Copy the rows of campaigns, each case once; a failure only where nobody has a result."""
-    seen: set[str] = set()
+    seen = _Seen(cases)
+    for parts in out.parts().values():  # of a merge that was killed
+        for table in parts.tables(["name"]):
+            seen.fresh(table.column("name").to_pylist())
     for one in stores:
         for rows in _fresh(one.parts()["results"].tables(), seen):
             out.add(rows, [])
@@ -93,16 +113,32 @@ def _copy(stores: Sequence[Store], out: Store) -> None:
                 out.add([], rows)
 
 
-def _fresh(tables: Iterator[Any], seen: set[str]) -> Iterator[list[dict[str, Any]]]:
+class _Seen:
+    """Which cases have been copied; a byte a case of the plan."""
+
+    def __init__(self, cases: Cases) -> None:
+        self._cases, self._copied = cases, np.zeros(len(cases), bool)
+        self._others: set[str] = set()  # rows of an earlier plan
+
+    def fresh(self, names: list[str]) -> npt.NDArray[np.int64]:
+        """Return the places of names that were not asked for before, each once."""
+        found = []
+        for i, place in enumerate(self._cases.places(names).tolist()):
+            if place >= 0 and not self._copied[place]:
+                self._copied[place] = True
+                found.append(i)
+            elif place < 0 and names[i] not in self._others:
+                self._others.add(names[i])
+                found.append(i)
+        return np.array(found, np.int64)
+
+
+def _fresh(tables: Iterator[Any], seen: _Seen) -> Iterator[list[dict[str, Any]]]:
     for table in tables:
         for begin in range(0, table.num_rows, _PART):
-            rows = [
-                {name: value for name, value in row.items() if value is not None}
-                for row in table.slice(begin, _PART).to_pylist()
-                if row["name"] not in seen
-            ]
-            seen.update(row["name"] for row in rows)
-            yield rows
+            some = table.slice(begin, _PART)
+            rows = some.take(seen.fresh(some.column("name").to_pylist())).to_pylist()
+            yield [{name: v for name, v in row.items() if v is not None} for row in rows]
 
 
 def _numbers(shard: str) -> tuple[int, int]:
@@ -115,16 +151,16 @@ def _numbers(shard: str) -> tuple[int, int]:
 def _together(plans: Sequence[Plan]) -> Cases:
     """Return the cases of several plans; of shards of one plan in its order."""
     shards = [_numbers(plan.shard) if plan.shard else (1, 1) for plan in plans]
-    cases = [case for plan in plans for case in plan.cases]
-    order = [
-        (index * count + number - 1 if count > 1 else index, number)
-        for plan, (number, count) in zip(plans, shards, strict=True)
-        for index in range(len(plan.cases))
-    ]
-    alike = len({count for _, count in shards}) == 1 and shards[0][1] > 1
-    places = sorted(range(len(cases)), key=order.__getitem__) if alike else range(len(cases))
-    found = Cases.of(cases)
-    return found[np.fromiter(places, int, len(cases))].first_of_each()
+    found = Cases.joined([plan.cases for plan in plans])
+    counts = {count for _, count in shards}
+    if len(counts) == 1 and counts != {1}:
+        (count,) = counts
+        places = [
+            np.arange(len(plan.cases)) * count + number
+            for plan, (number, _) in zip(plans, shards, strict=True)
+        ]
+        found = found[np.argsort(np.concatenate(places), kind="stable")]
+    return found.first_of_each()
 
 
 def _check_alike(one: Store, other: Store) -> None:

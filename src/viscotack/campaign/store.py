@@ -43,8 +43,8 @@ from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenanc
 from .standing import Standing
 
 _TABLES = ("results", "failures")
-# Names that are words of Python at a time.
-_SLICE = 20_000
+# Names that are words of Python at a time, and cases that are written at a time.
+_SLICE, _WRITTEN = 20_000, 50_000
 # Settings that change the numbers of a result, and so must be the same for all of a folder.
 _PHYSICAL = ("accuracy", "until")
 
@@ -108,8 +108,7 @@ class Store:
             _check_same(folder, old, header)
             old = _of_today(folder, old)
             header |= {name: old[name] for name in ("runs", "parts", "lost")}
-        cases = table_of_cases(plan.cases)
-        files = {"cases.parquet": parquet(lambda: iter([cases]))}
+        files = {"cases.parquet": parquet(lambda: _tables_of_cases(plan.cases))}
         if plan.source:
             files[f"plan{plan.suffix}"] = plan.source.encode()
         hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
@@ -132,6 +131,11 @@ class Store:
     def settings(self) -> CaseSettings:
         """How the cases are solved."""
         return CaseSettings(**self._provenance["settings"])
+
+    @property
+    def merging(self) -> list[str]:
+        """The folders of a merge that has not ended; [] for a campaign that is whole."""
+        return self._provenance.get("merging", [])
 
     @property
     def provenance(self) -> Mapping[str, Any]:
@@ -205,10 +209,10 @@ class Store:
         return number
 
     def note_merged(self, runs: list[dict[str, Any]]) -> None:
-        """Keep the runs of the campaigns that this one was made of; the caller holds the lock."""
+        """Keep the runs of the campaigns that this one is whole of; the caller holds the lock."""
         for parts in (self._results, self._failures):
             parts.settle()
-        self._write(runs=runs)
+        self._write(runs=runs, merging=[])
 
     def standing(self, cases: Cases) -> Standing:
         """Return how cases stand, by what is stored."""
@@ -339,6 +343,12 @@ def table_of_cases(cases: Cases) -> Any:
     for name, values in cases.columns.items():
         columns[name] = pa.array(values, pa.float64(), from_pandas=True)  # no number is no entry
     return pa.table(columns)
+
+
+def _tables_of_cases(cases: Cases) -> Iterator[Any]:
+    """Yield cases as tables of some of them: a million at once take 100 MB more."""
+    for begin in range(0, max(1, len(cases)), _WRITTEN):
+        yield table_of_cases(cases[begin : begin + _WRITTEN])
 
 
 def _column(table: Any, name: str) -> list[Any]:

@@ -40,15 +40,12 @@ def verify(store: Store) -> Verdict:
     when the store was opened; of each row the name and the inputs with those of the plan.
     """
     wrong = list(store.lost())
-    files = rows = 0
-    for name, hashes in store.files().items():
-        files += 1
-        found = store.hash_of(name)
-        if found is None:
-            wrong.append(f"{store.folder / name} is missing")
-        elif found not in hashes:
-            wrong.append(f"{store.folder / name} is not what was written: its hash is another")
-    cases = None if wrong else store.plan().cases
+    if store.merging:
+        wrong.append(f"{store.folder} holds a merge that has not ended; merge again into it")
+    damaged = [*_wrong_files(store)]
+    cases = None if damaged else store.plan().cases
+    wrong += damaged
+    files, rows = len(store.files()), 0
     strange: list[str] = []
     for name, parts in store.parts().items():
         seen: list[Any] = []
@@ -61,6 +58,15 @@ def verify(store: Store) -> Verdict:
                 wrong.append(f"{parts.folder}: {again} cases are stored more than once; one counts")
         strange += map(str, parts.strangers())
     return Verdict(files, rows, tuple(wrong), tuple(strange))
+
+
+def _wrong_files(store: Store) -> Iterator[str]:
+    for name, hashes in store.files().items():
+        found = store.hash_of(name)
+        if found is None:
+            yield f"{store.folder / name} is missing"
+        elif found not in hashes:
+            yield f"{store.folder / name} is not what was written: its hash is another"
 
 
 def _wrong_part(parts: Parts, part: Part, cases: Cases | None, seen: list[Any]) -> Iterator[str]:

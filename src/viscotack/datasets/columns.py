@@ -113,8 +113,8 @@ def _inputs(kind: str) -> tuple[Column, ...]:
     return tuple(
         Column(
             name,
-            INPUTS[name][1],
-            f"{INPUTS[name][0].words} ({INPUTS[name][0].symbol})",
+            INPUTS[name].unit,
+            f"{INPUTS[name].card.words} ({INPUTS[name].card.symbol})",
             form="exact",
         )
         for name in names

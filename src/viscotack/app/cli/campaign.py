@@ -1,4 +1,4 @@
-"""The commands ``viscotack campaign plan | run | status | verify | merge | export``."""
+"""The commands ``viscotack campaign inputs | plan | run | status | verify | merge | export``."""
 
 import json
 import sys
@@ -59,6 +59,36 @@ def _paths(own: list[Path] | None) -> tuple[str, ...] | None:
     return None if own is None else tuple(str(file.resolve()) for file in own)
 
 
+@campaign.command("inputs")
+def inputs_command(
+    case_file: Annotated[
+        Path, Argument(metavar="CASE.toml", help="A problem in SI.", show_default=False)
+    ],
+    own: With = None,
+    as_json: AsJson = False,
+) -> None:
+    """Say which numbers of a problem a plan may set, by which names, and what they are now.
+
+    Example: viscotack campaign inputs pad.toml
+    """
+    with _words_for_what_is_missing():
+        from viscotack import read_case
+        from viscotack.campaign import inputs_of
+        from viscotack.problem.nouns import own_nouns
+
+        found = inputs_of(read_case(case_file, also=own_nouns(_paths(own) or ())))
+    if as_json:
+        answer = {
+            entry.path: {"value": entry.value, "unit": entry.unit, "words": entry.card.words}
+            for entry in found.values()
+        }
+        typer.echo(json.dumps(answer, indent=2))
+        return
+    for entry in found.values():
+        value = "" if entry.value is None else f"{entry.value:.6g}"
+        typer.echo(harmless(f"{entry.path:<30}{value:>14} {entry.unit:<10} {entry.card.words}"))
+
+
 @campaign.command("plan")
 def plan_command(
     plan_file: PlanFile,
@@ -92,6 +122,7 @@ def plan_command(
         "kind": plan.kind.name,
         "cases": len(plan.cases),
         "rejected": plan.rejected,
+        "refusal": plan.refusal,
         "repeated": plan.repeated,
         "accuracy": plan.settings.accuracy,
         "until": plan.settings.until,
@@ -99,7 +130,8 @@ def plan_command(
         "memory_limit_bytes": plan.settings.memory_limit,
         "ranges": ranges,
     }
-    write.answer(json.dumps(answer, indent=2) if as_json else _plan_words(plan, ranges))
+    words = harmless(_plan_words(plan, ranges))
+    write.answer(json.dumps(answer, indent=2) if as_json else words)
     write.end()
 
 
@@ -109,6 +141,7 @@ def _plan_words(plan: Any, ranges: dict[str, list[float]]) -> str:
         [
             f"{len(plan.cases)} cases of kind {plan.kind.name}; {plan.rejected} points are no "
             f"contacts and are left out, {plan.repeated} are stated more than once and run once",
+            *([f"  left out, for one: {plan.refusal}"] if plan.rejected else []),
             *(f"  {name:<24}{low:>12.5g} to {high:.5g}" for name, (low, high) in ranges.items()),
             f"  to {limits.until}, accuracy {limits.accuracy:g}; at most {limits.time_limit:g} s "
             f"and {limits.memory_limit / 1e6:g} MB a case",

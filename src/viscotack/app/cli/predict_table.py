@@ -15,7 +15,7 @@ import numpy.typing as npt
 import typer
 
 from viscotack.campaign.columns import KINDS
-from viscotack.campaign.plan import read_words
+from viscotack.campaign.listed import read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, is_standard_output, write_whole, writing_whole
