@@ -166,7 +166,7 @@ class Dask:
         file.unlink(missing_ok=True)
         words = ["scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
         self.scheduler = subprocess.Popen([*DASK, *words], **QUIET)
-        while not file.exists():
+        while not file.exists() or not file.read_text().endswith("}"):  # not whole at once
             sleep(0.05)
         self.address = json.loads(file.read_text())["address"]
         self.workers = [self._worker() for _ in range(WORKERS)]

@@ -1,6 +1,7 @@
 import importlib
 import json
 import pkgutil
+import sys
 from dataclasses import is_dataclass
 
 import numpy as np
@@ -16,6 +17,7 @@ from viscotack.campaign.case import (
     attempt,
     curve,
 )
+from viscotack.campaign.identity import identity, source_hash
 
 PROBLEM = json.dumps(to_dict(synthetic.GROUPS))
 QUICK = CaseSettings(accuracy=0.02, until="pull-off")
@@ -30,6 +32,25 @@ def test_what_is_stated_is_frozen():
     assert {"Plan", "Part", "Lost", "Kind", "Answer", "Verdict"} <= found.keys()
     thawed = {name for name, kind in found.items() if not kind.__dataclass_params__.frozen}
     assert thawed == working
+
+
+def test_a_program_is_known_by_its_versions_and_its_source(tmp_path):
+    # the last part of Python's version changes no number
+    assert identity()["python"] == f"{sys.version_info.major}.{sys.version_info.minor}"
+    assert [*identity()] == ["viscotack", "source", "python", "numpy", "scipy"]
+    (tmp_path / "room").mkdir()
+    (tmp_path / "room/a.py").write_text("x = 1\n")
+    known = {source_hash(tmp_path)}
+    (tmp_path / "room/notes.txt").write_text("of no matter")
+    assert source_hash(tmp_path) in known and len(source_hash(tmp_path)) == 16
+    for change in (
+        lambda: (tmp_path / "room/a.py").write_text("x = 2\n"),
+        lambda: (tmp_path / "room/a.py").rename(tmp_path / "a.py"),
+        lambda: (tmp_path / "b.py").write_text(""),
+    ):
+        change()
+        assert source_hash(tmp_path) not in known
+        known.add(source_hash(tmp_path))
 
 
 def exact_force(depth):

@@ -51,7 +51,7 @@ class Cluster:
         file.unlink(missing_ok=True)
         words = ["--port", "0", "--no-dashboard", "--scheduler-file", str(file), *self.flags()]
         self.scheduler = subprocess.Popen([*DASK, "scheduler", *words], **self.quiet)
-        until(file.exists)
+        until(lambda: file.exists() and file.read_text().endswith("}"))  # not whole at once
         self.address = json.loads(file.read_text())["address"]
 
     def flags(self):
