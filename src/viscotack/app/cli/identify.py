@@ -14,25 +14,8 @@ from viscotack.files.whole import write_whole
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
-from .tack import (
-    Compliance,
-    ComplianceUncertainty,
-    Compression,
-    Decimal,
-    ForceColumn,
-    ForceUnit,
-    Format,
-    Into,
-    LengthUnit,
-    NominalSpeed,
-    PositionColumn,
-    RetractionOnly,
-    TestFiles,
-    TimeUnit,
-    evaluation_of,
-    nothing,
-    reading_of,
-)
+from .rig import ReadingRigs, TestFiles, rig_of
+from .tack import nothing
 from .writing import Writing, check_files
 
 identify = typer.Typer(
@@ -64,8 +47,9 @@ class Against(StrEnum):
     DEPTH = "depth"
 
 
-@identify.command("slow")
+@identify.command("slow", cls=ReadingRigs)
 def slow_command(
+    context: typer.Context,
     files: TestFiles,
     radius: Annotated[
         str,
@@ -104,19 +88,6 @@ def slow_command(
     ] = None,
     level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
     plot_file: PlotFile = None,
-    format: Format = None,
-    force_unit: ForceUnit = None,
-    length_unit: LengthUnit = None,
-    time_unit: TimeUnit = None,
-    force_column: ForceColumn = None,
-    position_column: PositionColumn = None,
-    decimal: Decimal = None,
-    nominal_speed: NominalSpeed = None,
-    compliance: Compliance = None,
-    compliance_uncertainty: ComplianceUncertainty = None,
-    into: Into = None,
-    compression: Compression = None,
-    retraction_only: RetractionOnly = False,
     as_json: AsJson = False,
 ) -> None:
     """Find work of adhesion and Tabor number from one slow retraction of a sphere.
@@ -131,21 +102,12 @@ def slow_command(
     """
     with wrong_input():
         check_files({"--plot": plot_file}, as_json=as_json, reads=files)
-        reading = reading_of(
-            format,
-            (force_unit, length_unit, time_unit),
-            (force_column, position_column),
-            decimal,
-            nominal_speed,
-        )
-        evaluation = evaluation_of(
-            (compliance, compliance_uncertainty), (into, compression), retraction_only
-        )
+        rig = rig_of(context)
         from viscotack.identify import identify_slow, slow_test
         from viscotack.lab.tack import survey
         from viscotack.pictures.identify import draw_slow_test
 
-        found = survey(files, reading=reading, evaluation=evaluation)
+        found = survey(files, reading=rig.reading, evaluation=rig.evaluation)
         if not found.cycles:
             raise InputError(nothing(found))
         if not 1 <= cycle <= len(found.cycles):
@@ -171,8 +133,9 @@ def slow_command(
     write.end()
 
 
-@identify.command("rates")
+@identify.command("rates", cls=ReadingRigs)
 def rates_command(
+    context: typer.Context,
     files: TestFiles,
     passport: Annotated[
         str,
@@ -250,19 +213,6 @@ def rates_command(
         Path | None,
         Option("--corner", metavar="FILE", help="Draw the posterior of work and range."),
     ] = None,
-    format: Format = None,
-    force_unit: ForceUnit = None,
-    length_unit: LengthUnit = None,
-    time_unit: TimeUnit = None,
-    force_column: ForceColumn = None,
-    position_column: PositionColumn = None,
-    decimal: Decimal = None,
-    nominal_speed: NominalSpeed = None,
-    compliance: Compliance = None,
-    compliance_uncertainty: ComplianceUncertainty = None,
-    into: Into = None,
-    compression: Compression = None,
-    retraction_only: RetractionOnly = False,
     as_json: AsJson = False,
 ) -> None:
     """Find work of adhesion and range of attraction from pull-offs at several speeds.
@@ -278,16 +228,7 @@ def rates_command(
     with wrong_input():
         drawn = {"--plot": plot_file, "--corner": corner_file}
         check_files({"--output": output, **drawn}, as_json=as_json, reads=files)
-        reading = reading_of(
-            format,
-            (force_unit, length_unit, time_unit),
-            (force_column, position_column),
-            decimal,
-            nominal_speed,
-        )
-        evaluation = evaluation_of(
-            (compliance, compliance_uncertainty), (into, compression), retraction_only
-        )
+        rig = rig_of(context)
         from viscotack.identify import posterior
         from viscotack.identify.study import Study, answer, study_text
         from viscotack.pictures.identify import draw_posterior, draw_rate_series
@@ -302,8 +243,8 @@ def rates_command(
             curves=curves,
             scatter=0.0 if scatter is None else parse(scatter, "1"),
             level=level,
-            reading=reading,
-            evaluation=evaluation,
+            reading=rig.reading,
+            evaluation=rig.evaluation,
         )
         found = answer(study)
     fit, write = found.fit, Writing()
