@@ -190,6 +190,14 @@ def rates_command(
             help="Take whole curves, by their travels between forces; one speed is enough then.",
         ),
     ] = False,
+    growth: Annotated[
+        bool,
+        Option(
+            "--growth",
+            help="Look for an interface that grows with the opening speed: how much, with which "
+            "power, and whether the data need it. Takes 1 to 2 minutes.",
+        ),
+    ] = False,
     scatter: Annotated[
         str | None,
         Option(
@@ -211,7 +219,7 @@ def rates_command(
     plot_file: PlotFile = None,
     corner_file: Annotated[
         Path | None,
-        Option("--corner", metavar="FILE", help="Draw the posterior of work and range."),
+        Option("--corner", metavar="FILE", help="Draw the posterior of the interface."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -220,7 +228,7 @@ def rates_command(
     Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
     steady viscoelastic crack is fitted to them. Solids that the measurement behind the passport
     allows as well widen the intervals. What the data cannot tell, and where such an interface does
-    not give the forces, is said in words.
+    not give the forces, is said in words. --growth looks for an interface that grows with speed.
 
     Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
     -o study.toml
@@ -241,6 +249,7 @@ def rates_command(
             temperature=None if temperature is None else parse(temperature, "K"),
             work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
             curves=curves,
+            growth=growth,
             scatter=0.0 if scatter is None else parse(scatter, "1"),
             level=level,
             reading=rig.reading,
