@@ -23,8 +23,9 @@ from viscotack.materials.conversion import slowed
 from viscotack.protocol import Approach, AtForce, Dwell, Move
 
 from .doubt import allowed, covariance, log_forces, theory_covariance
-from .rate_series import LEAST_TABOR, RateSeriesFit
+from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
+from .search import LEAST_TABOR
 
 Array = npt.NDArray[np.float64]
 

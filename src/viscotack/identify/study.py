@@ -32,7 +32,8 @@ from viscotack.materials import Passport
 from viscotack.materials.library import passport_of
 from viscotack.units import parse
 
-from .rate_series import RateSeriesFit, identify_rates, pull_offs
+from .pull_off import pull_offs
+from .rate_series import RateSeriesFit, identify_rates
 
 _UNITS = {"radius": "m", "preload": "N", "temperature": "K"}
 _WORDS = ("title", "notes", "material")
