@@ -231,7 +231,7 @@ def lattice():
 @pytest.mark.slow
 def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
     n = np.array([0.42, 0.33, 0.57])
-    v0 = reference_speed([0.2, 2.5, 0.02], 1.0, n)
+    v0 = reference_speed([0.2, 2.5, 0.12], 1.0, n)
     given = {"radius": np.full(3, 4.0), "rate": np.full(3, 5.0), "tabor": np.full(3, 20.0)}
     together = recede(lattice.edges(v0, n), profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
     for i in range(3):
