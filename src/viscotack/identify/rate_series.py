@@ -240,9 +240,12 @@ def _near(
                 gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
             search = widely(forward, search, opening)
             best = search.best()
-        search, refused = _disturbed(search, best, forward, passport, stiffness)
+        known, refused = _disturbed(search, best, forward, passport, stiffness)
+        if known.yielding.much:
+            # the interface was one for a rigid machine; once more for this one
+            known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
         if not refused:
-            return forward, plain, search, dropped
+            return forward, plain, known, dropped
         dropped |= {series[i].speed: why for i, why in refused.items()}
         series = [one for i, one in enumerate(series) if i not in refused]
         _check_left(series, data.curves, dropped)

@@ -39,6 +39,11 @@ class Yielding:
     work: float = 1.0
     gap: float = 1.0
 
+    @property
+    def much(self) -> bool:
+        """Whether it hangs on the interface."""
+        return bool(np.any(self.slopes != 0))
+
     @classmethod
     def of_a_rigid_machine(cls, speeds: int) -> "Yielding":
         """Return that of a machine that does not yield."""
