@@ -114,7 +114,6 @@ def identify_rate_series(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dic
         preload=None if preload is None else parse(preload, "N"),
         work_of_adhesion=_pair(options, "work_of_adhesion", "J/m^2"),
         stiffness=1 / yields if yields > 0 else None,
-        growth=str(options.get("growth", "")).lower() in ("true", "1", "yes"),
     )
     return plain(rates_record(answer))
 
