@@ -77,7 +77,7 @@ class Search:
     def white(self) -> Array:
         """What makes residuals independent, of one standard deviation each."""
         at = slice(None) if self.some is None else np.ix_(self.some, self.some)
-        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])))
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
         """Return residuals of forces of a rigid machine, relative ones."""
@@ -191,7 +191,7 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
     ends = np.log(ranges[[0, -1]])
     axes = {
         "work_of_adhesion": _works(forward, data, growths[0].high, np.log(10) / works),
-        "equilibrium_gap": np.exp(_spaced(*ends, gaps)),
+        "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
     }
     for one, step in zip(growths, steps, strict=True):
         axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
