@@ -33,6 +33,7 @@ def test_every_example_is_run_here():
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",
+        "growing_interface.py",
     }
     found = {path.name for path in EXAMPLES.iterdir() if path.name != "__pycache__"}
     assert found == known
@@ -122,3 +123,13 @@ def test_the_files_of_the_rig_are_those_that_their_script_makes():
     kept = np.loadtxt(EXAMPLES / "from_rig" / f"lens_{name}.csv", delimiter=",", skiprows=1)
     scale = np.array([1.0, 1e3, 1e3])
     assert np.allclose(kept, made * scale, rtol=1e-5, atol=1e-3)
+
+
+@pytest.mark.slow
+def test_an_interface_that_grows_is_found_again(capsys):
+    fit = load("growing_interface").main(ranges=(25e-9, 100e-9))
+    assert fit.intervals["equilibrium_gap"].low < 50e-9 < fit.intervals["equilibrium_gap"].high
+    printed = capsys.readouterr().out
+    assert "the interface grows with speed" in printed
+    low, _, high, _, _, true, _ = printed.splitlines()[-1].split()[3:]
+    assert float(low) < float(true) < float(high)

@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.errors import InputError
+from viscotack.errors import InputError, OutOfRange
 from viscotack.identify import PullOff, identify_rates, identify_slow, pull_offs, slow_test
 from viscotack.identify.forward import Forward
 from viscotack.identify.travel import travels
@@ -88,6 +88,35 @@ def test_forces_that_no_linear_solid_gives_are_said_to_be_so():
     fit = identify_rates(series(steep), **CASE)
     assert fit.scatter > 3
     assert "the interface may grow with speed" in " ".join(fit.words)
+
+
+def test_speeds_at_which_the_theory_does_not_hold_are_left_out_and_said_to_be():
+    solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=3e8, tau0=1e-2, poisson_ratio=0.5)
+    speeds = np.array([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1.0])
+    force = Forward(solid, RADIUS).pulled(WORK, 50e-9, speeds, PRELOAD).force
+    # at 1 m/s the edge has no way to become a steady crack, and another force
+    force[-1] *= 1.5
+    fit = identify_rates(
+        series(force, 0.01, speeds), material=solid, radius=RADIUS, preload=PRELOAD
+    )
+    assert [one.speed for one in fit.series] == speeds[:-1].tolist()
+    assert "left out, because the theory does not hold there: 1 m/s" in " ".join(fit.words)
+    assert fit.equilibrium_gap == pytest.approx(50e-9, rel=0.02)
+    with pytest.raises(OutOfRange, match="too few of the speeds; of 2 m/s"):
+        fast = np.array([1.0, 2.0])
+        identify_rates(series(force[-2:], 0.01, fast), **CASE | {"material": solid})
+
+
+def test_a_machine_so_soft_that_forces_hang_on_it_gives_back_the_interface():
+    solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
+    speeds, forward = np.geomspace(1e-5, 1e-1, 5), Forward(solid, RADIUS)
+    soft = forward.changed(WORK, 50e-9, speeds, np.full(5, PRELOAD), stiffness=20.0)
+    assert soft.ratio.min() < 0.8 and not soft.refused
+    force = forward.pulled(WORK, 50e-9, speeds, PRELOAD).force * soft.ratio
+    case = CASE | {"material": solid, "stiffness": 20.0}
+    fit = identify_rates(series(force, 0.01, speeds), **case)
+    assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.01)
+    assert fit.equilibrium_gap == pytest.approx(50e-9, rel=0.03)
 
 
 def test_a_series_that_says_nothing_is_refused():

@@ -17,9 +17,10 @@ from viscotack.protocol import AtDepth
 from viscotack.result.edge_energy import edge_energy
 from viscotack.result.observables import pull_off_force
 from viscotack.theory import SteadyCrack
-from viscotack.theory.crack.contact import GrowingCracks, profile_of, recede
-from viscotack.theory.crack.steady import _grown, _mesh, _start, comparison
+from viscotack.theory.crack.contact import GrowingCracks, NeighbourEdges, profile_of, recede
+from viscotack.theory.crack.steady import NeighbourCrack, _grown, _mesh, _start, comparison
 from viscotack.traction import Eyring, GentSchultz, LennardJones
+from viscotack.traction.growing import reference_speed
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
@@ -212,17 +213,61 @@ def test_the_energy_at_an_edge_is_not_read_of_other_tests():
         edge_energy(result)
 
 
+def test_a_reference_speed_gives_back_the_growth_it_was_asked_for():
+    growth = np.array([1e-9, 1e-3, 0.3, 20.0])
+    for n in (0.05, 0.4, 1.0):
+        for G, v0 in zip(growth, reference_speed(growth, 3.0, n), strict=True):
+            law = GentSchultz(1, 1, float(v0), n)
+            assert float(law.growth(3.0)) == pytest.approx(G, rel=1e-9, abs=0)
+    assert np.isinf(reference_speed(0.0, 3.0, 0.4))
+
+
+@pytest.fixture(scope="module")
+def lattice():
+    # as small as splines allow
+    return GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4, 0.5, 0.6])
+
+
 @pytest.mark.slow
-def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own():
-    lattice = GrowingCracks(SOLID, np.geomspace(0.1, 100.0, 4), [0.2, 0.35, 0.5, 0.65])
-    cases = [(0.3, 0.42), (30.0, 0.27), (5.0, 0.6)]
+def test_a_lattice_of_cracks_serves_contacts_with_growth_of_their_own(lattice):
+    n = np.array([0.42, 0.33, 0.57])
+    v0 = reference_speed([0.2, 2.5, 0.12], 1.0, n)
     given = {"radius": np.full(3, 4.0), "rate": np.full(3, 5.0), "tabor": np.full(3, 20.0)}
-    edges = lattice.edges([v0 for v0, _ in cases], [n for _, n in cases])
-    together = recede(edges, profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
-    for i, (v0, n) in enumerate(cases):
-        crack = SteadyCrack(SOLID, GentSchultz(1, 1, v0, n))
+    together = recede(lattice.edges(v0, n), profile_of(vt.Sphere(1.0)), **given).force.min(axis=0)
+    for i in range(3):
+        crack = SteadyCrack(SOLID, GentSchultz(1, 1, float(v0[i]), float(n[i])))
         one = {name: values[:1] for name, values in given.items()}
         alone = recede(crack, profile_of(vt.Sphere(1.0)), **one).force.min()
         assert together[i] == pytest.approx(alone, rel=0.01, abs=0)
-    with pytest.raises(ValueError, match="must lie within the lattice, 0.2 to 0.65"):
+
+
+@pytest.mark.slow
+def test_an_infinite_reference_speed_of_a_lattice_is_an_interface_that_does_not_grow(lattice):
+    speed = np.array([0.01, 1.0, 100.0])
+    edges = lattice.edges([np.inf], [0.4])
+    plain = np.asarray(SteadyCrack(SOLID, REST).amplification(speed))
+    np.testing.assert_allclose(edges.amplification(speed[:, None])[:, 0], plain, rtol=1e-3)
+    np.testing.assert_allclose(edges.interface_work(speed[:, None])[:, 0], 1.0, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_a_solid_beside_has_the_growing_cracks_of_its_own(lattice):
+    solid = StandardSolid(rubbery_modulus=1.0, glassy_modulus=13.0, tau0=1.0, poisson_ratio=0.0)
+    speed = np.geomspace(0.1, 30.0, 6)
+    beside = NeighbourCrack(SteadyCrack(SOLID, REST), solid)
+    own = SteadyCrack(solid, GentSchultz(1, 1, 1.0, 0.5)).amplification(speed)
+    known = lattice.edges([1.0], [0.5])
+    found = NeighbourEdges(known, SteadyCrack(SOLID, REST), beside).amplification(speed[:, None])
+    np.testing.assert_allclose(found[:, 0], own, rtol=0.02)
+    # a third more of the glassy modulus is not nothing
+    assert np.max(np.abs(known.amplification(speed[:, None])[:, 0] / own - 1)) > 0.01
+
+
+@pytest.mark.slow
+def test_what_a_lattice_does_not_hold_is_refused(lattice):
+    with pytest.raises(ValueError, match="must lie within the lattice, 0.3 to 0.6"):
         lattice.edges(1.0, 0.9)
+    with pytest.raises(ValueError, match="grows by more than any of the lattice"):
+        lattice.edges(1e-4, 0.4)
+    with pytest.raises(ValueError, match="four exponents at least"):
+        GrowingCracks(SOLID, (0.1, 3.0), (1.0, 1.0), [0.3, 0.4])

@@ -1,6 +1,7 @@
 """What a laboratory's files say, as one object: for ``--json`` and for the API alike."""
 
 from dataclasses import asdict
+from math import isfinite
 from typing import Any
 
 # name in Python -> name in tables, with the unit
@@ -90,5 +91,29 @@ def rates_record(fit: Any) -> dict[str, Any]:
             }
             for one, force in zip(fit.series, fit.forces, strict=True)
         ],
+        "growth": None if fit.growth is None else _growth_record(fit.growth),
         "words": list(fit.words),
+    }
+
+
+def _growth_record(found: Any) -> dict[str, Any]:
+    """Return how an interface grows with speed."""
+    grows = isfinite(found.reference_speed)
+    return {
+        "strengthening": found.strengthening,
+        "opening_speed_m_s": found.opening_speed,
+        "exponent": found.exponent,
+        "reference_speed_m_s": found.reference_speed if grows else None,
+        "better_by": found.better_by,
+        "chance": found.chance,
+        "shares": [
+            {
+                "speed_m_s": one.speed,
+                "edge_speed_m_s": one.edge_speed,
+                "energy": one.energy,
+                "bulk": one.bulk,
+                "interface": one.interface,
+            }
+            for one in found.shares
+        ],
     }

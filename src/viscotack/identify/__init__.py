@@ -2,7 +2,8 @@
 
 from .forecasting import RateForecast, forecast_rates
 from .objective import Best, Interval, Objective, Parameter
-from .rate_series import PullOff, RateSeriesFit, identify_rates, pull_offs
+from .pull_off import PullOff, pull_offs
+from .rate_series import RateSeriesFit, identify_rates
 from .sampling import Posterior, posterior
 from .slow_tests import ModelFit, SlowTest, SlowTestFit, fitted_force, identify_slow, slow_test
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.materials import Passport
 
-from .forward import Forward
+from .forward import Forward, Growth
 
 Array = npt.NDArray[np.float64]
 
@@ -68,10 +68,18 @@ def _width(value: float, low: float, high: float) -> float:
 
 
 def log_forces(
-    known: Forward, solids: Sequence[Any], work: float, gap: float, speed: Array, preload: Array
+    known: Forward,
+    solids: Sequence[Any],
+    work: float,
+    gap: float,
+    speed: Array,
+    preload: Array,
+    growth: Growth | None = None,
 ) -> Array:
     """Return ln of the pull-off forces of solids beside a known one, shape (solids, speeds)."""
-    pulled = (known.beside(solid).pulled(work, gap, speed, preload, _RADII) for solid in solids)
+    pulled = (
+        known.beside(solid).pulled(work, gap, speed, preload, _RADII, growth) for solid in solids
+    )
     return np.log([one.force for one in pulled])
 
 

@@ -17,15 +17,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem import crack_contact
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
 from viscotack.protocol import Approach, AtForce, Dwell, Move
 
 from .doubt import allowed, covariance, log_forces, theory_covariance
-from .rate_series import LEAST_TABOR, RateSeriesFit
+from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
+from .search import LEAST_TABOR
 
 Array = npt.NDArray[np.float64]
 
@@ -120,16 +120,20 @@ def forecast_rates(
     spring = fit.stiffness if stiffness is None else stiffness
     _check(v, load, level, spring, dwell, approach_speed)
     passport = fit.passport if temperature is None else fit.passport.moved_to(temperature)
+    _check_growth(fit, passport)
     known = fit.forward.beside(passport.material)
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
-    middle = known.pulled(w, gap, v, load)
+    law = None if fit.growth is None else fit.growth.law
+    middle = known.pulled(w, gap, v, load, growth=law)
     _refuse(v, middle.effective_tabor)
-    crack_contact(known.problem(w, gap, load, float(v.max())))
     pressed: tuple[Move, ...] = ()
     if dwell is not None and approach_speed is not None:
         pressed = Approach(approach_speed, to=AtForce(load)), Dwell(dwell, hold="force")
     spring = None if spring == np.inf else spring
-    changed = known.changed(w, gap, v, np.full(v.size, load), stiffness=spring, moves=pressed)
+    loaded = np.full(v.size, load)
+    changed, refused = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
+    for i, why in refused.items():
+        raise OutOfRange(f"at {v[i]:.3g} m/s: {why}")
 
     measured = np.array([one.speed for one in fit.series])
     theory = fit.theory if theory is None else theory
@@ -142,9 +146,12 @@ def forecast_rates(
 
     chain = posterior(fit.objective, fit.best, seed=seed)
     draws = chain.thinned(_DRAWS)
-    works, gaps = draws[:, :1], draws[:, 1:]
-    forecast = np.log(known.pulled(works, gaps, v, load).force)
-    at = fit.forward.pulled(works, gaps, measured, loads).force
+    works, gaps = draws[:, :1], draws[:, 1:2]
+    laws = None
+    if fit.growth is not None:
+        laws = fit.growth.opening.growth(gaps, draws[:, 2:3], draws[:, 3:])
+    forecast = np.log(known.pulled(works, gaps, v, load, growth=laws).force)
+    at = fit.forward.pulled(works, gaps, measured, loads, growth=laws).force
     force = np.array([one.force.value for one in fit.series]) / fit.yielding
     moved = forecast + np.log(force / at) @ gain.T
     rng = np.random.default_rng(seed)
@@ -190,6 +197,15 @@ def _check(
         )
 
 
+def _check_growth(fit: RateSeriesFit, passport: Passport) -> None:
+    if fit.growth is not None and passport.temperature != fit.passport.temperature:
+        raise InputError(
+            "how the growth of an interface with speed changes with temperature is not known: "
+            f"forecast at {fit.passport.temperature:g} K, that of the series, or measure a series "
+            f"at {passport.temperature:g} K"
+        )
+
+
 def _refuse(speed: Array, effective: Array) -> None:
     bad = effective < LEAST_TABOR
     if np.any(bad):
@@ -215,9 +231,10 @@ def _together(
     moved = allowed(passport) if passport.allowed else _slowed(fit.passport, passport, solids)
     w, gap = fit.work_of_adhesion, fit.equilibrium_gap
     load = np.full(wanted[0].size, wanted[1])
-    first = log_forces(fit.forward, solids, w, gap, *measured)
+    law = None if fit.growth is None else fit.growth.law
+    first = log_forces(fit.forward, solids, w, gap, *measured, law)
     known = fit.forward.beside(passport.material)
-    second = log_forces(known, moved, w, gap, wanted[0], load)
+    second = log_forces(known, moved, w, gap, wanted[0], load, law)
     rows = np.concatenate([first, second], axis=1)
     return spread + covariance(rows)
 

@@ -1,10 +1,12 @@
 """Pull-off forces of a sphere relaxed under a preload, for many interfaces and speeds at once.
 
 The contact whose edge is a steady crack (:mod:`viscotack.theory.crack.contact`), with Lennard-Jones
-forces: the forward model of a rate series and of its forecast.
+forces: the forward model of a rate series and of its forecast. Where the interface grows with the
+opening speed (:class:`Growth`), edges come from a lattice of cracks.
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -12,15 +14,21 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.bem import crack_contact
-from viscotack.errors import OutOfRange
+from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
 from viscotack.problem import Problem
 from viscotack.protocol import Apart, AtForce, Move, Retraction
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
-from viscotack.theory.crack.contact import profile_of, recede
+from viscotack.theory.crack.contact import (
+    Curves,
+    GrowingCracks,
+    NeighbourEdges,
+    profile_of,
+    recede,
+)
 from viscotack.theory.crack.steady import NeighbourCrack
-from viscotack.traction import LennardJones
+from viscotack.traction import GentSchultz, LennardJones
 
 from .travel import travels_of
 
@@ -28,6 +36,22 @@ Array = npt.NDArray[np.float64]
 
 _APART = 20.0  # ranges from which an approach begins
 _SPEED = 1e-6  # at which groups are asked for; rates are in proportion
+_AT_ONCE = 1500  # cases, which still fit in the memory that is near
+
+
+class Growth(NamedTuple):
+    """How an interface grows with the opening speed, after Gent and Schultz.
+
+    Attributes
+    ----------
+    reference_speed : float or ndarray
+        v0 [m/s]; infinite where it does not grow.
+    exponent : float or ndarray
+        n.
+    """
+
+    reference_speed: Any
+    exponent: Any
 
 
 class Pulled(NamedTuple):
@@ -46,6 +70,9 @@ class Pulled(NamedTuple):
     travels : ndarray, shape (..., 4)
         From the start to zero force, and from there to parts of the pull-off [m], as
         :mod:`.travel` has them; nan where the start is in tension.
+    energy, interface : ndarray
+        What the edge takes there, and what the interface takes of it [works of adhesion]; the bulk
+        multiplies by their ratio.
     """
 
     force: Array
@@ -53,6 +80,23 @@ class Pulled(NamedTuple):
     crack_speed: Array
     contact_radius: Array
     travels: Array
+    energy: Array
+    interface: Array
+
+
+class Changed(NamedTuple):
+    """What a machine and a history do to pull-offs.
+
+    Attributes
+    ----------
+    ratio : ndarray, shape (S,)
+        Pull-off force over that of a relaxed contact and a rigid machine; 1 where it is refused.
+    refused : dict
+        Number of a speed -> why the theory does not answer it.
+    """
+
+    ratio: Array
+    refused: dict[int, str]
 
 
 @dataclass(frozen=True)
@@ -65,16 +109,30 @@ class Forward:
         Of the half-space.
     radius : float
         Of the sphere [m].
+    lattice : GrowingCracks, optional
+        Of the material, for interfaces that grow.
     """
 
     material: Material
     radius: float
+    lattice: GrowingCracks | None = None
 
-    def problem(self, work: float, gap: float, preload: float, speed: float = _SPEED) -> Problem:
+    def problem(
+        self,
+        work: float,
+        gap: float,
+        preload: float,
+        speed: float = _SPEED,
+        growth: Growth | None = None,
+    ) -> Problem:
         """Return one of the tests: work of adhesion [J/m2], h0 [m], preload [N], speed [m/s]."""
+        law: Any = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
+        if growth is not None:
+            v0, n = (float(np.asarray(x)) for x in growth)
+            law = GentSchultz.of(law, reference_speed=v0, exponent=n) if np.isfinite(v0) else law
         return Problem(
             material=self.material,
-            traction=LennardJones(work_of_adhesion=work, equilibrium_gap=gap),
+            traction=law,
             geometry=Sphere(radius=self.radius),
             protocol=Retraction(start=AtForce(preload), speed=speed),
         )
@@ -94,7 +152,8 @@ class Forward:
         *,
         stiffness: float | None = None,
         moves: tuple[Move, ...] = (),
-    ) -> Array:
+        growth: Growth | None = None,
+    ) -> "Changed":
         """Return by what a spring, or an approach and a dwell, change the pull-offs.
 
         Parameters
@@ -107,29 +166,38 @@ class Forward:
             Of the machine [N/m]; None for a rigid one.
         moves : tuple
             From apart to where the retraction begins; none for a contact that has relaxed.
-
-        Returns
-        -------
-        ndarray, shape (S,)
-            Pull-off force over that of a relaxed contact and a rigid machine.
+        growth : Growth, optional
+            Of the interface.
         """
-        if stiffness is None and not moves:
-            return np.ones(speed.size)
-        found = []
-        for v, load in zip(speed, np.broadcast_to(preload, speed.shape), strict=True):
-            plain = self.problem(work, gap, float(load), float(v))
+        rigid = self.pulled(work, gap, speed, preload, growth=growth).force
+        unit = 1.5 * np.pi * self.radius * work
+        ratio, refused = np.ones(speed.size), {}
+        loads = np.broadcast_to(preload, speed.shape)
+        for i, (v, load) in enumerate(zip(speed, loads, strict=True)):
+            problem = self.problem(work, gap, float(load), float(v), growth)
             start = Apart(_APART * gap) if moves else AtForce(float(load))
             protocol = Retraction(start=start, moves=moves, speed=float(v), stiffness=stiffness)
-            pair = [crack_contact(plain), crack_contact(replace(plain, protocol=protocol))]
-            rigid, other = (one.pull_off_force for one in pair)
-            if rigid is None or other is None:
-                raise OutOfRange(f"there is no pull-off at {v:.3g} m/s; simulate it")
-            found.append(other / rigid)
-        return np.array(found)
+            try:
+                found = crack_contact(replace(problem, protocol=protocol)).pull_off_force
+            except InputError as error:
+                refused[i] = str(error)
+                continue
+            if found is None:
+                refused[i] = f"there is no pull-off at {v:.3g} m/s; simulate it"
+            elif moves or stiffness is not None:
+                ratio[i] = found * unit / rigid[i]
+        return Changed(ratio, refused)
 
     def beside(self, material: Material) -> "Neighbour":
         """Return the pull-offs of a material near to this one, at no cost."""
-        return Neighbour(material, self.radius, self)
+        return Neighbour(material, self.radius, self.lattice, known=self)
+
+    def edges(self, gap: Array, growth: Growth) -> Any:
+        """Return an edge for each case, of its range and growth."""
+        if self.lattice is None:
+            raise ValueError("pull-offs with growth need a lattice of cracks")
+        v0, n = growth
+        return self.lattice.edges(np.asarray(v0) * self.material.time_unit / gap, n)
 
     def pulled(
         self,
@@ -138,6 +206,7 @@ class Forward:
         speed: npt.ArrayLike,
         preload: npt.ArrayLike,
         radii: int = 160,
+        growth: Growth | None = None,
     ) -> Pulled:
         """Return pull-offs of interfaces, broadcast.
 
@@ -149,58 +218,77 @@ class Forward:
             Of the retraction [m/s], and under which the contact relaxed [N].
         radii : int
             Of a curve, as of :func:`~viscotack.theory.crack.contact.recede`.
+        growth : Growth, optional
+            Of the interfaces.
         """
-        w, h0, v, P = np.broadcast_arrays(
-            *(np.asarray(x, dtype=float) for x in (work, gap, speed, preload))
-        )
-        one = self.problem(float(w.flat[0]), float(h0.flat[0]), float(P.flat[0])).groups()
-        unit, profile = one.material.time_unit, profile_of(one.geometry)
+        given = (work, gap, speed, preload, *(growth or ()))
+        cases = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
+        shape, flat = cases[0].shape, [x.ravel() for x in cases]
+        # an edge of its own for each case is much to hold at once
+        count = flat[0].size if growth is None else _AT_ONCE
+        parts = [
+            self._pulled([x[i : i + count] for x in flat], radii)
+            for i in range(0, flat[0].size, count)
+        ]
+        joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+        return Pulled(*(one.reshape((*shape, *one.shape[1:])) for one in joined))
+
+    def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
+        w, h0, v, P, *grown = cases
+        one = self.problem(float(w[0]), float(h0[0]), float(P[0])).groups()
+        profile = profile_of(one.geometry)
         # mu and the rate scale with powers of the interface
-        tabor = one.tabor * (w / w.flat[0]) ** (2 / 3) * h0.flat[0] / h0
-        rate = (one.rate or 0.0) * unit * (h0.flat[0] / h0) * (v / _SPEED) / tabor
+        mu = one.tabor * (w / w[0]) ** (2 / 3) * h0[0] / h0
+        rate = (one.rate or 0.0) * one.material.time_unit * (h0[0] / h0) * (v / _SPEED) / mu
         # of a relaxed sphere, in beta, for forces in R dg
         start = np.asarray(
             jkr.contact_radius_at_force(
                 P / (self.radius * w), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
             )
         )
-        crack: Any = self.crack
-        found = recede(
-            crack,
-            profile,
-            radius=start.ravel(),
-            rate=rate.ravel(),
-            tabor=tabor.ravel(),
-            radii=radii,
-        )
-        mu = tabor.ravel()
-        effective = mu * np.maximum(found.amplification, 1.0) ** (-1 / 3)
-        ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
-        tension = np.where(found.force < 0, -ratio * found.force, 0.0)
-        pressed = np.where(found.force < 0, -tension, found.force)
+        edge: Any = self.edges(h0, Growth(*grown)) if grown else self.crack
+        found = recede(edge, profile, radius=start, rate=rate, tabor=mu, radii=radii)
+        energy = np.maximum(found.amplification, 1.0)
+        interface = edge.interface_work(found.speed) if grown else np.ones_like(energy)
+        # of an interface Q times as strong, whose energy the bulk makes Gamma/Q times as large
+        bulk = np.maximum(energy / interface, 1.0)
+        effective = mu * interface ** (2 / 3) * bulk ** (-1 / 3)
+        tension, pressed = _ranged(found, effective)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
         modulus = self.material.contact_modulus
         beta = (self.radius**2 * w / modulus) ** (1 / 3)
-        crack_speed = found.speed[at].reshape(w.shape) * modulus * h0**2 / w / unit
         # heights in beta^2/R
-        height = (beta**2 / self.radius).ravel()
+        height = beta**2 / self.radius
         way = travels_of(found.depth[0] - found.depth, pressed, tension[at]) * height[:, None]
         return Pulled(
-            tension[at].reshape(w.shape) * self.radius * w,
-            effective[at].reshape(w.shape),
-            crack_speed,
+            tension[at] * self.radius * w,
+            effective[at],
+            found.speed[at] * modulus * h0**2 / w / self.material.time_unit,
             start * beta,
-            way.reshape(*w.shape, -1),
+            way,
+            energy[at],
+            interface[at],
         )
+
+
+def _ranged(found: Curves, effective: Array) -> tuple[Array, Array]:
+    """Return tensions and forces with the correction for the range of the forces."""
+    ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
+    tension = np.where(found.force < 0, -ratio * found.force, 0.0)
+    return tension, np.where(found.force < 0, -tension, found.force)
 
 
 @dataclass(frozen=True)
 class Neighbour(Forward):
     """Pull-offs of a material beside another whose cracks are known."""
 
-    known: Forward
+    known: Forward = field(kw_only=True)
 
     @cached_property
     def crack(self) -> Any:
         """Return the cracks of the material, by those of its neighbour."""
         return NeighbourCrack(self.known.crack, self.material)
+
+    def edges(self, gap: Array, growth: Growth) -> Any:
+        """Return an edge for each case, by those of the neighbour."""
+        return NeighbourEdges(super().edges(gap, growth), self.known.crack, self.crack)

@@ -61,7 +61,11 @@ class Parameter:
 
     def outer(self, inner: float) -> float:
         """Return the parameter."""
-        return float(np.exp(inner)) if self.logarithmic else float(inner)
+        return float(self.outer_of(np.asarray(inner)))
+
+    def outer_of(self, inner: Array) -> Array:
+        """Return parameters."""
+        return np.exp(inner) if self.logarithmic else inner
 
 
 @dataclass(frozen=True)

@@ -2,57 +2,38 @@ r"""The interface from a rate series: pull-off forces at several speeds, and a m
 
 The forward model is the contact whose edge is a steady crack (:mod:`.forward`). All works of
 adhesion and ranges that are looked at are computed at once, on a grid, and interpolated in their
-logarithms; the search and its intervals then cost nothing. Noise of the forces, the error of the
-theory and the doubt about the material (:mod:`.doubt`) are one covariance of the relative forces.
+logarithms (:mod:`.table`); the search (:mod:`.search`) and its intervals then cost nothing. Noise
+of the forces, the error of the theory and the doubt about the material (:mod:`.doubt`) are one
+covariance of the relative forces.
+
+Where the interface grows with speed (:mod:`.growth`) there are two unknowns more.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import RectBivariateSpline
 
-from viscotack.bem import crack_contact
-from viscotack.errors import InputError
-from viscotack.lab.tack import Cycle, Measured
+from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Material, Passport
 
-from .doubt import allowed, covariance, log_forces, theory_covariance
+from .doubt import allowed, covariance, log_forces
 from .forward import Forward
-from .objective import Best, Interval, Objective, Parameter
-from .travel import travels
+from .growth import FoundGrowth, found_growth
+from .objective import Best, Interval, Objective
+from .pull_off import PullOff
+from .search import LEAST_TABOR, Data, Search, closely, plain_table, pulled_with_growth, widely
+from .table import Table
+from .yielding import Yielding, yielding_near
 
 Array = npt.NDArray[np.float64]
 
-_WORKS, _GAPS = 8, 21  # works a decade, and ranges, of the table
-LEAST_TABOR = 2.0  # effective: below it the theory does not hold
-_THEORY = 0.02  # relative standard uncertainty of the forward model
+# Relative standard uncertainty of the forward model, and where the interface grows.
+_THEORY, _GROWING_THEORY = 0.02, 0.03
 _LOUD = 2.0  # residuals over their uncertainty: no such interface gives the forces
-_SAME = 0.03  # speeds within this part are one
 _MOST = 40  # speeds
-
-
-@dataclass(frozen=True)
-class PullOff:
-    """One pull-off, or the mean of several at one speed.
-
-    Parameters
-    ----------
-    speed : float
-        True one of the retraction [m/s].
-    force : Measured
-        A positive number [N].
-    preload : float, optional
-        Under which the contact relaxed [N].
-    travels : tuple of Measured, optional
-        What the whole curve says beside it [m], as :func:`.travel.travels` has it.
-    """
-
-    speed: float
-    force: Measured
-    preload: float | None = None
-    travels: tuple[Measured, ...] | None = None
+_ROUNDS = 6  # in which speeds are left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +47,8 @@ class RateSeriesFit:
     tabor : float
         Tabor number of both with the material.
     intervals : dict of str to Interval
-        Of "work_of_adhesion" and "equilibrium_gap", by profile likelihood.
+        Of "work_of_adhesion" and "equilibrium_gap", by profile likelihood; with growth of
+        "strengthening" and "exponent" too.
     forces : tuple of float
         Pull-off forces of the most likely interface at the speeds of the series [N].
     scatter : float
@@ -91,6 +73,8 @@ class RateSeriesFit:
         Of the machine [N/m].
     yielding : ndarray, shape (S,)
         Forces through that over those of a rigid machine.
+    growth : FoundGrowth, optional
+        How the interface grows with speed, where that was asked.
     """
 
     work_of_adhesion: float
@@ -109,6 +93,7 @@ class RateSeriesFit:
     level: float
     stiffness: float | None
     yielding: Array
+    growth: FoundGrowth | None = None
 
     @property
     def best(self) -> Best:
@@ -117,7 +102,7 @@ class RateSeriesFit:
             "work_of_adhesion": self.work_of_adhesion,
             "equilibrium_gap": self.equilibrium_gap,
         }
-        return self.objective.best(values)
+        return self.objective.best(values | ({} if self.growth is None else self.growth.values))
 
 
 def identify_rates(
@@ -130,8 +115,9 @@ def identify_rates(
     work_of_adhesion: tuple[float, float] | None = None,
     stiffness: float | None = None,
     curves: bool = False,
+    growth: bool = False,
     scatter: float = 0.0,
-    theory: float = _THEORY,
+    theory: float | None = None,
     level: float = 0.9,
 ) -> RateSeriesFit:
     """Return work of adhesion and range of attraction from pull-off forces at several speeds.
@@ -157,10 +143,14 @@ def identify_rates(
     curves : bool
         Take the whole curves too, by the travels between forces that each pull-off has; one
         speed is enough then, and a test that is not slow is not taken for one.
+    growth : bool
+        Look for an interface that grows with the opening speed, after Gent and Schultz: how much
+        and with which power, and whether the data need it. Four unknowns want four speeds and more.
     scatter : float
         Relative standard deviation from test to test, where the tests do not show it themselves.
-    theory : float
-        Relative standard uncertainty of the forward model itself, shared by near speeds.
+    theory : float, optional
+        Relative standard uncertainty of the forward model itself, shared by near speeds; else 2 %,
+        of an interface that grows 3 %.
     level : float
         Confidence level of the intervals.
 
@@ -174,80 +164,167 @@ def identify_rates(
 
     Notes
     -----
-    The bulk is linear and the interface elastic: where forces rise more steeply than any range
-    gives, residuals say so. 1 to 20 s, most of it the cracks of the material.
+    The bulk is linear and the interface elastic, but for growth: where forces rise more steeply
+    than any range gives, residuals say so. 1 to 20 s, most of it the cracks of the material; with
+    growth 1 to 2 minutes, most of it those of the lattice.
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
+    if theory is None:
+        theory = _GROWING_THEORY if growth else _THEORY
     _check(series, radius, gaps, stiffness, curves, scatter, theory, level)
-    speed = np.array([one.speed for one in series])
-    load = np.array([one.preload for one in series], dtype=float)
-    force = np.array([one.force.value for one in series])
-    noise = np.array([one.force.uncertainty for one in series]) / force
-    forward = Forward(passport.material, radius)
-    model = _Table(forward, speed, load, gaps, float(force.min()))
-    prior = None
-    if work_of_adhesion is not None:
-        prior = (work_of_adhesion[0], work_of_adhesion[1] / work_of_adhesion[0])
-    parameters = (
-        _between("work_of_adhesion", model.works, prior),
-        _between("equilibrium_gap", model.gaps, None),
+
+    def data_of(some: Sequence[PullOff]) -> Data:
+        return Data(some, work_of_adhesion, curves, scatter, theory)
+
+    forward, plain, search, dropped = _near(
+        Forward(passport.material, radius), data_of, series, passport, gaps, stiffness, growth
+    )
+    if growth:
+        search, best, intervals = closely(forward, search, level)
+    else:
+        best = search.best()
+        intervals = search.intervals(best, level)
+    _check_place(forward, search, best, stiffness)
+    found = _growth(forward, search, replace(search, table=plain, opening=None), best)
+    objective, data = search.objective, search.data
+    rest = objective.residuals(best.values)
+    noisy = float(np.sqrt(np.sum(rest**2) / max(rest.size - len(best.values), 1)))
+    doubted = bool(allowed(passport))
+    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    words = [*_words(best, intervals, noisy, level, doubted, found), *_left_out(dropped)]
+    return RateSeriesFit(
+        work_of_adhesion=w,
+        equilibrium_gap=gap,
+        tabor=forward.problem(w, gap, float(data.load[0])).groups().tabor,
+        intervals=intervals,
+        forces=tuple((search.table(best.values) * search.yielding(best.values)).tolist()),
+        scatter=noisy,
+        words=tuple(words),
+        series=tuple(data.series),
+        passport=passport,
+        forward=forward,
+        covariance=search.spread,
+        objective=objective,
+        theory=theory,
+        level=level,
+        stiffness=stiffness,
+        yielding=search.yielding(best.values),
+        growth=found,
     )
 
-    shapes = _Shapes(series, model, theory) if curves else None
 
-    def asked(spread: Array, yielding: Array) -> Objective:
-        white = np.linalg.inv(np.linalg.cholesky(spread))
+def _near(
+    forward: Forward,
+    data_of: Callable[[Sequence[PullOff]], Data],
+    series: Sequence[PullOff],
+    passport: Passport,
+    gaps: tuple[float, float],
+    stiffness: float | None,
+    growth: bool,
+) -> tuple[Forward, Table, Search, dict[float, str]]:
+    """Return the search of the speeds for which the theory holds near the likely interface.
 
-        def residuals(values: Mapping[str, float]) -> Array:
-            rest = white @ (model(values) * yielding / force - 1)
-            return rest if shapes is None else np.concatenate([rest, shapes(values)])
+    With the table of interfaces that do not grow, and the speeds left out, each with the reason.
+    """
+    opening, dropped = None, {}
+    for _ in range(_ROUNDS):
+        data = data_of(series)
+        plain = plain_table(forward, data, gaps)
+        search = Search(data, plain, data.spread, Yielding.of_a_rigid_machine(data.speed.size))
+        best = search.best()
+        if growth:
+            if opening is None:
+                forward, opening = pulled_with_growth(forward, search, best)
+                # the lattice has no larger ranges, which slower speeds alone would allow
+                gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
+            search = widely(forward, search, opening)
+            best = search.best()
+        known, refused = _disturbed(search, best, forward, passport, stiffness)
+        if known.yielding.much:
+            # the interface was one for a rigid machine; once more for this one
+            known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
+        if not refused:
+            return forward, plain, known, dropped
+        dropped |= {series[i].speed: why for i, why in refused.items()}
+        series = [one for i, one in enumerate(series) if i not in refused]
+        _check_left(series, data.curves, dropped)
+    raise OutOfRange(
+        f"the theory does not hold for {len(dropped)} of the speeds, and for more without them; "
+        "leave out the fastest"
+    )
 
-        return Objective(residuals, parameters)
 
-    spread = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2) + theory_covariance(speed, theory)
-    yielding = np.ones(speed.size)
-    objective = asked(spread, yielding)
-    best = _best(objective)
-    solids = allowed(passport)
-    if solids or stiffness is not None:
-        # what doubt about the material and a soft machine do hardly changes with the interface
-        w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-        yielding = forward.changed(w, gap, speed, load, stiffness=stiffness)
-        if solids:
-            spread = spread + covariance(log_forces(forward, solids, w, gap, speed, load))
-        objective = asked(spread, yielding)
-        best = _best(objective)
-    intervals = {one.name: objective.interval(one.name, best, level) for one in parameters}
-    if model.effective(best.values) < LEAST_TABOR:
+def _disturbed(
+    search: Search, best: Best, forward: Forward, passport: Passport, stiffness: float | None
+) -> tuple[Search, dict[int, str]]:
+    """Return a search that knows of the doubt about the material and of a soft machine.
+
+    And for which of the speeds the theory does not hold, with the reason.
+    """
+    solids, data = allowed(passport), search.data
+    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    grown = None if search.opening is None else search.opening.of(best.values)
+    yielding, refused = yielding_near(forward, w, gap, data.speed, data.load, stiffness, grown)
+    if refused:
+        return search, refused
+    spread = search.spread
+    if solids:
+        # hardly changes with the interface
+        rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
+        spread = spread + covariance(rows)
+    return replace(search, spread=spread, yielding=yielding), {}
+
+
+def _check_left(left: Sequence[PullOff], curves: bool, dropped: Mapping[float, str]) -> None:
+    """Refuse a series of which too little is left."""
+    if len({one.speed for one in left}) < (1 if curves else 2):
+        speed, why = max(dropped.items())
+        raise OutOfRange(
+            f"the theory holds for too few of the speeds; of {speed:.3g} m/s it says: {why}"
+        )
+
+
+def _left_out(dropped: Mapping[float, str]) -> list[str]:
+    """Return what is said of speeds that were not used."""
+    if not dropped:
+        return []
+    speeds = ", ".join(f"{speed:.3g}" for speed in sorted(dropped))
+    why = dropped[max(dropped)]
+    return [f"left out, because the theory does not hold there: {speeds} m/s ({why})"]
+
+
+def _check_place(forward: Forward, search: Search, best: Best, stiffness: float | None) -> None:
+    """Refuse an interface for which the theory does not hold."""
+    if search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {best.values['equilibrium_gap']:.3g} m, lies where the zone "
             "at the edge is as large as the contact and the theory does not hold: simulate"
         )
-    rest = objective.residuals(best.values)
-    scatter = float(np.sqrt(np.sum(rest**2) / max(rest.size - 2, 1)))
-    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-    fastest = int(np.argmax(speed))
-    # refuses an edge that has no way to become a steady crack
-    crack_contact(forward.problem(w, gap, float(load[fastest]), float(speed[fastest])))
-    return RateSeriesFit(
-        w,
-        gap,
-        forward.problem(w, gap, float(load[0])).groups().tabor,
-        intervals,
-        tuple((model(best.values) * yielding).tolist()),
-        scatter,
-        tuple(_words(best, intervals, scatter, level, bool(solids))),
-        tuple(series),
-        passport,
-        forward,
-        spread,
-        objective,
-        theory,
-        level,
-        stiffness,
-        yielding,
+    # speeds were left out for an interface near this one; of it the fastest is asked again
+    fastest = [int(np.argmax(search.data.speed))]
+    grown = None if search.opening is None else search.opening.of(best.values)
+    found = forward.changed(
+        best.values["work_of_adhesion"],
+        best.values["equilibrium_gap"],
+        search.data.speed[fastest],
+        search.data.load[fastest],
+        stiffness=stiffness,
+        growth=grown,
     )
+    for why in found.refused.values():
+        raise OutOfRange(f"at {search.data.speed[fastest][0]:.3g} m/s: {why}")
+
+
+def _growth(forward: Forward, search: Search, plain: Search, best: Best) -> FoundGrowth | None:
+    """Return how the interface grows, beside the best one that does not."""
+    if search.opening is None:
+        return None
+    data, grown = search.data, search.opening.of(best.values)
+    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    pulled = forward.pulled(w, gap, data.speed, data.load, growth=grown)
+    better = plain.best().misfit - best.misfit
+    return found_growth(best.values, search.opening, better, data.speed, pulled)
 
 
 def _loaded(one: PullOff, preload: float | None) -> PullOff:
@@ -258,11 +335,6 @@ def _loaded(one: PullOff, preload: float | None) -> PullOff:
             "the contact relaxed"
         )
     return replace(one, preload=load)
-
-
-def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Parameter:
-    low, high = float(values[0]), float(values[-1])
-    return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
 
 
 def _check(
@@ -304,171 +376,57 @@ def _check(
         raise InputError(f"gaps must be two ranges, the smaller first [m], got {gaps!r}")
 
 
-def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
-    """Return one pull-off for each speed: repeated cycles are averaged.
-
-    Speeds within 3 % are one. The uncertainty of a mean holds the scatter of its cycles; the
-    preload is the force where retractions begin, none where one of them begins in tension.
-    """
-    found: list[PullOff] = []
-    rest = sorted(cycles, key=lambda cycle: cycle.speed.value)
-    while rest:
-        first = rest[0].speed.value
-        same = [cycle for cycle in rest if cycle.speed.value <= (1 + _SAME) * first]
-        rest = rest[len(same) :]
-        forces = np.array([cycle.pull_off_force.value for cycle in same])
-        own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
-        spread = float(np.std(forces, ddof=1) / np.sqrt(forces.size)) if forces.size > 1 else 0.0
-        speed = float(np.mean([cycle.speed.value for cycle in same]))
-        begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
-        force = Measured(float(forces.mean()), float(np.hypot(own, spread)))
-        preload = float(np.mean(begins)) if min(begins) > 0 else None
-        found.append(PullOff(speed, force, preload, _mean([travels(cycle) for cycle in same])))
-    return found
-
-
-def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:
-    """Return the means of travels; None where a curve has none."""
-    told = [row for row in rows if row is not None]
-    if len(told) < len(rows):
-        return None
-    columns = list(zip(*told, strict=True))
-    return tuple(
-        Measured(
-            float(np.mean([one.value for one in column])),
-            float(np.mean([one.uncertainty for one in column])),
-        )
-        for column in columns
-    )
-
-
-class _Table:
-    """Pull-off forces over work of adhesion, range and speed, interpolated in logarithms."""
-
-    def __init__(
-        self,
-        forward: Forward,
-        speed: Array,
-        preload: Array,
-        gaps: tuple[float, float],
-        least: float,
-    ):
-        # no energy at an opening edge is less than the work of adhesion, and none larger than 1/k
-        most = 1.2 * least / (1.5 * np.pi * forward.radius)
-        span = 2.0 / forward.material.modulus_ratio
-        self.works = np.geomspace(most / span, most, 3 + round(_WORKS * float(np.log10(span))))
-        self.gaps = np.geomspace(*gaps, _GAPS)
-        found = forward.pulled(self.works[:, None, None], self.gaps[:, None], speed, preload)
-        force, effective = found.force, found.effective_tabor
-        # where the most work of adhesion still gives a crack; less is checked where it is found
-        holds = np.all(effective[-1] >= LEAST_TABOR, axis=-1)
-        count = int(np.argmin(holds)) if not holds.all() else holds.size
-        if count < 5:
-            raise InputError(
-                f"the theory of a crack holds for no range looked at ({gaps[0]:.3g} to "
-                f"{gaps[1]:.3g} m): the zone at the edge is as large as the contact; look at "
-                "smaller ranges, or simulate"
-            )
-        self.gaps = self.gaps[:count]
-        x, y = np.log(self.works), np.log(self.gaps)
-        self._splines = [
-            RectBivariateSpline(x, y, np.log(force[:, :count, i])) for i in range(speed.size)
-        ]
-        # asked for only where starts are in compression, which the travels need
-        with np.errstate(invalid="ignore", divide="ignore"):
-            ways = np.log(found.travels[:, :count])
-        self._travels = [
-            [RectBivariateSpline(x, y, ways[:, :, i, j]) for j in range(ways.shape[-1])]
-            for i in range(speed.size)
-            if np.all(np.isfinite(ways[:, :, i]))
-        ]
-        self._effective = RectBivariateSpline(x, y, np.log(effective.min(axis=-1)[:, :count]))
-
-    def __call__(self, values: Mapping[str, float]) -> Array:
-        x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
-        return np.exp([float(spline(x, y)[0, 0]) for spline in self._splines])
-
-    def travels(self, values: Mapping[str, float]) -> Array:
-        """Return travels between forces [m], shape (speeds, travels)."""
-        x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
-        rows = [[float(spline(x, y)[0, 0]) for spline in row] for row in self._travels]
-        return np.exp(rows)
-
-    def effective(self, values: Mapping[str, float]) -> float:
-        """Return the least effective Tabor number of the series."""
-        x, y = np.log(values["work_of_adhesion"]), np.log(values["equilibrium_gap"])
-        return float(np.exp(self._effective(x, y)[0, 0]))
-
-
-class _Shapes:
-    """Residuals of travels, in standard deviations."""
-
-    def __init__(self, series: Sequence[PullOff], model: _Table, theory: float):
-        self._model = model
-        self._log, self._white = [], []
-        for one in series:
-            assert one.travels is not None, "checked before"
-            value = np.array([x.value for x in one.travels])
-            noise = np.array([x.uncertainty for x in one.travels]) / value
-            # what the theory errs in one curve it errs in all of it, half of it
-            own = noise**2 + theory**2 / 2
-            spread = np.diag(own) + np.full((value.size, value.size), theory**2 / 2)
-            self._log.append(np.log(value))
-            self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
-
-    def __call__(self, values: Mapping[str, float]) -> Array:
-        found = np.log(self._model.travels(values))
-        rows = zip(self._white, found, self._log, strict=True)
-        return np.concatenate([white @ (one - measured) for white, one, measured in rows])
-
-
-def _best(objective: Objective) -> Best:
-    """Return the best of several starts along the range."""
-    (gap,) = (one for one in objective.parameters if one.name == "equilibrium_gap")
-    low, high = gap.inner(gap.low), gap.inner(gap.high)
-    found = []
-    for part in (0.1, 0.3, 0.5, 0.7, 0.9):
-        held = objective.best({"equilibrium_gap": gap.outer(low + part * (high - low))})
-        found.append(objective.best(near=held))
-    return min(found, key=lambda best: best.misfit)
+_LABELS = {
+    "work_of_adhesion": ("work of adhesion", " J/m2"),
+    "equilibrium_gap": ("range of attraction h0", " m"),
+    "strengthening": ("strength over that at rest", ""),
+    "exponent": ("exponent of growth", ""),
+}
 
 
 def _words(
-    best: Best, intervals: dict[str, Interval], scatter: float, level: float, doubted: bool
+    best: Best,
+    intervals: dict[str, Interval],
+    scatter: float,
+    level: float,
+    doubted: bool,
+    growth: FoundGrowth | None,
 ) -> list[str]:
     said = []
-    labels = {
-        "work_of_adhesion": ("work of adhesion", "J/m2"),
-        "equilibrium_gap": ("range of attraction h0", "m"),
-    }
     for name, ends in intervals.items():
-        label, unit = labels[name]
-        if ends.told:
-            said.append(
-                f"{label} {best.values[name]:.3g} {unit} ({ends.low:.3g} to {ends.high:.3g}, "
-                f"{level:.0%})"
-            )
-        elif ends.closed_below:
-            said.append(
-                f"{label} above {ends.low:.3g} {unit} ({level:.0%}); not identifiable above"
-            )
-        elif ends.closed_above:
-            said.append(
-                f"{label} below {ends.high:.3g} {unit} ({level:.0%}); not identifiable below"
-            )
-        else:
-            said.append(f"{label}: not identifiable from these speeds")
-        if ends.split:
-            said.append(
-                f"of the {label} there are two ranges in that interval which give these forces, "
-                "with a gap between: another speed, whole curves or a slow test would tell"
-            )
+        label, unit = _LABELS[name]
+        if name == "strengthening" and growth is not None:
+            label += f" where the gap opens with {growth.opening_speed:.3g} m/s"
+        said += _of_one(label, unit, best.values[name], ends, level)
+    if growth is not None:
+        said += growth.words()
     if scatter > _LOUD:
+        cause = "the interface may grow with speed, or the material be another one"
+        if growth is not None:
+            cause = "the material may be another one, or no longer linear"
+        kind = "an elastic interface" if growth is None else "a growing interface"
         said.append(
             f"residuals are {scatter:.2g} times their uncertainty: no work of adhesion and range "
-            "of a linear solid with an elastic interface give these forces; the interface may "
-            "grow with speed, or the material be another one"
+            f"of a linear solid with {kind} give these forces; {cause}"
         )
     if not doubted:
         said.append("the material is taken as exact: nothing says how well it is known")
+    return said
+
+
+def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> list[str]:
+    """Return what is said of one parameter."""
+    if ends.told:
+        said = [f"{label} {value:.3g}{unit} ({ends.low:.3g} to {ends.high:.3g}, {level:.0%})"]
+    elif ends.closed_below:
+        said = [f"{label} above {ends.low:.3g}{unit} ({level:.0%}); not identifiable above"]
+    elif ends.closed_above:
+        said = [f"{label} below {ends.high:.3g}{unit} ({level:.0%}); not identifiable below"]
+    else:
+        said = [f"{label}: not identifiable from these speeds"]
+    if ends.split:
+        said.append(
+            f"of the {label} there are two ranges in that interval which give these forces, "
+            "with a gap between: another speed, whole curves or a slow test would tell"
+        )
     return said

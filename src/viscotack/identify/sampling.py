@@ -95,10 +95,6 @@ def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: in
     sampler.run_mcmc(state, steps)
     time = float(np.max(sampler.get_autocorr_time(quiet=True, tol=0)))
     inner = np.asarray(sampler.get_chain(flat=True))
-    values = [_outer(p, x) for p, x in zip(parameters, inner.T, strict=True)]
+    values = [p.outer_of(x) for p, x in zip(parameters, inner.T, strict=True)]
     enough = steps * _WALKERS > _INDEPENDENT * time
     return Posterior(parameters, np.stack(values, axis=1), time, enough)
-
-
-def _outer(parameter: Parameter, inner: Array) -> Array:
-    return np.exp(inner) if parameter.logarithmic else inner

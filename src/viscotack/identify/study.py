@@ -10,6 +10,7 @@ As TOML, ``viscotack identify rates ... -o study.toml`` writes one::
     temperature = "20 degC"
     work_of_adhesion = ["152 mJ/m2", "3 mJ/m2"]        # known from a slow test
     scatter = "3 %"                                    # of forces from test to test
+    growth = true                                      # of the interface with the opening speed
 
     [read]            # as the flags of `viscotack test read`
     force_unit = "mN"
@@ -31,7 +32,8 @@ from viscotack.materials import Passport
 from viscotack.materials.library import passport_of
 from viscotack.units import parse
 
-from .rate_series import RateSeriesFit, identify_rates, pull_offs
+from .pull_off import pull_offs
+from .rate_series import RateSeriesFit, identify_rates
 
 _UNITS = {"radius": "m", "preload": "N", "temperature": "K"}
 _WORDS = ("title", "notes", "material")
@@ -40,7 +42,7 @@ _KEYS = (
     "level",
     "scatter",
     "curves",
-    "curves",
+    "growth",
     "work_of_adhesion",
     "read",
     *_UNITS,
@@ -86,6 +88,8 @@ class Study:
         Known from a slow test, with its standard uncertainty [J/m2].
     curves : bool
         Take whole curves, not only pull-offs.
+    growth : bool
+        Look for an interface that grows with the opening speed.
     scatter : float
         Relative standard deviation from test to test, where the tests do not show it themselves.
     level : float
@@ -103,6 +107,7 @@ class Study:
     temperature: float | None = None
     work_of_adhesion: tuple[float, float] | None = None
     curves: bool = False
+    growth: bool = False
     scatter: float = 0.0
     level: float = 0.9
     reading: Mapping[str, Any] = field(default_factory=dict)
@@ -154,6 +159,7 @@ def answer(study: Study) -> Answer:
         work_of_adhesion=study.work_of_adhesion,
         stiffness=1 / compliance if compliance > 0 else None,
         curves=study.curves,
+        growth=study.growth,
         scatter=study.scatter,
         level=study.level,
     )
@@ -191,10 +197,10 @@ def _study(table: Mapping[str, Any], folder: Path) -> Study:
     if beside.is_file():
         values["material"] = str(beside)
     values |= {key: parse(table[key], "1") for key in ("level", "scatter") if key in table}
-    if "curves" in table:
-        if not isinstance(table["curves"], bool):
-            raise InputError(f"curves must be true or false, got {table['curves']!r}")
-        values["curves"] = table["curves"]
+    for key in ("curves", "growth"):
+        if not isinstance(table.get(key, False), bool):
+            raise InputError(f"{key} must be true or false, got {table[key]!r}")
+        values[key] = table.get(key, False)
     if "work_of_adhesion" in table:
         value, uncertainty = table["work_of_adhesion"]
         values["work_of_adhesion"] = parse(value, "J/m^2"), parse(uncertainty, "J/m^2")
@@ -233,7 +239,7 @@ def study_text(study: Study, folder: str | os.PathLike[str]) -> str:
         values[key] = _quantity(getattr(study, key), unit)
     if study.work_of_adhesion is not None:
         values["work_of_adhesion"] = [_quantity(x, "J/m^2") for x in study.work_of_adhesion]
-    values |= {"curves": study.curves or None, "scatter": study.scatter or None}
+    values |= {name: getattr(study, name) or None for name in ("curves", "growth", "scatter")}
     values["level"] = study.level
     how = {
         key: value if unit is None else _quantity(value, unit)

@@ -21,6 +21,8 @@ _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _SCALES = {
     "work_of_adhesion": ("work of adhesion [J/m$^2$]", 1.0),
     "equilibrium_gap": ("range $h_0$ [nm]", 1e9),
+    "strengthening": ("strength over that at rest", 1.0),
+    "exponent": ("exponent of growth", 1.0),
 }
 _MOST = 20.0  # of the criterion: models that are worth a line
 
@@ -119,7 +121,8 @@ def draw_posterior(chain: Posterior, fit: RateSeriesFit) -> "Figure":
     # the panels are placed by the library that draws them
     own: list[Any] = [_STYLE, {"figure.constrained_layout.use": False}]
     with matplotlib.style.context(own):
-        figure = Figure(figsize=(7.0, 7.0))
+        side = 7.0 if len(chain.parameters) == 2 else 11.0
+        figure = Figure(figsize=(side, side))
         columns = [_SCALES.get(one.name, (one.name, 1.0)) for one in chain.parameters]
         scale = np.array([factor for _, factor in columns])
         ends = [(1 - fit.level) / 2, 0.5, (1 + fit.level) / 2]

@@ -33,6 +33,8 @@ Array = npt.NDArray[np.float64]
 
 # Part of the reference speed below which a power law grows in proportion to the speed.
 _SLOW = 1e-6
+# Newton's rounds to a reference speed.
+_ROUNDS = 30
 
 ReferenceSpeed = Annotated[
     float,
@@ -205,10 +207,49 @@ class GentSchultz(_Growing):
     base: Traction = LennardJones(1.0, 1.0)
 
     def _growth(self, u: Array) -> Array:
-        return u * (u + _SLOW) ** (self.exponent - 1)
+        return power_growth(u, self.exponent)
 
     def _slope(self, u: Array) -> Array:
         return (u + _SLOW) ** (self.exponent - 2) * (self.exponent * u + _SLOW)
+
+
+def power_growth(ratio: npt.ArrayLike, exponent: npt.ArrayLike) -> Array:
+    """Return G of :class:`GentSchultz` laws at opening speeds over v0, not negative."""
+    u = np.asarray(ratio, dtype=float)
+    return u * (u + _SLOW) ** (np.asarray(exponent, dtype=float) - 1)
+
+
+def reference_speed(
+    growth: npt.ArrayLike, opening_speed: npt.ArrayLike, exponent: npt.ArrayLike
+) -> Array:
+    """Return v0 of the :class:`GentSchultz` law that grows by so much at an opening speed.
+
+    Parameters
+    ----------
+    growth : array_like
+        G, not negative; 0 has an infinite reference speed.
+    opening_speed : array_like
+        Positive, in any unit, which is that of the answer.
+    exponent : array_like
+        n, in (0, 1].
+
+    Examples
+    --------
+    >>> speed = float(reference_speed(0.3, 1e-4, 0.4))
+    >>> law = GentSchultz(0.1, 1e-7, reference_speed=speed, exponent=0.4)
+    >>> f"{law.growth(1e-4):.3f}"
+    '0.300'
+    """
+    G, n = np.asarray(growth, dtype=float), np.asarray(exponent, dtype=float)
+    grown = G > 0
+    log_growth = np.log(np.where(grown, G, 1.0))
+    # of both of its powers the growth is the smaller one; Newton in logarithms, of slope n to 1
+    log_u = np.maximum(log_growth / n, log_growth - (n - 1) * np.log(_SLOW))
+    for _ in range(_ROUNDS):
+        u = np.exp(log_u)
+        misfit = log_u + (n - 1) * np.log(u + _SLOW) - log_growth
+        log_u = log_u - misfit / (1 + (n - 1) * u / (u + _SLOW))
+    return np.where(grown, np.asarray(opening_speed, dtype=float) * np.exp(-log_u), np.inf)
 
 
 @dataclass(frozen=True)

@@ -14,25 +14,8 @@ from viscotack.files.whole import write_whole
 from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
-from .tack import (
-    Compliance,
-    ComplianceUncertainty,
-    Compression,
-    Decimal,
-    ForceColumn,
-    ForceUnit,
-    Format,
-    Into,
-    LengthUnit,
-    NominalSpeed,
-    PositionColumn,
-    RetractionOnly,
-    TestFiles,
-    TimeUnit,
-    evaluation_of,
-    nothing,
-    reading_of,
-)
+from .rig import ReadingRigs, TestFiles, rig_of
+from .tack import nothing
 from .writing import Writing, check_files
 
 identify = typer.Typer(
@@ -64,8 +47,9 @@ class Against(StrEnum):
     DEPTH = "depth"
 
 
-@identify.command("slow")
+@identify.command("slow", cls=ReadingRigs)
 def slow_command(
+    context: typer.Context,
     files: TestFiles,
     radius: Annotated[
         str,
@@ -104,19 +88,6 @@ def slow_command(
     ] = None,
     level: Annotated[float, Option(help="Confidence level of the intervals.")] = 0.9,
     plot_file: PlotFile = None,
-    format: Format = None,
-    force_unit: ForceUnit = None,
-    length_unit: LengthUnit = None,
-    time_unit: TimeUnit = None,
-    force_column: ForceColumn = None,
-    position_column: PositionColumn = None,
-    decimal: Decimal = None,
-    nominal_speed: NominalSpeed = None,
-    compliance: Compliance = None,
-    compliance_uncertainty: ComplianceUncertainty = None,
-    into: Into = None,
-    compression: Compression = None,
-    retraction_only: RetractionOnly = False,
     as_json: AsJson = False,
 ) -> None:
     """Find work of adhesion and Tabor number from one slow retraction of a sphere.
@@ -131,21 +102,12 @@ def slow_command(
     """
     with wrong_input():
         check_files({"--plot": plot_file}, as_json=as_json, reads=files)
-        reading = reading_of(
-            format,
-            (force_unit, length_unit, time_unit),
-            (force_column, position_column),
-            decimal,
-            nominal_speed,
-        )
-        evaluation = evaluation_of(
-            (compliance, compliance_uncertainty), (into, compression), retraction_only
-        )
+        rig = rig_of(context)
         from viscotack.identify import identify_slow, slow_test
         from viscotack.lab.tack import survey
         from viscotack.pictures.identify import draw_slow_test
 
-        found = survey(files, reading=reading, evaluation=evaluation)
+        found = survey(files, reading=rig.reading, evaluation=rig.evaluation)
         if not found.cycles:
             raise InputError(nothing(found))
         if not 1 <= cycle <= len(found.cycles):
@@ -171,8 +133,9 @@ def slow_command(
     write.end()
 
 
-@identify.command("rates")
+@identify.command("rates", cls=ReadingRigs)
 def rates_command(
+    context: typer.Context,
     files: TestFiles,
     passport: Annotated[
         str,
@@ -227,6 +190,14 @@ def rates_command(
             help="Take whole curves, by their travels between forces; one speed is enough then.",
         ),
     ] = False,
+    growth: Annotated[
+        bool,
+        Option(
+            "--growth",
+            help="Look for an interface that grows with the opening speed: how much, with which "
+            "power, and whether the data need it. Takes 1 to 2 minutes.",
+        ),
+    ] = False,
     scatter: Annotated[
         str | None,
         Option(
@@ -248,21 +219,8 @@ def rates_command(
     plot_file: PlotFile = None,
     corner_file: Annotated[
         Path | None,
-        Option("--corner", metavar="FILE", help="Draw the posterior of work and range."),
+        Option("--corner", metavar="FILE", help="Draw the posterior of the interface."),
     ] = None,
-    format: Format = None,
-    force_unit: ForceUnit = None,
-    length_unit: LengthUnit = None,
-    time_unit: TimeUnit = None,
-    force_column: ForceColumn = None,
-    position_column: PositionColumn = None,
-    decimal: Decimal = None,
-    nominal_speed: NominalSpeed = None,
-    compliance: Compliance = None,
-    compliance_uncertainty: ComplianceUncertainty = None,
-    into: Into = None,
-    compression: Compression = None,
-    retraction_only: RetractionOnly = False,
     as_json: AsJson = False,
 ) -> None:
     """Find work of adhesion and range of attraction from pull-offs at several speeds.
@@ -270,7 +228,7 @@ def rates_command(
     Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
     steady viscoelastic crack is fitted to them. Solids that the measurement behind the passport
     allows as well widen the intervals. What the data cannot tell, and where such an interface does
-    not give the forces, is said in words.
+    not give the forces, is said in words. --growth looks for an interface that grows with speed.
 
     Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
     -o study.toml
@@ -278,16 +236,7 @@ def rates_command(
     with wrong_input():
         drawn = {"--plot": plot_file, "--corner": corner_file}
         check_files({"--output": output, **drawn}, as_json=as_json, reads=files)
-        reading = reading_of(
-            format,
-            (force_unit, length_unit, time_unit),
-            (force_column, position_column),
-            decimal,
-            nominal_speed,
-        )
-        evaluation = evaluation_of(
-            (compliance, compliance_uncertainty), (into, compression), retraction_only
-        )
+        rig = rig_of(context)
         from viscotack.identify import posterior
         from viscotack.identify.study import Study, answer, study_text
         from viscotack.pictures.identify import draw_posterior, draw_rate_series
@@ -300,10 +249,11 @@ def rates_command(
             temperature=None if temperature is None else parse(temperature, "K"),
             work_of_adhesion=_pair("--work-of-adhesion", (work, work_uncertainty), "J/m^2"),
             curves=curves,
+            growth=growth,
             scatter=0.0 if scatter is None else parse(scatter, "1"),
             level=level,
-            reading=reading,
-            evaluation=evaluation,
+            reading=rig.reading,
+            evaluation=rig.evaluation,
         )
         found = answer(study)
     fit, write = found.fit, Writing()

@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer import Argument, Option
+from typer import Option
 
 from viscotack.app.records import cycle_row, tests_record
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
-from viscotack.units import parse
 
 from .commands import AsJson, PlotFile, application, wrong_input
+from .rig import ReadingRigs, TestFiles, rig_of
 from .writing import Writing, check_files, rows_as_csv
 
 tests = typer.Typer(
@@ -22,119 +22,16 @@ tests = typer.Typer(
 )
 application.add_typer(tests, name="test")
 
-_SIGNS = {"+": 1, "-": -1, None: 0}
 
-TestFiles = Annotated[
-    list[Path],
-    Argument(
-        metavar="FILE...",
-        help="What the rig wrote: CSV or other text with units, a testXpert workbook, a Nanosurf "
-        ".nid, a JPK .jpk-force or an Asylum .ibw. Files named ..._Interval_7.csv are intervals "
-        "of one test.",
-        show_default=False,
-    ),
-]
-Format = Annotated[
-    str | None,
-    Option("--format", metavar="NAME", help="Of the files, where it is not found out."),
-]
-ForceUnit = Annotated[
-    str | None,
-    Option("--force-unit", help="Such as mN or g, where a file does not say."),
-]
-LengthUnit = Annotated[
-    str | None, Option("--length-unit", help="Such as um, where a file does not say.")
-]
-TimeUnit = Annotated[
-    str | None, Option("--time-unit", help="Such as s, where a file does not say.")
-]
-ForceColumn = Annotated[
-    str | None,
-    Option("--force-column", metavar="NAME", help="Heading of the force, where it is not found."),
-]
-PositionColumn = Annotated[
-    str | None,
-    Option(
-        "--position-column",
-        metavar="NAME",
-        help="Heading of the gap, depth or travel, where there are several.",
-    ),
-]
-Decimal = Annotated[
-    str | None,
-    Option("--decimal", metavar=",|.", help="Decimal mark, where 1,234 leaves it open."),
-]
-NominalSpeed = Annotated[
-    str | None,
-    Option(
-        "--nominal-speed",
-        metavar="SPEED",
-        help='The speed that was set, "10 um/s", where a file has no time; it is not checked.',
-    ),
-]
-Compliance = Annotated[
-    str | None,
-    Option(
-        "--compliance",
-        metavar="LENGTH/FORCE",
-        help='How far the rig itself yields, "2 um/N": measured on a stiff sample. Taken off the '
-        "depth. A cantilever named by its file does so without being asked.",
-    ),
-]
-ComplianceUncertainty = Annotated[
-    str | None,
-    Option(
-        "--compliance-uncertainty",
-        metavar="LENGTH/FORCE",
-        help="Standard uncertainty of it; it goes into depths and works.",
-    ),
-]
-Into = Annotated[
-    str | None,
-    Option(
-        "--into",
-        metavar="+|-",
-        help="Whether larger positions are deeper, where neither heading nor signal says.",
-    ),
-]
-Compression = Annotated[
-    str | None,
-    Option(
-        "--compression",
-        metavar="+|-",
-        help="Sign of a compression in the files; refused where the signal says otherwise.",
-    ),
-]
-RetractionOnly = Annotated[
-    bool,
-    Option(
-        "--retraction-only",
-        help="Take curves without an approach from outside: zero of force from after the pull-off.",
-    ),
-]
-
-
-@tests.command("read")
+@tests.command("read", cls=ReadingRigs)
 def read_command(
+    context: typer.Context,
     files: TestFiles,
     table: Annotated[
         Path | None,
         Option("--csv", metavar="FILE", help="Write a row for each cycle; - is standard output."),
     ] = None,
     plot_file: PlotFile = None,
-    format: Format = None,
-    force_unit: ForceUnit = None,
-    length_unit: LengthUnit = None,
-    time_unit: TimeUnit = None,
-    force_column: ForceColumn = None,
-    position_column: PositionColumn = None,
-    decimal: Decimal = None,
-    nominal_speed: NominalSpeed = None,
-    compliance: Compliance = None,
-    compliance_uncertainty: ComplianceUncertainty = None,
-    into: Into = None,
-    compression: Compression = None,
-    retraction_only: RetractionOnly = False,
     as_json: AsJson = False,
 ) -> None:
     """Read tack tests or force curves: pull-off, work, depth and TRUE speed of every cycle.
@@ -147,20 +44,11 @@ def read_command(
     """
     with wrong_input():
         check_files({"--csv": table, "--plot": plot_file}, as_json=as_json, reads=files)
-        reading = reading_of(
-            format,
-            (force_unit, length_unit, time_unit),
-            (force_column, position_column),
-            decimal,
-            nominal_speed,
-        )
-        evaluation = evaluation_of(
-            (compliance, compliance_uncertainty), (into, compression), retraction_only
-        )
+        rig = rig_of(context)
         from viscotack.lab.tack import survey
         from viscotack.pictures.tack import draw_tests
 
-        found = survey(files, reading=reading, evaluation=evaluation)
+        found = survey(files, reading=rig.reading, evaluation=rig.evaluation)
         if not found.cycles:
             raise InputError(nothing(found))
     write = Writing()
@@ -177,48 +65,6 @@ def read_command(
         json.dumps(tests_record(found), indent=2, allow_nan=False) if as_json else _words(found)
     )
     write.end()
-
-
-def reading_of(
-    format: str | None,
-    units: tuple[str | None, str | None, str | None],
-    columns: tuple[str | None, str | None],
-    decimal: str | None,
-    nominal_speed: str | None,
-) -> dict[str, Any]:
-    """Return what flags say about the files, as keywords of the reader."""
-    return {
-        "format": format,
-        "force_unit": units[0],
-        "length_unit": units[1],
-        "time_unit": units[2],
-        "force_column": columns[0],
-        "position_column": columns[1],
-        "decimal": decimal,
-        "nominal_speed": None if nominal_speed is None else parse(nominal_speed, "m/s"),
-    }
-
-
-def evaluation_of(
-    compliance: tuple[str | None, str | None],
-    signs: tuple[str | None, str | None],
-    retraction_only: bool,
-) -> dict[str, Any]:
-    """Return what flags say about the rig, as keywords of the evaluation."""
-    value, uncertainty = (None if x is None else parse(x, "m/N") for x in compliance)
-    return {
-        "compliance": value,
-        "compliance_uncertainty": uncertainty or 0.0,
-        "into": _sign("--into", signs[0]),
-        "compression": _sign("--compression", signs[1]),
-        "retraction_only": retraction_only,
-    }
-
-
-def _sign(flag: str, word: str | None) -> int:
-    if word not in _SIGNS:
-        raise InputError(f"{flag} must be + or -, got {word!r}")
-    return _SIGNS[word]
 
 
 def nothing(found: Any) -> str:

@@ -59,8 +59,10 @@ def page(found: Answer, forecast: RateForecast) -> str:
         refused=found.survey.reasons,
         decisions=_decisions(found),
         series=_series(found),
+        shares=_shares(found),
         forecast=_forecast(forecast),
         level=f"{fit.level:.0%}",
+        theory=f"{100 * fit.theory:.3g} %",
         material=in_words(fit.passport),
         curves=_drawing(draw_tests(found.survey.cycles[:_MOST_CURVES])),
         speeds=_drawing(draw_rate_series(fit, forecast)),
@@ -82,8 +84,40 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
         ("preload", preload),
         ("work of adhesion", _interval(found, "work_of_adhesion", 1e3, "mJ/m²")),
         ("range of attraction h₀", _interval(found, "equilibrium_gap", 1e9, "nm")),
+        *_growth(found),
         ("Tabor number", f"{fit.tabor:.3g}"),
         ("residuals over their uncertainty", f"{fit.scatter:.2g}"),
+    ]
+
+
+def _growth(found: Answer) -> list[tuple[str, str]]:
+    """Return how the interface grows with speed, nothing where that was not asked."""
+    grown = found.fit.growth
+    if grown is None:
+        return []
+    opening = f"{1e6 * grown.opening_speed:.3g} µm/s"
+    return [
+        (
+            f"strength over that at rest where the gap opens with {opening}",
+            _interval(found, "strengthening", 1.0, ""),
+        ),
+        ("exponent of growth", _interval(found, "exponent", 1.0, "")),
+        ("chance of as much without growth", f"{grown.chance:.2g}"),
+    ]
+
+
+def _shares(found: Answer) -> list[tuple[str, ...]]:
+    """Return who takes the energy of the edge at the speeds of the series."""
+    grown = found.fit.growth
+    return [
+        (
+            f"{1e6 * one.speed:.4g}",
+            f"{1e6 * one.edge_speed:.3g}",
+            f"{one.energy:.3g}",
+            f"{one.bulk:.3g}",
+            f"{one.interface:.3g}",
+        )
+        for one in (() if grown is None else grown.shares)
     ]
 
 
@@ -92,7 +126,8 @@ def _interval(found: Answer, name: str, scale: float, unit: str) -> str:
     ends, value = fit.intervals[name], scale * fit.best.values[name]
     low = f"{scale * ends.low:.3g}" if ends.closed_below else "no lower end"
     high = f"{scale * ends.high:.3g}" if ends.closed_above else "no upper end"
-    return f"{value:.4g} {unit} ({low} to {high}, {fit.level:.0%})"
+    number = f"{value:.4g} {unit}".strip()
+    return f"{number} ({low} to {high}, {fit.level:.0%})"
 
 
 def _tests(found: Answer) -> list[tuple[str, ...]]:

@@ -1,11 +1,14 @@
 r"""Edges of many interfaces that grow with the opening speed, of one solid: for grids and fits.
 
 A crack costs a table of its own for every reference speed (over h0 per unit of time) and exponent,
-0.5 to 2 s. At one speed :math:`\ln(\Gamma - 1)` and the work of the interface are smooth in both:
-cubic splines in ln v0 and n, from a lattice. With tables a decade and an exponent of 0.15 apart
-(28 of them for seven decades), energies between them are those of their own cracks within 1.3 %,
-below 20 works of adhesion within 1.0 %, for a standard solid and a power law of 0.3 with k from
-1e-3. Receding contacts (:func:`.recede`) take from it an edge of their own for each case.
+0.4 to 2 s. At one speed :math:`\ln(\Gamma - 1)` and the work of the interface are smooth in the
+growth at an opening speed and in the exponent: cubic splines in ln G and n, from a lattice. Below
+its least growth energies go in proportion to the growth towards those of the law at rest. Receding
+contacts (:func:`.recede`) take from it an edge of their own for each case.
+
+A solid beside (:class:`NeighbourEdges`) costs nothing. In units that shrink with the crack, as
+:mod:`viscotack.theory.crack.steady._grown` has it, a crack with growth is one of the law at rest,
+of the speed Q V: the bulk of the neighbour has the energy of its own crack at rest at that speed.
 """
 
 from __future__ import annotations
@@ -15,31 +18,45 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import RectBivariateSpline
+from scipy.interpolate import NdBSpline, make_interp_spline
 
 from viscotack.errors import InputError
 from viscotack.materials import Modes
-from viscotack.theory.crack.steady import SteadyCrack
+from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack
 from viscotack.traction import GentSchultz, LennardJones, Traction
+from viscotack.traction.growing import power_growth
+from viscotack.traction.growing import reference_speed as speed_of_growth
+
+from ._edge import Edge
 
 Array = npt.NDArray[np.float64]
 
-# Rows of a table over ln V; an energy beyond the last crack goes on with this slope at least.
-_ROWS, _LEAST_SLOPE = 500, 0.2
-# What counts as the largest energy: beyond, tables are extrapolated.
-_LIMIT = 250.0
+# Rows of a table over ln V; an energy beyond the last crack goes on with this slope at least, found
+# over so much of ln V.
+_ROWS, _LEAST_SLOPE, _NEAR = 500, 0.2, 0.5
+# What counts as the first and as the largest energy: beyond, tables are extrapolated.
+_GAINED, _LIMIT = 1.0001, 250.0
 _ORDER = 3
+# Between growths of the lattice, ln; and what is gained by cracks that cannot be told from elastic.
+_APART, _NOTHING = np.log(6.0), 1e-300
+# By what a stronger bulk takes from the work of the interface, see :class:`NeighbourEdges`.
+_LONGER = 1.6
+_ROUND_OFF = 1e-9
 
 
 class GrowingCracks:
-    """The opening cracks of a solid with Gent-Schultz growth, over reference speeds and exponents.
+    """The opening cracks of a solid with Gent-Schultz growth, over amounts and powers of it.
 
     Parameters
     ----------
     material : viscoelastic material
-        Reduced, or in SI: reference speeds are then those of a law with h0 = 1 m.
-    reference_speeds, exponents : sequence of float
-        The lattice, at least four of each, ascending; speeds in h0 per unit of time.
+        Reduced, or in SI: speeds are then those of a law with h0 = 1 m.
+    growths : (float, float)
+        Least and largest growth G that are wanted.
+    speeds : (float, float)
+        At one of the opening speeds between these [h0 per unit of time].
+    exponents : sequence of float
+        Of the lattice, four at least, ascending.
     base : Traction
         The reduced law at rest.
     """
@@ -47,58 +64,87 @@ class GrowingCracks:
     def __init__(
         self,
         material: Any,
-        reference_speeds: Sequence[float],
+        growths: tuple[float, float],
+        speeds: tuple[float, float],
         exponents: Sequence[float],
         *,
         base: Traction | None = None,
     ) -> None:
-        v0, n = np.asarray(reference_speeds, dtype=float), np.asarray(exponents, dtype=float)
-        few = min(v0.size, n.size) <= _ORDER
-        if few or np.any(np.diff(v0) <= 0) or np.any(np.diff(n) <= 0) or v0[0] <= 0:
+        n = np.asarray(exponents, dtype=float)
+        rising = 0 < growths[0] < growths[1] and 0 < speeds[0] <= speeds[1]
+        if n.size <= _ORDER or np.any(np.diff(n) <= 0) or not rising:
             raise InputError(
-                "a lattice has four reference speeds and four exponents at least, ascending, got "
-                f"{v0.tolist()} and {n.tolist()}"
+                "a lattice has four exponents at least, ascending, and growths and speeds from the "
+                f"smaller to the larger; got {n.tolist()}, {growths!r} and {speeds!r}"
             )
-        base = LennardJones(1.0, 1.0) if base is None else base
+        self._middle = float(np.sqrt(speeds[0] * speeds[1]))
+        self._log_growths = np.log(np.array(growths))
+        self._half = float(np.log(speeds[1] / speeds[0])) / 2
+        self._exponents = n
+        low, high = self._ends(n)
+        count = max(_ORDER + 1, 1 + int(np.ceil(np.max(high - low) / _APART)))
+        part = np.linspace(0.0, 1.0, count)
+        growth = np.exp(low + part[:, None] * (high - low))
+        v0 = speed_of_growth(growth, self._middle, n)
+
         reduced = material.reduced()
+        base = LennardJones(1.0, 1.0) if base is None else base
         cracks = [
-            [SteadyCrack(reduced, GentSchultz(1.0, 1.0, x, y, base=base)) for y in n] for x in v0
+            SteadyCrack(reduced, GentSchultz(1.0, 1.0, float(v), float(x), base=base))
+            for row in v0
+            for v, x in zip(row, n, strict=True)
         ]
-        flat = [crack for row in cracks for crack in row]
-        ends = np.array([_ends(crack) for crack in flat])
+        ends = np.array([_tabulated(crack) for crack in cracks])
         self._log_speed = np.linspace(ends[:, 0].min(), ends[:, 1].max(), _ROWS)
-        tables = np.array([[_table(crack, self._log_speed) for crack in row] for row in cracks])
-        self._gained, self._work = (
-            [
-                RectBivariateSpline(np.log(v0), n, tables[:, :, k, i], kx=3, ky=3)
-                for i in range(_ROWS)
-            ]
-            for k in (0, 1)
-        )
-        self._ranges = (v0[0], v0[-1]), (n[0], n[-1])
-        self.modes: Modes = flat[0].modes
+        tables = np.array([_table(crack, self._log_speed) for crack in cracks])
+        tables = tables.reshape(count, n.size, 2, _ROWS)
+        self._spline = lattice_spline((part, n), tables)
+        self.at_rest = SteadyCrack(reduced, base)
+        gained = np.asarray(self.at_rest.amplification(np.exp(self._log_speed))) - 1
+        self._at_rest = np.maximum(gained, _NOTHING), np.ones(_ROWS)
+        self.modes: Modes = self.at_rest.modes
 
     def edges(self, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike) -> GrowingEdges:
         """Return the edges of cases, each with its reference speed and exponent.
 
+        An infinite reference speed is an interface that does not grow.
+
         Raises
         ------
         ValueError
-            If one lies outside the lattice.
+            If one grows by more than those of the lattice, or has an exponent beside it.
         """
         v0, n = (np.ravel(x) for x in np.broadcast_arrays(reference_speed, exponent))
-        for name, values, (low, high) in zip(
-            ("reference_speed", "exponent"), (v0, n), self._ranges, strict=True
-        ):
-            if np.any((values < low * (1 - 1e-9)) | (values > high * (1 + 1e-9))):
-                raise InputError(
-                    f"{name} must lie within the lattice, {low:g} to {high:g}, got "
-                    f"{values.min():g} to {values.max():g}"
-                )
-        pairs, which = np.unique(np.column_stack([np.log(v0), n]), axis=0, return_inverse=True)
-        gained = np.array([one.ev(pairs[:, 0], pairs[:, 1]) for one in self._gained]).T
-        work = np.array([one.ev(pairs[:, 0], pairs[:, 1]) for one in self._work]).T
-        return GrowingEdges(self.modes, self._log_speed, gained, work, which.ravel())
+        first, last = self._exponents[0], self._exponents[-1]
+        if np.any((n < first * (1 - _ROUND_OFF)) | (n > last * (1 + _ROUND_OFF))):
+            raise InputError(
+                f"exponent must lie within the lattice, {first:g} to {last:g}, got {n.min():g} to "
+                f"{n.max():g}"
+            )
+        pairs, which = np.unique(np.column_stack([v0, n]), axis=0, return_inverse=True)
+        v0, n = pairs[:, 0], np.clip(pairs[:, 1], first, last)
+        with np.errstate(divide="ignore"):
+            log_growth = np.log(power_growth(self._middle / v0, n))
+        low, high = self._ends(n)
+        if np.any(log_growth > high + 1e-6):
+            raise InputError(
+                "the interface grows by more than any of the lattice: by "
+                f"{np.exp(np.max(log_growth - high)):.3g} times as much"
+            )
+        part = (log_growth - low) / (high - low)
+        found = self._spline(np.column_stack([np.clip(part, 0.0, 1.0), n]))
+        # less than the least of the lattice: in proportion, from the law at rest
+        share = np.exp(np.minimum(log_growth - low, 0.0))[:, None]
+        gained, work = (
+            (1 - share) * rest + share * np.exp(found[:, k]) for k, rest in enumerate(self._at_rest)
+        )
+        tables = np.log(gained), np.log(work)
+        return GrowingEdges(self.modes, self._log_speed, tables, n, which.ravel())
+
+    def _ends(self, exponent: Array) -> tuple[Array, Array]:
+        """Return ln of least and largest growth at the middle speed, of exponents."""
+        low, high = self._log_growths
+        return low - exponent * self._half, high + exponent * self._half
 
 
 class GrowingEdges:
@@ -108,13 +154,13 @@ class GrowingEdges:
         self,
         modes: Modes,
         log_speed: Array,
-        gained: Array,
-        work: Array,
+        tables: tuple[Array, Array],
+        exponent: Array,
         which: npt.NDArray[np.intp],
     ) -> None:
-        self.modes, self.limit = modes, _LIMIT
+        self.modes, self.limit, self.exponent = modes, _LIMIT, exponent[which]
         self._first, self._per = log_speed[0], (_ROWS - 1) / (log_speed[-1] - log_speed[0])
-        self._gained, self._log_work, self._which = gained, work, which
+        (self._gained, self._log_work), self._which = tables, which
 
     def amplification(self, speed: Any) -> Any:
         """Return the energies of the cases at their speeds, the cases along the last axis."""
@@ -132,20 +178,74 @@ class GrowingEdges:
         return low + (place - i) * (high - low)
 
 
-def _ends(crack: SteadyCrack) -> tuple[float, float]:
+class NeighbourEdges:
+    r"""The same edges of a solid beside the one whose cracks are known.
+
+    .. math:: \ln \Gamma_2(V) = \ln \Gamma_1(V) + t \ln \frac{\Gamma_2^0(Q V)}{\Gamma_1^0(Q V)},
+              \quad t = \max \left( 0, 1 - 1.6 \, n \, \frac{Q - 1}{Q} \right)
+
+    with the energies :math:`\Gamma^0` of the law at rest, each in the units of its own solid. More
+    energy by the bulk makes the zone longer, so that the gap opens more slowly and the interface
+    takes less: where it grows much, little is left of what the bulk changes. The number 1.6 is
+    that of a zone which grows like :math:`\Gamma^{0.6}`. Of solids changed by a third energies are
+    those of their own cracks within 1.5 %, where the law at rest has up to 14 %.
+
+    Parameters
+    ----------
+    edges : GrowingEdges
+        Of the solid that is known, with reference speeds in h0 per unit of time of the other.
+    known : SteadyCrack
+        Its crack with the law at rest.
+    neighbour : NeighbourCrack
+        That of the other solid.
+    """
+
+    def __init__(self, edges: GrowingEdges, known: SteadyCrack, neighbour: NeighbourCrack) -> None:
+        self.modes, self.limit = neighbour.modes, edges.limit
+        self._edges, self._known, self._neighbour = edges, Edge(known, 1), neighbour
+
+    def amplification(self, speed: Any) -> Any:
+        """Return the energies of the cases at their speeds, the cases along the last axis."""
+        work = self._edges.interface_work(speed)
+        at_rest = np.maximum(work * speed, _NOTHING)
+        change = self._neighbour.amplification(at_rest) / self._known.amplification(at_rest)
+        left = np.maximum(1 - _LONGER * self._edges.exponent * (1 - 1 / work), 0.0)
+        return self._edges.amplification(speed) * change**left
+
+    def interface_work(self, speed: Any) -> Any:
+        """Return what the interfaces take [works of adhesion]."""
+        return self._edges.interface_work(speed)
+
+
+def lattice_spline(axes: Sequence[Array], values: Array) -> NdBSpline:
+    """Return the cubic spline through values on a lattice, whose axes are their first ones."""
+    knots, coefficients = [], values
+    for i, axis in enumerate(axes):
+        one = make_interp_spline(axis, coefficients, k=_ORDER, axis=i)
+        # the spline has its axis first
+        coefficients = np.moveaxis(one.c, 0, i)
+        knots.append(one.t)
+    return NdBSpline(tuple(knots), coefficients, _ORDER)
+
+
+def _tabulated(crack: SteadyCrack) -> tuple[float, float]:
     """Return ln of the speeds between which a crack is tabulated."""
     last = 1 + (1 - 1e-6) * (min(crack.largest, _LIMIT) - 1)
-    first, end = np.log(np.asarray(crack.speed(np.array([1.0001, last]))))
+    first, end = np.log(np.asarray(crack.speed(np.array([_GAINED, last]))))
     return float(first), float(end)
 
 
 def _table(crack: SteadyCrack, log_speed: Array) -> Array:
-    """Return ln of what is gained and of the work of the interface at speeds."""
-    _, end = _ends(crack)
-    inside = np.minimum(log_speed, end)
-    gained = np.log(np.asarray(crack.amplification(np.exp(inside))) - 1)
+    """Return ln of what is gained and of the work of the interface at speeds.
+
+    As powers of the speed beyond the cracks that are known.
+    """
+    ends = _tabulated(crack)
+    inside = np.clip(log_speed, *ends)
+    near = np.array([ends[0], ends[0] + _NEAR, ends[1] - _NEAR, ends[1]])
+    gained = np.log(np.asarray(crack.amplification(np.exp(np.append(inside, near)))) - 1)
+    gained, (a, b, c, d) = gained[:-4], gained[-4:]
     work = np.log(np.asarray(crack.interface_work(np.exp(inside))))
-    before = np.log(np.asarray(crack.amplification(np.exp([end - 0.5, end]))) - 1)
-    slope = max(float(before[1] - before[0]) / 0.5, _LEAST_SLOPE)
-    beyond = slope * np.maximum(log_speed - end, 0.0)
-    return np.array([gained + beyond, work + beyond])
+    below = (b - a) / _NEAR * np.minimum(log_speed - ends[0], 0.0)
+    beyond = max((d - c) / _NEAR, _LEAST_SLOPE) * np.maximum(log_speed - ends[1], 0.0)
+    return np.array([gained + below + beyond, work * np.exp(below) + beyond])

@@ -24,7 +24,7 @@ from ._edge import Edge
 from ._even import Even
 from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
-from .growing import GrowingEdges
+from .growing import GrowingEdges, NeighbourEdges
 
 Array = npt.NDArray[np.float64]
 
@@ -69,7 +69,7 @@ class Curves(NamedTuple):
 
 
 def recede(
-    crack: SteadyCrack | GrowingEdges,
+    crack: SteadyCrack | GrowingEdges | NeighbourEdges,
     profile: Profile,
     *,
     radius: Array,
@@ -93,7 +93,7 @@ def recede(
     """
     a0, r, mu = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (radius, rate, tabor)))
     chain = chain_of(crack.modes)
-    edge = crack if isinstance(crack, GrowingEdges) else Edge(crack, 1)
+    edge = crack if isinstance(crack, GrowingEdges | NeighbourEdges) else Edge(crack, 1)
     travel = _Travel(chain, profile, a0, r, mu)
     start = profile.relaxed_depth(a0)
     # what the smallest, elastic contact has at pull-off, not to end above any of them
@@ -139,7 +139,7 @@ def _parts(radii: int) -> Array:
 def _marched(
     a: Array,
     profile: Profile,
-    edge: Edge | GrowingEdges,
+    edge: Edge | GrowingEdges | NeighbourEdges,
     travel: _Travel,
     *,
     start: Array,

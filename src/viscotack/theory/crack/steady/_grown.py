@@ -75,8 +75,7 @@ class Grown:
         """Return amplifications at ln of speeds; that of the last crack beyond it."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
         speed, gained = self._curve()
-        slope = (gained[1] - gained[0]) / (speed[1] - speed[0])
-        below = slope * np.minimum(log_speed - speed[0], 0.0)
+        below = _first_slope(speed, gained) * np.minimum(log_speed - speed[0], 0.0)
         return 1 + np.exp(np.interp(log_speed, speed, gained) + below)
 
     def work(self, log_speed: Array) -> Array:
@@ -90,8 +89,7 @@ class Grown:
         wanted = np.log(gamma - 1)
         self._reach(gained=float(np.max(wanted, initial=-np.inf)))
         speed, gained = self._curve()
-        slope = (gained[1] - gained[0]) / (speed[1] - speed[0])
-        below = np.minimum(wanted - gained[0], 0.0) / slope
+        below = np.minimum(wanted - gained[0], 0.0) / _first_slope(speed, gained)
         return np.interp(wanted, gained, speed) + below
 
     @property
@@ -236,3 +234,8 @@ class Grown:
             rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
             self._table = (y.size, *rising)
         return self._table[1:]
+
+
+def _first_slope(speed: Array, gained: Array) -> float:
+    """Return the slope between the first two cracks; what they gain is little, and not smooth."""
+    return float((gained[_FINE] - gained[0]) / (speed[_FINE] - speed[0]))

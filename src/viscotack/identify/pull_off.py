@@ -1,0 +1,72 @@
+"""What a rate series is made of: pull-offs at true speeds, of the cycles of tack tests."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from viscotack.lab.tack import Cycle, Measured
+
+from .travel import travels
+
+_SAME = 0.03  # speeds within this part are one
+
+
+@dataclass(frozen=True)
+class PullOff:
+    """One pull-off, or the mean of several at one speed.
+
+    Parameters
+    ----------
+    speed : float
+        True one of the retraction [m/s].
+    force : Measured
+        A positive number [N].
+    preload : float, optional
+        Under which the contact relaxed [N].
+    travels : tuple of Measured, optional
+        What the whole curve says beside it [m], as :func:`.travel.travels` has it.
+    """
+
+    speed: float
+    force: Measured
+    preload: float | None = None
+    travels: tuple[Measured, ...] | None = None
+
+
+def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
+    """Return one pull-off for each speed: repeated cycles are averaged.
+
+    Speeds within 3 % are one. The uncertainty of a mean holds the scatter of its cycles; the
+    preload is the force where retractions begin, none where one of them begins in tension.
+    """
+    found: list[PullOff] = []
+    rest = sorted(cycles, key=lambda cycle: cycle.speed.value)
+    while rest:
+        first = rest[0].speed.value
+        same = [cycle for cycle in rest if cycle.speed.value <= (1 + _SAME) * first]
+        rest = rest[len(same) :]
+        forces = np.array([cycle.pull_off_force.value for cycle in same])
+        own = float(np.mean([cycle.pull_off_force.uncertainty for cycle in same]))
+        spread = float(np.std(forces, ddof=1) / np.sqrt(forces.size)) if forces.size > 1 else 0.0
+        speed = float(np.mean([cycle.speed.value for cycle in same]))
+        begins = [float(cycle.force[cycle.segments.retract]) for cycle in same]
+        force = Measured(float(forces.mean()), float(np.hypot(own, spread)))
+        preload = float(np.mean(begins)) if min(begins) > 0 else None
+        found.append(PullOff(speed, force, preload, _mean([travels(cycle) for cycle in same])))
+    return found
+
+
+def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:
+    """Return the means of travels; None where a curve has none."""
+    told = [row for row in rows if row is not None]
+    if len(told) < len(rows):
+        return None
+    columns = list(zip(*told, strict=True))
+    return tuple(
+        Measured(
+            float(np.mean([one.value for one in column])),
+            float(np.mean([one.uncertainty for one in column])),
+        )
+        for column in columns
+    )

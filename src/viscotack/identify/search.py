@@ -1,0 +1,298 @@
+r"""The search for an interface: tables of pull-offs, and what they are compared with.
+
+Without growth one table holds all that is looked at. With growth a coarse table of all that is
+looked at says where the likely interfaces are, and a fine one is made of those alone.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+
+from .doubt import theory_covariance
+from .forward import Forward
+from .growth import Opening, growing, growth_parameters
+from .objective import Best, Interval, Objective, Parameter
+from .pull_off import PullOff
+from .table import Table
+from .yielding import Yielding
+
+Array = npt.NDArray[np.float64]
+
+_WORKS, _GAPS = 8, 21  # works a decade, and ranges, of the table without growth
+LEAST_TABOR = 2.0  # effective: below it the theory does not hold
+# Steps of work, range, strengthening and exponent of the coarse table, in the numbers that are
+# searched; radii of a curve, and pull-offs that are taken.
+_COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6
+# And of the fine one, of all pull-offs.
+_FINE, _FINE_RADII = (0.29, 0.46, 0.4, 0.15), 80
+_FEWEST = 5  # values of an unknown
+# How many times as dense the coarse table is searched, and which misfits beyond the least are kept
+# at first, and where an interval wants more.
+_DENSE, _KEPT = 3, (30.0, 150.0)
+
+
+class Data:
+    """What was measured, as arrays, and how well it is known."""
+
+    def __init__(
+        self,
+        series: Sequence[PullOff],
+        work: tuple[float, float] | None,
+        curves: bool,
+        scatter: float,
+        theory: float,
+    ) -> None:
+        self.series, self.curves, self.theory = series, curves, theory
+        self.prior = None if work is None else (work[0], work[1] / work[0])
+        self.speed = np.array([one.speed for one in series])
+        self.load = np.array([one.preload for one in series], dtype=float)
+        self.force = np.array([one.force.value for one in series])
+        noise = np.array([one.force.uncertainty for one in series]) / self.force
+        own = np.diag(np.maximum(noise, 1e-9) ** 2 + scatter**2)
+        self.spread = own + theory_covariance(self.speed, theory)
+
+    def some(self, count: int) -> npt.NDArray[np.intp]:
+        """Return so many of the pull-offs, evenly from the slowest to the fastest."""
+        order, size = np.argsort(self.speed, kind="stable"), self.speed.size
+        return order[np.unique(np.linspace(0, size - 1, min(count, size)).round().astype(int))]
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A table, and what its forces are compared with."""
+
+    data: Data
+    table: Table
+    spread: Array
+    yielding: Yielding
+    opening: Opening | None = None
+    some: npt.NDArray[np.intp] | None = None
+
+    @property
+    def white(self) -> Array:
+        """What makes residuals independent, of one standard deviation each."""
+        at = slice(None) if self.some is None else np.ix_(self.some, self.some)
+        return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
+
+    def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
+        """Return residuals of forces of a rigid machine, relative ones."""
+        some = slice(None) if self.some is None else self.some
+        return forces * self.yielding(values)[..., some] / self.data.force[some] - 1
+
+    @property
+    def objective(self) -> Objective:
+        """Residuals over the parameters of the table."""
+        table, white = self.table, self.white
+        shapes = None
+        if self.data.curves and self.some is None:
+            shapes = _Shapes(self.data.series, table, self.data.theory)
+
+        def residuals(values: Mapping[str, float]) -> Array:
+            rest = white @ self._relative(table(values), values)
+            return rest if shapes is None else np.concatenate([rest, shapes(values)])
+
+        return Objective(residuals, self.parameters)
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The unknowns, between the ends of the table."""
+        axes = self.table.axes
+        found = [
+            _between("work_of_adhesion", axes["work_of_adhesion"], self.data.prior),
+            _between("equilibrium_gap", axes["equilibrium_gap"], None),
+        ]
+        if self.opening is not None:
+            for one in growth_parameters():
+                low, high = float(axes[one.name][0]), float(axes[one.name][-1])
+                middle = one.outer((one.inner(low) + one.inner(high)) / 2)
+                found.append(replace(one, low=low, high=high, start=middle))
+        return tuple(found)
+
+    def best(self) -> Best:
+        """Return the best of several starts."""
+        objective = self.objective
+        if self.opening is None:
+            return _best(objective)
+        points, misfits = self.scanned(1)
+        names = list(self.table.axes)
+        starts = [
+            dict(zip(names, _outer(self.parameters, points[i]), strict=True))
+            for i in _apart(points, misfits)
+        ]
+        found = [objective.best(near=Best(start, 0.0, 0)) for start in starts]
+        return min(found, key=lambda best: best.misfit)
+
+    def intervals(self, best: Best, level: float) -> dict[str, Interval]:
+        """Return the intervals of all unknowns."""
+        objective = self.objective
+        return {one.name: objective.interval(one.name, best, level) for one in self.parameters}
+
+    def scanned(self, times: int) -> tuple[Array, Array]:
+        """Return points of a dense lattice, in the numbers that are searched, and their misfits."""
+        points = self.table.dense(times)
+        values = {
+            one.name: one.outer_of(x) for one, x in zip(self.parameters, points.T, strict=True)
+        }
+        rest = self._relative(self.table.forces(points), values) @ self.white.T
+        misfits = np.sum(rest**2, axis=1)
+        if self.data.prior is not None:
+            value, relative = self.data.prior
+            misfits += ((points[:, 0] - np.log(value)) / relative) ** 2
+        return points, misfits
+
+
+def plain_table(forward: Forward, data: Data, gaps: tuple[float, float]) -> Table:
+    """Return the table of interfaces that do not grow, of the ranges for which the theory holds."""
+    works, ranges = _works(forward, data, 1.0, _WORKS), np.geomspace(*gaps, _GAPS)
+    # where the most work of adhesion still gives a crack; less is checked where it is found
+    at = forward.pulled(works[-1], ranges[:, None], data.speed, data.load).effective_tabor
+    holds = np.all(at >= LEAST_TABOR, axis=-1)
+    count = int(np.argmin(holds)) if not holds.all() else holds.size
+    if count < _FEWEST:
+        raise InputError(
+            f"the theory of a crack holds for no range looked at ({gaps[0]:.3g} to "
+            f"{gaps[1]:.3g} m): the zone at the edge is as large as the contact; look at "
+            "smaller ranges, or simulate"
+        )
+    axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
+    return Table(forward, data.speed, data.load, axes, travels=data.curves)
+
+
+def _works(forward: Forward, data: Data, grown: float, per_decade: float) -> Array:
+    """Return works of adhesion of a table, where interfaces grow by so much at most."""
+    # no energy at an opening edge is less than the work of adhesion, and none larger than 1/k
+    most = 1.2 * float(data.force.min()) / (1.5 * np.pi * forward.radius)
+    span = 2.0 * grown / forward.material.modulus_ratio
+    return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
+
+
+def pulled_with_growth(forward: Forward, plain: Search, best: Best) -> tuple[Forward, Opening]:
+    """Return pull-offs with growth, and where strengthening is read."""
+    data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
+    w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
+    # edges go about as fast whatever the interface is: the drive moves them
+    edge = forward.pulled(w, gap, data.speed, data.load).crack_speed
+    middle = float(np.exp(np.mean(np.log(np.maximum(edge, data.speed)))))
+    opening = Opening(middle * w / forward.material.contact_modulus)
+    return growing(forward, opening, (float(ranges[0]), float(ranges[-1]))), opening
+
+
+def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
+    """Return a coarse search of all that is looked at."""
+    data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
+    some = data.some(_COARSE_SPEEDS)
+    works, gaps, *steps = _COARSE
+    growths = growth_parameters()
+    ends = np.log(ranges[[0, -1]])
+    axes = {
+        "work_of_adhesion": _works(forward, data, growths[0].high, np.log(10) / works),
+        "equilibrium_gap": np.exp(_spaced(float(ends[0]), float(ends[1]), gaps)),
+    }
+    for one, step in zip(growths, steps, strict=True):
+        axes[one.name] = one.outer_of(_spaced(one.inner(one.low), one.inner(one.high), step))
+    table = Table(
+        forward, data.speed[some], data.load[some], axes, opening=opening, radii=_COARSE_RADII
+    )
+    return replace(plain, table=table, opening=opening, some=some)
+
+
+def closely(
+    forward: Forward, coarse: Search, level: float
+) -> tuple[Search, Best, dict[str, Interval]]:
+    """Return a fine search of what the coarse one leaves, its best and the intervals."""
+    data, widest = coarse.data, {one.name: one for one in coarse.parameters}
+    points, misfits = coarse.scanned(_DENSE)
+    least = misfits.min()
+    for kept in _KEPT:
+        near = points[misfits < least + kept]
+        axes = {}
+        for i, (name, apart) in enumerate(zip(coarse.table.axes, _FINE, strict=True)):
+            one, step = widest[name], np.diff(np.unique(points[:, i])).max()
+            low = max(near[:, i].min() - step, one.inner(one.low))
+            high = min(near[:, i].max() + step, one.inner(one.high))
+            axes[name] = one.outer_of(_spaced(low, high, apart))
+        table = Table(
+            forward,
+            data.speed,
+            data.load,
+            axes,
+            opening=coarse.opening,
+            travels=data.curves,
+            radii=_FINE_RADII,
+        )
+        search = replace(coarse, table=table, some=None)
+        best = search.best()
+        intervals = search.intervals(best, level)
+        if not any(_cut(intervals[name], axes[name], widest[name]) for name in axes):
+            break
+    return search, best, intervals
+
+
+def _cut(interval: Interval, axis: Array, widest: Parameter) -> bool:
+    """Return whether an interval ends at that of a table, short of all that is looked at."""
+    below = not interval.closed_below and axis[0] > widest.low * (1 + 1e-9)
+    return below or (not interval.closed_above and axis[-1] < widest.high * (1 - 1e-9))
+
+
+def _spaced(low: float, high: float, apart: float) -> Array:
+    """Return values at most so far apart, five at least."""
+    return np.linspace(low, high, max(_FEWEST, 1 + int(np.ceil((high - low) / apart - 1e-9))))
+
+
+def _apart(points: Array, misfits: Array, count: int = 4, share: float = 0.2) -> list[int]:
+    """Return the likeliest points that lie apart from each other."""
+    span = np.ptp(points, axis=0)
+    found: list[int] = []
+    for i in np.argsort(misfits)[:2000]:
+        if all(np.max(np.abs(points[i] - points[j]) / span) > share for j in found):
+            found.append(int(i))
+        if len(found) == count:
+            break
+    return found
+
+
+def _outer(parameters: Sequence[Parameter], point: Array) -> list[float]:
+    return [one.outer(float(x)) for one, x in zip(parameters, point, strict=True)]
+
+
+def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Parameter:
+    low, high = float(values[0]), float(values[-1])
+    return Parameter(name, low, high, float(np.sqrt(low * high)), prior=prior)
+
+
+class _Shapes:
+    """Residuals of travels, in standard deviations."""
+
+    def __init__(self, series: Sequence[PullOff], model: Table, theory: float):
+        self._model = model
+        self._log, self._white = [], []
+        for one in series:
+            assert one.travels is not None, "checked before"
+            value = np.array([x.value for x in one.travels])
+            noise = np.array([x.uncertainty for x in one.travels]) / value
+            # what the theory errs in one curve it errs in all of it, half of it
+            own = noise**2 + theory**2 / 2
+            spread = np.diag(own) + np.full((value.size, value.size), theory**2 / 2)
+            self._log.append(np.log(value))
+            self._white.append(np.linalg.inv(np.linalg.cholesky(spread)))
+
+    def __call__(self, values: Mapping[str, float]) -> Array:
+        found = np.log(self._model.travels(values))
+        rows = zip(self._white, found, self._log, strict=True)
+        return np.concatenate([white @ (one - measured) for white, one, measured in rows])
+
+
+def _best(objective: Objective) -> Best:
+    """Return the best of several starts along the range."""
+    (gap,) = (one for one in objective.parameters if one.name == "equilibrium_gap")
+    low, high = gap.inner(gap.low), gap.inner(gap.high)
+    found = []
+    for part in (0.1, 0.3, 0.5, 0.7, 0.9):
+        held = objective.best({"equilibrium_gap": gap.outer(low + part * (high - low))})
+        found.append(objective.best(near=held))
+    return min(found, key=lambda best: best.misfit)

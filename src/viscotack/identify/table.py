@@ -1,0 +1,105 @@
+"""Pull-offs over the unknowns of an interface, interpolated: search and intervals cost nothing."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.theory.crack.contact.growing import lattice_spline
+
+from .forward import Forward
+from .growth import EXPONENT, STRENGTHENING, Opening
+from .travel import PARTS
+
+Array = npt.NDArray[np.float64]
+
+_AT_ONCE = 20_000  # points that are interpolated
+
+
+class Table:
+    """Pull-off forces over the unknowns of an interface, splines in their logarithms.
+
+    Parameters
+    ----------
+    forward : Forward
+        Pull-offs of the material.
+    speed, preload : ndarray, shape (S,)
+        Of the series.
+    axes : mapping
+        Unknown -> values, ascending, four at least: "work_of_adhesion" and "equilibrium_gap", and
+        where the interface grows "strengthening" and "exponent".
+    opening : Opening, optional
+        Where strengthening is read.
+    travels : bool
+        Keep the travels between forces too.
+    radii : int
+        Of a curve.
+    """
+
+    def __init__(
+        self,
+        forward: Forward,
+        speed: Array,
+        preload: Array,
+        axes: Mapping[str, Array],
+        *,
+        opening: Opening | None = None,
+        travels: bool = False,
+        radii: int = 160,
+    ) -> None:
+        self.axes = dict(axes)
+        self._count, self._with_travels = speed.size, travels
+        lattice = np.meshgrid(*self.axes.values(), indexing="ij")
+        values = {name: x[..., None] for name, x in zip(self.axes, lattice, strict=True)}
+        growth = None
+        if opening is not None:
+            gap = values["equilibrium_gap"]
+            growth = opening.growth(gap, values[STRENGTHENING], values[EXPONENT])
+        work, gap = values["work_of_adhesion"], values["equilibrium_gap"]
+        found = forward.pulled(work, gap, speed, preload, radii, growth)
+        self.least = found.effective_tabor.min(axis=-1)
+        columns = [np.log(found.force), np.log(self.least)[..., None]]
+        if travels:
+            # only of starts in compression, which are the ones that have travels
+            columns.append(np.log(found.travels).reshape(*self.least.shape, -1))
+        self._spline = lattice_spline(
+            [_inner(name, x) for name, x in self.axes.items()], np.concatenate(columns, axis=-1)
+        )
+
+    def __call__(self, values: Mapping[str, float]) -> Array:
+        """Return forces [N], shape (S,)."""
+        return np.exp(self._at(values)[: self._count])
+
+    def effective(self, values: Mapping[str, float]) -> float:
+        """Return the least effective Tabor number of the series."""
+        return float(np.exp(self._at(values)[self._count]))
+
+    def travels(self, values: Mapping[str, float]) -> Array:
+        """Return travels between forces [m], shape (S, travels)."""
+        return np.exp(self._at(values)[self._count + 1 :]).reshape(-1, 1 + len(PARTS))
+
+    def forces(self, points: Array) -> Array:
+        """Return forces of many interfaces, shape (N, S), from points of :meth:`dense`."""
+        parts = [
+            self._spline(points[i : i + _AT_ONCE])[:, : self._count]
+            for i in range(0, len(points), _AT_ONCE)
+        ]
+        return np.exp(np.concatenate(parts))
+
+    def dense(self, times: int) -> Array:
+        """Return points of a lattice so many times as dense, in the numbers that are searched."""
+        axes = []
+        for name, x in self.axes.items():
+            place = np.linspace(0, x.size - 1, times * (x.size - 1) + 1)
+            axes.append(np.interp(place, np.arange(x.size), _inner(name, x)))
+        return np.stack([x.ravel() for x in np.meshgrid(*axes, indexing="ij")], axis=1)
+
+    def _at(self, values: Mapping[str, float]) -> Array:
+        point = [_inner(name, values[name]) for name in self.axes]
+        return self._spline(np.array(point))
+
+
+def _inner(name: str, value: Any) -> Any:
+    """Return what an unknown is interpolated in."""
+    return np.asarray(value, dtype=float) if name == EXPONENT else np.log(value)

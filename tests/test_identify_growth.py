@@ -1,0 +1,143 @@
+"""An interface that grows with speed, from a rate series: found, told from none, forecast."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from viscotack.errors import InputError
+from viscotack.identify import PullOff, forecast_rates, identify_rates, search
+from viscotack.identify import growth as growing
+from viscotack.identify.forward import Forward, Growth
+from viscotack.identify.growth import FoundGrowth, Opening, Share
+from viscotack.identify.study import Study, read_study, study_text
+from viscotack.lab.tack import Measured
+from viscotack.materials.shift import WLF
+from viscotack.theory.crack.contact import GrowingCracks
+
+SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
+RADIUS, WORK, GAP, PRELOAD = 5e-3, 0.1, 50e-9, 4e-3
+LAW = Growth(1e-4, 0.5)
+SPEEDS = np.geomspace(1e-6, 1e-3, 6)
+CASE = {"material": SOLID, "radius": RADIUS, "preload": PRELOAD, "growth": True}
+RIG = Path(__file__).parents[1] / "examples" / "from_rig"
+
+
+def forces(law, speeds=SPEEDS):
+    """Return pull-offs, each of a crack of its own."""
+    unit = 1.5 * np.pi * RADIUS * WORK
+    forward = Forward(SOLID, RADIUS)
+    found = [vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, v, law)) for v in speeds]
+    return np.array([one.pull_off_force for one in found]) * unit
+
+
+def series(values, relative=0.01, speeds=SPEEDS):
+    pairs = zip(speeds, values, strict=True)
+    return [PullOff(float(v), Measured(float(P), relative * float(P)), PRELOAD) for v, P in pairs]
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """Look for little, on a lattice as small as splines allow."""
+    monkeypatch.setattr(growing, "_LATTICE", (0.35, 0.42, 0.5, 0.6))
+    monkeypatch.setattr(growing, "EXPONENTS", (0.35, 0.6))
+    monkeypatch.setattr(growing, "LARGEST", 6.0)
+    monkeypatch.setattr(search, "_COARSE", (0.77, 0.77, 0.6, 0.2))
+    monkeypatch.setattr(search, "_FINE", (0.38, 0.57, 0.5, 0.2))
+    return {"gaps": (20e-9, 120e-9), "work_of_adhesion": (WORK, 0.01 * WORK)}
+
+
+@pytest.mark.slow
+def test_an_interface_that_grows_is_found_told_from_one_that_does_not_and_forecast(small):
+    fit = identify_rates(series(forces(LAW)), theory=0.005, **CASE, **small)
+    truth = {"work_of_adhesion": WORK, "equilibrium_gap": GAP, "exponent": 0.5}
+    opening = float(fit.growth.opening.speed(GAP))
+    truth["strengthening"] = 1 + (opening / LAW.reference_speed) ** 0.5
+    for name, value in truth.items():
+        assert fit.intervals[name].low < value < fit.intervals[name].high
+    assert fit.objective.best(truth).misfit < 1
+    assert fit.growth.chance < 1e-3
+    assert "the interface grows with speed" in " ".join(fit.words)
+    # the split is that of the crack itself
+    slow, fast = fit.growth.shares[0], fit.growth.shares[-1]
+    assert fast.bulk * fast.interface == pytest.approx(fast.energy) and fast.interface > 1.5
+    assert fast.interface > slow.interface
+    forecast = forecast_rates(fit, [3e-5, 2e-3])
+    true = forces(LAW, [3e-5, 2e-3])
+    assert np.all((forecast.low < true) & (true < forecast.high))
+    shifting = replace(fit.passport, temperature=293.15, shift=WLF(293.15, 5.0, 150.0))
+    with pytest.raises(InputError, match="with temperature is not known"):
+        forecast_rates(replace(fit, passport=shifting), [3e-5], temperature=310.0)
+
+
+@pytest.mark.slow
+def test_a_series_without_growth_is_said_to_need_none(small):
+    fit = identify_rates(series(forces(None)), theory=0.005, **CASE, **small)
+    assert fit.growth.chance > 0.1
+    assert "growth is not needed" in " ".join(fit.words)
+    assert not fit.intervals["exponent"].told
+    assert "exponent of growth: not identifiable" in " ".join(fit.words)
+    assert fit.intervals["strengthening"].low == 1.0
+
+
+def test_an_edge_of_the_lattice_for_each_case_gives_the_forces_of_cracks_of_their_own():
+    lattice = GrowingCracks(SOLID, (0.1, 2.0), (1.0, 1.0), [0.4, 0.5, 0.6, 0.7])
+    # one unit of time is 0.01 s: an opening speed of h0 per unit is 5 um/s
+    law = Growth(float(growing.reference_speed(0.5, GAP / 0.01, 0.55)), 0.55)
+    forward = Forward(SOLID, RADIUS, lattice)
+    speed = np.array([1e-6, 1e-5])
+    found = forward.pulled(WORK, GAP, speed, PRELOAD, growth=law)
+    assert found.force == pytest.approx(forces(law, speed), rel=5e-3)
+    assert np.all(found.interface > 1.2) and np.all(found.energy > found.interface)
+    # the edge goes a few times as fast as the drive, in its own units
+    answer = vt.crack_contact(forward.problem(WORK, GAP, PRELOAD, 1e-5, law))
+    edge = answer.crack_speed_at_pull_off * answer.problem.scales().edge_speed
+    assert found.crack_speed[1] == pytest.approx(edge, rel=0.05)
+
+
+def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
+    opening = Opening(1e-12)
+    law = opening.growth([1e-8, 1e-7], 3.0, 0.5)
+    assert opening.speed([1e-8, 1e-7]) == pytest.approx([1e-4, 1e-5])
+    assert np.sqrt(opening.speed([1e-8, 1e-7]) / law.reference_speed) == pytest.approx(2.0)
+    assert np.all(np.isinf(opening.growth(1e-8, 1.0, 0.5).reference_speed))
+
+
+def test_words_say_whether_growth_is_needed_and_who_takes_the_energy():
+    share = Share(speed=1e-3, edge_speed=1e-2, energy=6.0, bulk=3.0, interface=2.0)
+    found = FoundGrowth(2.0, 0.4, 1e-4, 1e-4, 20.0, 1e-4, (share,), Opening(1e-12))
+    said = " ".join(found.words())
+    assert "grows with speed" in said and "3 by the bulk times 2 by the interface" in said
+    said = " ".join(replace(found, chance=0.3).words())
+    assert "growth is not needed" in said
+
+
+def test_a_study_keeps_that_growth_was_asked_for(tmp_path):
+    study = Study(files=(tmp_path / "a.csv",), material="pdms-10-1", radius=5e-3, growth=True)
+    path = tmp_path / "study.toml"
+    path.write_text(study_text(study, tmp_path))
+    assert "growth = true" in path.read_text()
+    assert read_study(path) == study
+    path.write_text(path.read_text().replace("growth = true", 'growth = "yes"'))
+    with pytest.raises(InputError, match="growth must be true or false"):
+        read_study(path)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("small")
+def test_from_rig_files_to_a_report_with_growth(tmp_path, capsys):
+    files = [str(RIG / f"lens_{name}_um_s.csv") for name in ("1", "30", "1000")]
+    study, page = tmp_path / "study.toml", tmp_path / "report.html"
+    words = ["--material", "pdms-10-1", "--radius", "5.19 mm", "--growth", "-o", str(study)]
+    known = ["--work-of-adhesion", "152 mJ/m2", "--work-of-adhesion-uncertainty", "3 mJ/m2"]
+    assert exit_status(["identify", "rates", *files, *words, *known, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    # computed without growth
+    assert found["growth"]["chance"] > 0.01
+    assert len(found["growth"]["shares"]) == 3
+    assert exit_status(["report", str(study), "-o", str(page)]) == 0
+    assert "exponent of growth" in page.read_text()
