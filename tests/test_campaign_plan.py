@@ -281,7 +281,7 @@ CASE = "tabor = 1\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5\nrate = 10\n
         (
             "p.toml",
             f'kind = "cube"\n[[grid]]\n{CASE}',
-            "kind must be one of sphere, profile, punch",
+            "kind must be one of sphere, profile, solid, punch",
         ),
         ("p.toml", f"[settings]\nuntl = 1\n[[grid]]\n{CASE}", r"\[settings\]: may have accuracy"),
         ("p.toml", f'[settings]\ntime_limit = "5 m"\n[[grid]]\n{CASE}', "time_limit"),

@@ -1,8 +1,8 @@
 """Which numbers state a case: the columns of a plan, by kind, and the problem that they make.
 
 A kind is a row of numbers with names. ``"sphere"`` has those of ``viscotack simulate sphere``
-(power law), ``"profile"`` those of a cone or power-law tip, ``"punch"`` those of a punch on a layer
-of a standard solid; with
+(power law), ``"profile"`` those of a cone or power-law tip, ``"solid"`` those of a sphere on one of
+many random solids, ``"punch"`` those of a punch on a layer of a standard solid; with
 ``problem = "FILE.toml"`` any number of that problem in SI is an input, named by its path.
 """
 
@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from viscotack.bem import has_start
-from viscotack.cards import card_of, cards
+from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
@@ -23,6 +23,7 @@ from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
 
 from .inputs import Input, check_paths, inputs_of, made
+from .random_solids import LAST, random_solid
 
 Inputs = Mapping[str, float]
 
@@ -87,6 +88,14 @@ def _profile(inputs: Inputs) -> Groups:
     return Groups(tabor=inputs["tabor"], geometry=shape, **_test(inputs, RetardationPowerLaw))
 
 
+def _solid(inputs: Inputs) -> Groups:
+    ratio = card_of(ModulusRatio).checked("modulus_ratio", inputs["modulus_ratio"])
+    material = random_solid(inputs["solid"], ratio)
+    return Groups(
+        tabor=inputs["tabor"], material=material, start=_start(inputs), rate=inputs["rate"]
+    )
+
+
 def _punch(inputs: Inputs) -> PunchGroups:
     sizes = {name: inputs[name] for name in ("size", "thickness", "cohesion")}
     return PunchGroups(**sizes, **_test(inputs, StandardSolid))
@@ -99,8 +108,12 @@ def _test(inputs: Inputs, solid: Any) -> dict[str, Any]:
     material = solid(
         rubbery_modulus=1.0, glassy_modulus=1 / ratio, tau0=1.0, poisson_ratio=0.0, **constants
     )
+    return {"material": material, "start": _start(inputs), "rate": inputs["rate"]}
+
+
+def _start(inputs: Inputs) -> Any:
     (start,) = (make(inputs[name]) for name, make in _STARTS.items() if name in inputs)
-    return {"material": material, "start": start, "rate": inputs["rate"]}
+    return start
 
 
 def _inputs() -> dict[str, Input]:
@@ -113,6 +126,10 @@ def _inputs() -> dict[str, Input]:
         "modulus_ratio": (card_of(ModulusRatio), "1"),
         "exponent": (cards(RetardationPowerLaw)["exponent"].card, "1"),
         "rate": (of["rate"].card, units["speed"]),
+        "solid": (
+            Quantity("1", "N", "number of a random solid", least=0, most=LAST, example="7"),
+            "1",
+        ),
     }
     found |= {name: (punch[name].card, punch[name].card.unit) for name in ("size", "thickness")}
     found["cohesion"] = (punch["cohesion"].card, "1")
@@ -156,6 +173,12 @@ KINDS = {
         columns=("tabor", "profile_exponent", *_POWER_LAW),
         choices=tuple(_STARTS),
         problem=_profile,
+    ),
+    "solid": Kind(
+        name="solid",
+        columns=("tabor", "modulus_ratio", "solid", "rate"),
+        choices=tuple(_STARTS),
+        problem=_solid,
     ),
     "punch": Kind(
         name="punch",

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from viscotack.campaign.columns import INPUTS, KINDS
+from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 
@@ -31,9 +32,9 @@ class Column:
         What it is.
     source : str
         Its name in a campaign.
-    form : {"exact", "number", "whole", "curve"}
+    form : {"exact", "number", "whole", "curve", "spectrum"}
         Exact numbers keep all digits; others have seven, far more than they are good for; a curve
-        is a list of 24.
+        is a list of 24, a spectrum one of exact numbers, as many as the solid has times.
     less : str
         The number that is taken from it; "" for none.
     error : bool
@@ -55,10 +56,15 @@ class Column:
         """Return the type of pyarrow that the column is stored in."""
         if self.form == "curve":
             return pa.list_(pa.float32(), 24)
+        if self.form == "spectrum":
+            return pa.list_(pa.float64())
         return {"exact": pa.float64(), "number": pa.float32(), "whole": pa.int32()}[self.form]
 
     def value(self, row: Mapping[str, Any]) -> Any:
         """Return the value of the column from the row of a campaign."""
+        if self.form == "spectrum":
+            found = creep_spectrum(row["solid"], row["modulus_ratio"])
+            return found[_SPECTRUM.index(self.name)].tolist()
         if self.source not in row:
             raise InputError(
                 f"the campaign has no column {self.source!r}; run its plan anew, in another folder"
@@ -158,22 +164,30 @@ def _curve(kind: Kind, sense: str) -> tuple[Column, ...]:
 
 
 _EDGE = "contact edge at these points; null where there is none"
+_SPHERE = (
+    *_outputs(
+        REVOLUTION,
+        {
+            "pull_off_force": "minus the least force",
+            "work_to_pull_off": "work from zero force, or from the start",
+            "pull_off_depth": "depth at the pull-off, positive into the solid",
+            "contact_radius_at_pull_off": "contact edge there; null without one",
+            "crack_speed_at_pull_off": "speed of the edge there",
+        },
+    ),
+    *_curve(REVOLUTION, "compression"),
+    *_HOW,
+)
+# What is computed from the number of a solid, and not by the campaign.
+_SPECTRUM = ("retardation_weights", "retardation_times")
 # By kind of campaign.
 KEPT = {
-    "sphere": (
-        *_inputs("sphere"),
-        *_outputs(
-            REVOLUTION,
-            {
-                "pull_off_force": "minus the least force",
-                "work_to_pull_off": "work from zero force, or from the start",
-                "pull_off_depth": "depth at the pull-off, positive into the solid",
-                "contact_radius_at_pull_off": "contact edge there; null without one",
-                "crack_speed_at_pull_off": "speed of the edge there",
-            },
-        ),
-        *_curve(REVOLUTION, "compression"),
-        *_HOW,
+    "sphere": (*_inputs("sphere"), *_SPHERE),
+    "solid": (
+        *_inputs("solid"),
+        Column(_SPECTRUM[0], "1", "parts of the creep from k to 1, of sum 1", form="spectrum"),
+        Column(_SPECTRUM[1], "time unit", "retardation time of each, ascending", form="spectrum"),
+        *_SPHERE,
     ),
     "punch": (
         *_inputs("punch"),

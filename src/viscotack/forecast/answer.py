@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
@@ -22,10 +22,12 @@ from viscotack.traction.growing import check_of_gap_alone
 
 from .beyond import beyond
 from .prediction import MEASURED, Prediction
+from .solids import LEARNED_SOLID, alike_words, like_of, unlike_words
 from .theory import by_crack, by_learned_theory, by_theory
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Curves, Intervals, Surrogate
+    from viscotack.surrogate.solids import Likeness, Solids
 
 Array = npt.NDArray[np.float64]
 
@@ -73,8 +75,11 @@ def predict(
 
     Notes
     -----
-    The surrogate knows the retraction of a sphere at a constant speed from a relaxed solid
-    (:class:`viscotack.RetardationPowerLaw`), with the Lennard-Jones traction and a rigid machine.
+    The surrogate knows the retraction of a sphere at a constant speed from a relaxed solid, with
+    the Lennard-Jones traction and a rigid machine. It has learned from
+    :class:`viscotack.RetardationPowerLaw`; for any other linear solid that one answers which creeps
+    like it around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals that
+    were measured on other solids.
 
     Examples
     --------
@@ -94,9 +99,9 @@ def predict(
     if unlearned := _unlearned(groups):
         return by_crack(problem, unlearned)
     assert isinstance(groups, Groups), "others were not learned"
-    rows, out = _inputs(groups, _learned(), problem)
-    found = _by_learned(problem, groups, rows, out, confidence)
-    return found or by_theory(problem, groups, "; ".join(out), confidence)
+    inputs = _inputs(groups, _learned(), problem)
+    found = _by_learned(problem, groups, inputs, confidence)
+    return found or by_theory(problem, groups, "; ".join(inputs.out), confidence)
 
 
 def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction:
@@ -114,42 +119,67 @@ def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) ->
 
     Examples
     --------
-    >>> from viscotack import AtDepth, Groups, OutOfRange, StandardSolid
-    >>> material = StandardSolid(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-    ... )
+    >>> from viscotack import AtDepth, Elastic, Groups, OutOfRange
+    >>> material = Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
     >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
     >>> try:
     ...     learned_prediction(groups)
     ... except OutOfRange as error:
     ...     print(error)
-    the material is StandardSolid, and RetardationPowerLaw alone was learned from
+    modulus_ratio is 1, and 0.0001 to 0.7 was learned from
     """
     groups = _groups(problem)
     check_confidence(confidence)
     if unlearned := _unlearned(groups):
         raise OutOfRange(unlearned)
     assert isinstance(groups, Groups), "others were not learned"
-    rows, out = _inputs(groups, _learned(), problem)
-    found = _by_learned(problem, groups, rows, out, confidence)
+    inputs = _inputs(groups, _learned(), problem)
+    found = _by_learned(problem, groups, inputs, confidence)
     if found is None:
-        raise OutOfRange("; ".join(out))
+        raise OutOfRange("; ".join(inputs.out))
     return found
 
 
+@dataclass(frozen=True, eq=False)
+class _Inputs:
+    """What the surrogate takes, and what of it is out of range.
+
+    Attributes
+    ----------
+    rows : ndarray, shape (1, 5)
+        The groups; of another solid those of the power law that it is like.
+    out : list of str
+        In words.
+    like : Likeness or None
+        Of a solid that is no power law by retardation.
+    """
+
+    rows: Array
+    out: list[str]
+    like: Likeness | None = None
+
+
 def _by_learned(
-    problem: Problem | Groups, groups: Groups, rows: Array, out: list[str], confidence: float
+    problem: Problem | Groups, groups: Groups, inputs: _Inputs, confidence: float
 ) -> Prediction | None:
     """Return what the surrogate says, or the learned theory of large Tabor numbers; else None."""
-    learned = _learned()
+    learned, rows, out, like = _learned(), inputs.rows, inputs.out, inputs.like
+    method = "surrogate" if like is None else LEARNED_SOLID
     if not out:
         answers = learned.evaluate(rows)
-        held = learned.intervals(rows, answers, confidence=confidence)
+        if like is None:
+            held = learned.intervals(rows, answers, confidence=confidence)
+        else:
+            held = _solids().intervals(like, answers, confidence=confidence)
         if not isinstance(groups.start, AtDepth):
             by = "force" if isinstance(groups.start, AtForce) else "contact_radius"
             half = NormalDist().inv_cdf((1 + confidence) / 2)
             held = learned.with_start_doubt(rows, answers, held, by=by, quantile=half)
         why, at, with_work = "every input lies in the range that was learned from", rows, True
+        if like is not None:
+            why += f"; {alike_words(like)}"
+    elif not isinstance(groups.material, RetardationPowerLaw):
+        return None
     elif np.isfinite(rows).all() and (further := beyond(learned, rows, confidence)) is not None:
         answers, held, at = further.answers, further.intervals, further.groups
         with_work = further.with_work
@@ -163,7 +193,7 @@ def _by_learned(
         work_interval=_pair(held.work_to_pull_off[0]) if with_work else None,
         confidence=confidence,
         band=MEASURED,
-        method="surrogate",
+        method=method,
         inside=at is rows,
         why=why,
         curve=None,
@@ -308,6 +338,12 @@ def _learned() -> Surrogate:
     return store.shipped()
 
 
+def _solids() -> Solids:
+    from viscotack.surrogate import solids
+
+    return solids.shipped()
+
+
 def _pair(interval: Array) -> tuple[float, float]:
     return float(interval[0]), float(interval[1])
 
@@ -344,26 +380,23 @@ def _unlearned(groups: Groups | PunchGroups) -> str:
     )
 
 
-def _inputs(
-    groups: Groups, learned: Surrogate, problem: Problem | Groups
-) -> tuple[Array, list[str]]:
-    """Return what the surrogate takes, shape (1, 5), and in words what of it is out of range."""
+def _inputs(groups: Groups, learned: Surrogate, problem: Problem | Groups) -> _Inputs:
+    """Return what the surrogate takes of a problem, and what of it is out of range."""
     material, mu = groups.material, groups.tabor
-    unknown = []
-    if not isinstance(material, RetardationPowerLaw):
-        name = type(material).__name__
-        unknown.append(f"the material is {name}, and RetardationPowerLaw alone was learned from")
     if not isinstance(groups.traction, LennardJones):
         name = type(groups.traction).__name__
-        unknown.append(f"the traction is {name}, and LennardJones alone was learned from")
-    if unknown or not isinstance(material, RetardationPowerLaw):
-        return np.full((1, len(learned.limits)), np.nan), unknown
+        words = f"the traction is {name}, and LennardJones alone was learned from"
+        return _Inputs(np.full((1, len(learned.limits)), np.nan), [words])
     assert groups.rate is not None, "checked at the door"
-    # the depth of a start by force or radius is asked where the Tabor number is known
-    row = np.array(
-        [mu, groups.modulus_ratio, material.exponent, np.nan, groups.rate * material.tau0]
-    )
+    row, known = np.full(len(learned.limits), np.nan), list(learned.limits)
+    row[:2] = mu, groups.modulus_ratio
+    if isinstance(material, RetardationPowerLaw):
+        row[[2, 4]] = material.exponent, groups.rate * material.tau0
+    else:
+        # the others are those of a power law that the solid is like
+        known = ["tabor", "modulus_ratio", "preload"]
     no_start = ""
+    # the depth of a start by force or radius is asked where the Tabor number is known
     if isinstance(groups.start, AtDepth) or learned.inside([row])[0, 0]:
         try:
             row[3] = _start_depth(groups, learned)
@@ -373,11 +406,17 @@ def _inputs(
     for (name, limits), value, inside in zip(
         learned.limits.items(), row.tolist(), learned.inside([row])[0], strict=True
     ):
+        if name not in known:
+            continue
         if np.isnan(value):
             out.append(no_start)
         elif not inside:
             out.append(_out_words(name, value, limits, problem))
-    return row[None], [words for words in out if words]
+    out = [words for words in out if words]
+    if isinstance(material, RetardationPowerLaw) or not np.isfinite(row[[0, 1, 3]]).all() or out:
+        return _Inputs(row[None], out)
+    like = like_of(groups, float(row[3]))
+    return _Inputs(like.groups, unlike_words(like), like)
 
 
 def _start_depth(groups: Groups, learned: Surrogate) -> float:

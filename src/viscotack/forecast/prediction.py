@@ -46,7 +46,7 @@ class Prediction:
     band : str
         "measured" where it was measured how many cases the intervals hold, else "not measured".
     method : str
-        "surrogate", or the theory's name as in :class:`viscotack.Estimate`.
+        "surrogate", "surrogate of solids", or the theory's name as in :class:`viscotack.Estimate`.
     inside : bool
         Whether the problem lies in the range that the surrogate learned from.
     why : str

@@ -68,11 +68,15 @@ class Trust:
         self, groups: Array, spreads: tuple[Array, Array], confidence: float
     ) -> tuple[Array, ...]:
         """Return the half widths of the intervals of ``OF``, arrays of shape (n,)."""
+        return self.widths_told(told(groups, spreads), confidence)
+
+    def widths_told(self, inputs: Array, confidence: float) -> tuple[Array, ...]:
+        """Return the half widths where the network is told these inputs, arrays of shape (n,)."""
         if confidence not in CONFIDENCES:
             raise InputError(
                 f"the confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
                 f"intervals were measured; got {confidence!r}"
             )
-        usual = 10.0 ** self.reach(told(groups, spreads)).mean(axis=0)
+        usual = 10.0 ** self.reach(inputs).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
         return tuple(usual[:, i] * level[i] for i in range(len(OF)))

@@ -29,7 +29,7 @@ from .shop import Shop
 
 # The part of the errors that a network of their reach is to hold, and smaller errors than those of
 # the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
-REACH, _LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
+REACH, LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 _WEIGHT = 8.0
 # Networks for each half of these rows: one alone errs by chance in places.
@@ -122,7 +122,7 @@ def trusted(
         [scored(Trust(one, untested()), some) for some in half]
         for one, half in zip(members, halves[::-1], strict=True)
     ]
-    levels = [_levels(np.concatenate(scores)) for scores in zip(*of_each, strict=True)]
+    levels = [levels_of(np.concatenate(scores)) for scores in zip(*of_each, strict=True)]
     return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
 
 
@@ -131,7 +131,7 @@ def _reach(learned: Apart, kept: Sequence[Apart]) -> Task:
     inputs = np.concatenate([told(one.groups, one.spreads) for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
-    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), _LEAST))
+    target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), LEAST))
     weight = known.astype(float)
     weight[len(learned.groups) :] *= _WEIGHT
     return Task(inputs, target, weight, quantile=REACH)
@@ -154,7 +154,7 @@ def measured(trust: Trust, apart: Apart) -> Trust:
     >>> bool(np.all(np.diff(levels, axis=1) >= 0))
     True
     """
-    return replace(trust, levels=_levels(scored(replace(trust, levels=untested()), apart)))
+    return replace(trust, levels=levels_of(scored(replace(trust, levels=untested()), apart)))
 
 
 def scored(trust: Trust, apart: Apart) -> Array:
@@ -164,7 +164,7 @@ def scored(trust: Trust, apart: Apart) -> Array:
     )
 
 
-def _levels(scores: Array) -> Array:
+def levels_of(scores: Array) -> Array:
     """Return the levels that hold the wanted shares of scores, shape (4, confidences)."""
     return np.array([_level(column[np.isfinite(column)]) for column in scores.T])
 

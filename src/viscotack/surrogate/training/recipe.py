@@ -136,9 +136,9 @@ def begin_forces(
     return [shop.fit(task, how, seed=i) for i in range(members)]
 
 
-def untested() -> Trust:
+def untested(inputs: int = INPUTS) -> Trust:
     """Return intervals of one width everywhere, before any case has measured them."""
-    flat = Networks((np.zeros((1, INPUTS, len(OF))),), (np.zeros((1, 1, len(OF))),))
+    flat = Networks((np.zeros((1, inputs, len(OF))),), (np.zeros((1, 1, len(OF))),))
     return Trust(reach=flat, levels=np.ones((len(OF), len(CONFIDENCES))))
 
 

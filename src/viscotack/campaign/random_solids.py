@@ -1,0 +1,209 @@
+r"""Random linear solids by number: the same number is the same solid, today and elsewhere.
+
+A solid is its creep over the relaxed one,
+
+.. math:: c(t) = k + (1 - k) \sum_j w_j (1 - e^{-t/\tau_j}), \quad \sum_j w_j = 1,
+
+with at most 40 retardation times: one for standard solids, a few at random places for Prony series,
+and three a decade for smooth spectra, where their sum and the integral agree to 1e-5. Weights are
+drawn as shares of the compliance, or as shares of its LOGARITHM between glass and rubber: spectra
+of rubbers climb evenly there, and shares of the compliance would put the whole climb into the
+first arm.
+
+Numbers below ``STRETCHED`` are drawn from the mixture below; from there on they are stretched
+exponentials (Kohlrausch), a family kept apart to judge by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.materials import Prony
+from viscotack.materials.conversion import RetardationSeries, relaxation_series
+
+Array = npt.NDArray[np.float64]
+
+# Largest number, and that from which solids are stretched exponentials.
+LAST, STRETCHED = 2_000_000, 1_000_000
+# Decades of time over which arms are spread, and those of a smooth spectrum at most.
+_SPAN, _WIDEST = 8.0, 12.8
+_PER_DECADE = 3
+# Part of a spectrum that is cut off at each of its ends.
+_CUT = 1e-3
+# Weights less than this of the largest are left out.
+_LEAST = 1e-9
+_DIGITS = 9
+# A number is rounded: the last digits of a power are not the same on every machine.
+_FAMILIES: tuple[tuple[float, str], ...] = (
+    (0.08, "standard"),
+    (0.42, "arms"),
+    (0.20, "bumps"),
+    (0.15, "fractional"),
+    (0.15, "skewed"),
+)
+
+
+def creep_spectrum(number: float, modulus_ratio: float) -> tuple[Array, Array]:
+    """Return weights, of sum 1, and retardation times of a random solid, ascending.
+
+    Parameters
+    ----------
+    number : float
+        A whole number, 0 to ``LAST``.
+    modulus_ratio : float
+        Rubbery over glassy modulus; weights that are shares of a logarithm depend on it.
+
+    Examples
+    --------
+    >>> weights, times = creep_spectrum(7, 0.1)
+    >>> len(weights) == len(times) <= 40, round(float(weights.sum()), 6)
+    (True, 1.0)
+    """
+    if not 0 <= number <= LAST or number != int(number):
+        raise InputError(f"the number of a random solid is whole, 0 to {LAST:,}; got {number:g}")
+    random = np.random.Generator(np.random.PCG64(int(number)))
+    if number >= STRETCHED:
+        weights, times = _stretched(random)
+    else:
+        weights, times = _of_mixture(random, modulus_ratio)
+    kept = weights > _LEAST * weights.max()
+    weights, times = _rounded(weights[kept] / weights[kept].sum()), _rounded(times[kept])
+    return weights, times
+
+
+def random_solid(number: float, modulus_ratio: float) -> Prony:
+    """Return a random solid with rubbery modulus 1 and Poisson ratio 0.
+
+    Examples
+    --------
+    >>> solid = random_solid(7, 0.1)
+    >>> f"{solid.modulus_ratio:.6f}"
+    '0.100000'
+    """
+    k = modulus_ratio
+    weights, times = creep_spectrum(number, k)
+    series = RetardationSeries(
+        glassy_modulus=1 / k,
+        elements=tuple(zip((1 - k) * weights / weights.sum(), times, strict=True)),
+        poisson_ratio=0.0,
+    )
+    E, tau = np.array(relaxation_series(series).branches).T
+    kept = _LEAST * E.max() < E
+    branches = tuple(zip(_rounded(E[kept]), _rounded(tau[kept]), strict=True))
+    return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
+
+
+def _of_mixture(random: np.random.Generator, k: float) -> tuple[Array, Array]:
+    """Return weights and times of a solid of a family that is drawn as well."""
+    ends = np.cumsum([share for share, _ in _FAMILIES])
+    place = min(int(np.searchsorted(ends, random.random(), side="right")), len(_FAMILIES) - 1)
+    family = _FAMILIES[place][1]
+    by_logarithm = random.random() < 0.5
+    if family == "standard":
+        return np.ones(1), np.ones(1)
+    if family == "arms":
+        shares, times = _arms(random)
+    else:
+        shares, times = _smooth(_DENSITIES[family](random))
+    return (_climbing(shares, k) if by_logarithm else shares), times
+
+
+def _climbing(shares: Array, k: float) -> Array:
+    """Return weights by which the logarithm of the creep climbs from k to 1 in these shares."""
+    climbed = k ** (1 - np.cumsum(shares / shares.sum()))
+    return np.diff(climbed, prepend=k)
+
+
+def _arms(random: np.random.Generator) -> tuple[Array, Array]:
+    """Return shares and times of 2 to 12 arms at random places."""
+    count = 2 + int(11 * random.random())
+    span = _SPAN * random.random()
+    times = 10 ** np.sort(span * (random.random(count) - 0.5))
+    times *= 1 + 1e-6 * np.arange(count)  # no two are the same
+    unevenness = 0.3 + 2.7 * random.random()
+    return (-np.log1p(-random.random(count))) ** unevenness + 1e-6, times
+
+
+def _bumps(random: np.random.Generator) -> Callable[[Array], Array]:
+    count = 1 + int(3 * random.random())
+    places = np.log(10) * _SPAN * (random.random(count) - 0.5)
+    widths = np.log(10) * (0.2 + 1.6 * random.random(count) ** 2)
+    heights = 0.05 + random.random(count)
+
+    def density(x: Array) -> Array:
+        each = (x[:, None] - places) / widths
+        return np.exp(-(each**2) / 2) @ (heights / widths)
+
+    return density
+
+
+def _fractional(random: np.random.Generator) -> Callable[[Array], Array]:
+    """Return the spectrum of a fractional element (Cole and Cole)."""
+    return _negami(0.2 + 0.75 * random.random(), 1.0)
+
+
+def _skewed(random: np.random.Generator) -> Callable[[Array], Array]:
+    """Return the spectrum of a fractional element of two orders, to the one side or the other."""
+    order = 0.25 + 0.7 * random.random()
+    found = _negami(order, 0.2 + 0.8 * random.random())
+    return found if random.random() < 0.5 else lambda x: found(-x)
+
+
+def _negami(order: float, second: float) -> Callable[[Array], Array]:
+    """Return the density per ln tau of (1 + (i w)^order)^-second (Havriliak and Negami)."""
+
+    def density(x: Array) -> Array:
+        u, angle = np.exp(order * x), order * np.pi
+        turned = np.arctan2(np.sin(angle), u + np.cos(angle))
+        size = (u**2 + 2 * u * np.cos(angle) + 1) ** (-second / 2)
+        return u**second * size * np.sin(second * turned)
+
+    return density
+
+
+_DENSITIES: dict[str, Callable[[np.random.Generator], Callable[[Array], Array]]] = {
+    "bumps": _bumps,
+    "fractional": _fractional,
+    "skewed": _skewed,
+}
+
+
+def _stretched(random: np.random.Generator) -> tuple[Array, Array]:
+    """Return the spectrum of exp(-t^order), that of a stable distribution of the rates."""
+    order = 0.25 + 0.6 * random.random()
+    phi = np.pi * (np.arange(400) + 0.5) / 400
+    outer = 1 / (1 - order)
+    height = (np.sin(order * phi) / np.sin(phi)) ** outer * np.sin((1 - order) * phi)
+    height /= np.sin(order * phi)
+
+    def density(x: Array) -> Array:
+        # Zolotarev's integral, all of whose terms are positive; the rate is exp(-x)
+        power = np.exp(order * outer * x)[:, None]
+        return np.sum(height * power * np.exp(-height * power), axis=1)
+
+    return _smooth(density)
+
+
+def _smooth(density: Callable[[Array], Array]) -> tuple[Array, Array]:
+    """Return shares and times of a density per ln tau, three nodes a decade, its tails cut."""
+    step = np.log(10) / _PER_DECADE
+    x = step * np.arange(-60, 61)
+    shares = density(x)
+    passed = np.cumsum(shares) / np.sum(shares)
+    first, last = np.searchsorted(passed, [_CUT, 1 - _CUT])
+    most = int(_WIDEST * _PER_DECADE)
+    if last - first > most:
+        # the part around the middle of the spectrum
+        middle = int(np.searchsorted(passed, 0.5))
+        first = int(np.clip(middle - most // 2, first, last - most))
+        last = first + most
+    kept = slice(int(first), int(last) + 1)
+    return shares[kept], np.exp(x[kept])
+
+
+def _rounded(values: Array) -> Array:
+    return np.array([float(f"{value:.{_DIGITS}g}") for value in values])

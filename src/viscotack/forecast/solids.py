@@ -1,0 +1,54 @@
+"""Which power law stands for the solid of a test, and whether what was learned holds for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.problem import Groups
+
+if TYPE_CHECKING:
+    from viscotack.surrogate.solids import Likeness
+
+# How an answer is named that was learned of power laws and measured on other solids.
+LEARNED_SOLID = "surrogate of solids"
+
+
+def like_of(groups: Groups, depth: float) -> Likeness:
+    """Return the power law that stands for the solid of a test from a start at a depth [h0]."""
+    from viscotack.surrogate import alike, solids
+
+    assert groups.rate is not None, "checked at the door"
+    material, k = groups.material, groups.modulus_ratio
+    creep = np.asarray(material.creep(alike.TIMES / groups.rate)) * material.rubbery_modulus
+    # rounded, it may lie beyond its ends
+    creep = np.clip(creep, k, 1.0)
+    one = np.ones(1)
+    return solids.shipped().like(groups.tabor * one, k * one, depth * one, creep[None])
+
+
+def unlike_words(like: Likeness) -> list[str]:
+    """Return in words that a solid is unlike all that were learned from, or nothing."""
+    from viscotack.surrogate import solids
+
+    learned = solids.shipped()
+    if learned.inside(like)[0]:
+        return []
+    return [
+        "the creep of the solid around h0 over the speed is unlike that of all solids which were "
+        f"learned from: it leaves a power law by {like.first.unlike[0]:.2g} of the way from glass "
+        f"to rubber, in the logarithm, and {learned.farthest[0]:.2g} was learned from (in the "
+        f"directions of those {learned.far(like)[0]:.2g}, up to {learned.farthest[1]:.2g})"
+    ]
+
+
+def alike_words(like: Likeness) -> str:
+    """Return in words what a solid is like."""
+    from viscotack.surrogate import physics
+
+    return (
+        "around the times of the test the solid creeps like a power law by retardation with the "
+        f"exponent {like.groups[0, physics.EXPONENT]:.3g}, to {like.found.unlike[0]:.1g} of the "
+        "way from glass to rubber, in the logarithm"
+    )
