@@ -10,6 +10,7 @@ _COMMANDS = (
     "theory",
     "steady_crack",
     "crack_contact",
+    "edge_energy",
     "punch",
     "material",
     "tack",

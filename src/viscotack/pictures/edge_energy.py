@@ -1,0 +1,44 @@
+"""A picture of the energy at a simulated edge: what it took, and what the bulk explains."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from viscotack.result.edge_energy import EdgeEnergy
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_STYLE = Path(__file__).with_name("viscotack.mplstyle")
+
+
+def draw_edge_energy(found: EdgeEnergy, unit: str) -> Figure:
+    """Return energies of the edge against its speed: read off, by the bulk, and as fitted.
+
+    Parameters
+    ----------
+    found : EdgeEnergy
+        What was read off.
+    unit : str
+        Of its speeds.
+    """
+    import matplotlib.style
+    from matplotlib.figure import Figure
+
+    order = np.argsort(found.speed)
+    speed = found.speed[order]
+    fitted = 1 + (speed / found.reference_speed) ** found.exponent
+    with matplotlib.style.context(_STYLE):
+        figure = Figure()
+        axes = figure.subplots()
+        place = {"mfc": "none", "markevery": 0.04}
+        axes.loglog(speed, found.amplification[order], "o", label="read off the run", **place)
+        axes.loglog(speed, found.bulk[order], "-", label="bulk, by the steady crack")
+        axes.loglog(speed, fitted, "--", color="0.3", label="Gent and Schultz, fitted")
+        axes.set_xlabel(f"speed of the edge [{unit}]")
+        axes.set_ylabel(r"energy at the edge / $\Delta\gamma_0$")
+        axes.legend()
+    return figure
