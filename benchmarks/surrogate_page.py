@@ -42,7 +42,9 @@ Scores = dict[str, Any]
 
 
 def percent(value: float) -> str:
-    """Return a share in percent, two digits that matter."""
+    """Return a share in percent, two digits that matter; nothing for what there is not."""
+    if np.isnan(value):
+        return ""
     return f"{100 * value:.2g} %" if value < 0.095 else f"{100 * value:.1f} %"
 
 
