@@ -12,6 +12,7 @@ import numpy as np
 
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.datasets.drawing_solids import NAMES, rows
+from viscotack.files.whole import write_whole
 
 from .. import store
 from ..alike import TIMES, alike
@@ -53,7 +54,7 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=3000)
     given = parser.parse_args()
     lines = [NAMES, *chosen(given.cases)]
-    given.out.write_text("".join(",".join(line) + "\n" for line in lines), encoding="utf-8")
+    write_whole(given.out, "".join(",".join(line) + "\n" for line in lines).encode())
 
 
 if __name__ == "__main__":
