@@ -107,6 +107,20 @@ def test_speeds_at_which_the_theory_does_not_hold_are_left_out_and_said_to_be():
         identify_rates(series(force[-2:], 0.01, fast), **CASE | {"material": solid})
 
 
+def test_an_interface_beyond_small_strain_is_no_reason_to_refuse_others():
+    gel = vt.StandardSolid(rubbery_modulus=5e4, glassy_modulus=5e5, tau0=0.1, poisson_ratio=0.5)
+    forward = Forward(gel, 1e-3)
+    with pytest.raises(InputError, match="beyond small strain"):
+        forward.problem(3.0, 1e-7, 1e-4)
+    both = forward.pulled([3.0, 0.02], 1e-7, 1e-5, 1e-4)
+    alone = forward.pulled(0.02, 1e-7, 1e-5, 1e-4)
+    assert both.force[1] == pytest.approx(float(alone.force), rel=1e-5)
+    # as the contact with a steady crack for its edge has it
+    problem = forward.problem(0.02, 1e-7, 1e-4, 1e-5)
+    force = vt.crack_contact(problem).pull_off_force * problem.scales().force
+    assert both.force[1] == pytest.approx(force, rel=2e-3)
+
+
 def test_a_machine_so_soft_that_forces_hang_on_it_gives_back_the_interface():
     solid = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
     speeds, forward = np.geomspace(1e-5, 1e-1, 5), Forward(solid, RADIUS)

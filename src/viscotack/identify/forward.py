@@ -140,8 +140,7 @@ class Forward:
     @cached_property
     def crack(self) -> SteadyCrack:
         """Return the cracks of the material, which are the same for all interfaces."""
-        groups = self.problem(0.1, 1e-9, 1e-3).groups()
-        return SteadyCrack(groups.material, groups.traction)
+        return SteadyCrack(self.material.reduced(), LennardJones(1.0, 1.0))
 
     def changed(
         self,
@@ -235,11 +234,10 @@ class Forward:
 
     def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
         w, h0, v, P, *grown = cases
-        one = self.problem(float(w[0]), float(h0[0]), float(P[0])).groups()
-        profile = profile_of(one.geometry)
-        # mu and the rate scale with powers of the interface
-        mu = one.tabor * (w / w[0]) ** (2 / 3) * h0[0] / h0
-        rate = (one.rate or 0.0) * one.material.time_unit * (h0[0] / h0) * (v / _SPEED) / mu
+        # not by a problem of each: an interface far from the data may lie beyond small strain
+        modulus, profile = self.material.contact_modulus, profile_of(Sphere(radius=1.0))
+        mu = (self.radius * w**2 / modulus**2) ** (1 / 3) / h0
+        rate = v * self.material.time_unit / h0 / mu
         # of a relaxed sphere, in beta, for forces in R dg
         start = np.asarray(
             jkr.contact_radius_at_force(
@@ -255,7 +253,6 @@ class Forward:
         effective = mu * interface ** (2 / 3) * bulk ** (-1 / 3)
         tension, pressed = _ranged(found, effective)
         at = np.argmax(tension, axis=0), np.arange(mu.size)
-        modulus = self.material.contact_modulus
         beta = (self.radius**2 * w / modulus) ** (1 / 3)
         # heights in beta^2/R
         height = beta**2 / self.radius
