@@ -18,26 +18,19 @@ other solids from fewer of them.
 
 from __future__ import annotations
 
-import hashlib
-import io
-import json
 import os
-import zlib
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import gamma, kv
 
 from viscotack.errors import InputError
-from viscotack.files.archive import read_arrays
-from viscotack.files.whole import write_whole
 
-from . import physics
+from . import physics, sealed
 from .network import Networks, from_arrays
 
 Array = npt.NDArray[np.float64]
@@ -52,7 +45,7 @@ LEAST = 1e-3
 # The theory holds from an effective Tabor number of 2 and 1.5 zones on; so much above them the
 # networks may be off.
 _LEAST_TABOR, _LEAST_ZONES, _SLOW = 2.2, 1.8, 1.1
-_FORM, _WORDS, _MOST = "viscotack short range 1", "words.json", 5e6
+_FORM, _MOST = "viscotack short range 1", 5e6
 _INPUTS = 10
 # Length of a zone in crossing times that tells most, halvings of its energy's logarithm, and the
 # largest energy's decades.
@@ -227,11 +220,7 @@ def save(made: ShortRange, path: str | os.PathLike[str], facts: dict[str, Any]) 
     """Write networks with what is to be known of them."""
     arrays: dict[str, Any] = made.force.arrays("force.") | made.state.arrays("state.")
     arrays |= {name: getattr(made, name) for name in ("centre", "spread", "error")}
-    words = {"form": _FORM, "sha256": _digest(arrays), **facts}
-    arrays[_WORDS] = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
-    buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)
-    write_whole(path, buffer.getvalue())
+    sealed.write(path, arrays, _FORM, facts)
 
 
 def load(path: str | os.PathLike[str]) -> tuple[ShortRange, dict[str, Any]]:
@@ -242,35 +231,15 @@ def load(path: str | os.PathLike[str]) -> tuple[ShortRange, dict[str, Any]]:
     ValueError
         If the file is not one that :func:`save` wrote, or is damaged.
     """
-    try:
-        with open(path, "rb") as stream:
-            arrays = read_arrays(stream, lambda _: True, _MOST)
-        words = json.loads(arrays.pop(_WORDS).tobytes())
-        form, digest = words["form"], words["sha256"]
+    with sealed.opened(path, _FORM, "the file of a learned theory", _MOST) as (arrays, words):
         force, state = from_arrays(arrays, "force."), from_arrays(arrays, "state.")
         made = ShortRange(force, state, *(arrays[n] for n in ("centre", "spread", "error")))
-        if form != _FORM or digest != _digest(arrays):
-            raise InputError("form or checksum differ")
         if force.weights[0].shape[1] != _INPUTS or made.centre.shape != (2,):
             raise InputError("its networks have other inputs")
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
-        raise InputError(
-            f"{path} is not the file of a learned theory, or damaged: {error}"
-        ) from None
-    return made, words
+        return made, words
 
 
 @cache
 def shipped() -> ShortRange:
     """Return the networks that come with the package, read once."""
     return load(SHIPPED)[0]
-
-
-def _digest(arrays: dict[str, Any]) -> str:
-    found = hashlib.sha256()
-    for name in sorted(arrays):
-        found.update(name.encode())
-        found.update(np.ascontiguousarray(arrays[name]).tobytes())
-    return found.hexdigest()

@@ -14,25 +14,18 @@ either door; a solid that is slower, pulled slower, too.
 
 from __future__ import annotations
 
-import hashlib
-import io
-import json
 import os
-import zlib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.files.archive import read_arrays
-from viscotack.files.whole import write_whole
 
-from . import physics, store
+from . import physics, sealed, store
 from .alike import DECADES, Alike, again, alike
 from .model import Answers, Curves, Intervals, Scaled, Surrogate
 from .network import from_arrays
@@ -48,7 +41,7 @@ FEATURES, PARTS = 6, 3
 # from those learned from, and how far the window moved exponent and rate.
 TRUST_INPUTS = len(physics.INPUTS) + 3 + 4
 _SAYS = ("start", "fast", "force", "work", "give", "line")
-_FORM, _WORDS, _MOST = "viscotack solids 1", "words.json", 5e6
+_FORM, _MOST = "viscotack solids 1", 5e6
 # Below these likenesses and ways tell nothing more.
 _LEAST_UNLIKE, _LEAST_WAY = 1e-4, 1e-3
 # Widths of the window [decades] that it may have.
@@ -194,11 +187,7 @@ def save(made: Solids, path: str | os.PathLike[str], facts: dict[str, Any]) -> N
     arrays: dict[str, Any] = made.trust.reach.arrays("trust.")
     arrays |= {"trust.levels": made.trust.levels, "floor": np.array(made.floor)}
     arrays |= {name: getattr(made, name) for name in ("window", "spread", "farthest")}
-    words = {"form": _FORM, "sha256": _digest(arrays), "power law": _power_law(), **facts}
-    arrays[_WORDS] = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
-    buffer = io.BytesIO()
-    np.savez_compressed(buffer, **arrays)
-    write_whole(path, buffer.getvalue())
+    sealed.write(path, arrays, _FORM, {"power law": _power_law(), **facts})
 
 
 def load(path: str | os.PathLike[str]) -> tuple[Solids, dict[str, Any]]:
@@ -210,12 +199,7 @@ def load(path: str | os.PathLike[str]) -> tuple[Solids, dict[str, Any]]:
         If the file is not one that :func:`save` wrote, is damaged, or was made for another
         surrogate of power laws than that of the package.
     """
-    try:
-        with open(path, "rb") as stream:
-            arrays = read_arrays(stream, lambda _: True, _MOST)
-        words = json.loads(arrays.pop(_WORDS).tobytes())
-        if words["form"] != _FORM or words["sha256"] != _digest(arrays):
-            raise InputError("form or checksum differ")
+    with sealed.opened(path, _FORM, "what was learned of solids", _MOST) as (arrays, words):
         if words["power law"] != _power_law():
             raise InputError("it corrects another surrogate of power laws; learn it again")
         made = Solids(
@@ -227,11 +211,7 @@ def load(path: str | os.PathLike[str]) -> tuple[Solids, dict[str, Any]]:
             farthest=arrays["farthest"],
         )
         _check(made)
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
-        raise InputError(f"{path} is not what was learned of solids, or damaged: {error}") from None
-    return made, words
+        return made, words
 
 
 @cache
@@ -266,12 +246,4 @@ def _power_law() -> str:
             arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
             part = part.networks
         arrays |= part.arrays(f"{name}.")
-    return _digest(arrays)
-
-
-def _digest(arrays: dict[str, Any]) -> str:
-    found = hashlib.sha256()
-    for name in sorted(arrays):
-        found.update(name.encode())
-        found.update(np.ascontiguousarray(arrays[name]).tobytes())
-    return found.hexdigest()
+    return sealed.checksum(arrays)

@@ -1,28 +1,21 @@
 """A surrogate in a file: arrays in NPZ and words in JSON, no pickle."""
 
-import hashlib
-import io
-import json
 import os
-import zlib
 from functools import cache
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.files.archive import read_arrays
-from viscotack.files.whole import write_whole
 
+from . import sealed
 from .model import Scaled, Surrogate
 from .network import from_arrays
 from .trust import CONFIDENCES, INPUTS, OF, Trust
 
 SHIPPED = Path(__file__).with_name("shipped.npz")
 _FORM = "viscotack surrogate 2"
-_WORDS = "words.json"
 # Largest file that is taken [bytes unpacked]: the one that is shipped has half a megabyte.
 _MOST = 50e6
 # How many inputs each of the networks has.
@@ -58,12 +51,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
         arrays |= networks.arrays(f"{name}.")
     trust = surrogate.trust
     arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
-    words = {"form": _FORM, "sha256": _digest(arrays), **facts}
-    text = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
-    buffer = io.BytesIO()
-    arrays[_WORDS] = text
-    np.savez_compressed(buffer, **arrays)
-    write_whole(path, buffer.getvalue())
+    sealed.write(path, arrays, _FORM, facts)
 
 
 def load(path: str | os.PathLike[str]) -> Surrogate:
@@ -95,33 +83,17 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
-    try:
-        # opened here, for NumPy leaves a damaged file open
-        with open(path, "rb") as stream:
-            arrays = read_arrays(stream, lambda _: True, _MOST)
-        words = json.loads(arrays.pop(_WORDS).tobytes())
-        form, digest = words["form"], words["sha256"]
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
-        raise InputError(f"{path} is not the file of a surrogate, or damaged: {error}") from None
-    if form != _FORM:
-        raise InputError(f"{path} has the form {form!r}, this version reads {_FORM!r}")
-    if digest != _digest(arrays):
-        raise InputError(f"{path} is damaged: its arrays do not have the checksum beside them")
-    try:
+    with sealed.opened(path, _FORM, "the file of a surrogate", _MOST) as (arrays, words):
         _check(arrays)
-    except (KeyError, ValueError) as error:
-        raise InputError(f"{path} is not the file of a surrogate: {error}") from None
-    scaled = {
-        name: Scaled(
-            from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]
-        )
-        for name in ("start", "work", "give", "line")
-    }
-    trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
-    fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
-    return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
+        scaled = {
+            name: Scaled(
+                from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]
+            )
+            for name in ("start", "work", "give", "line")
+        }
+        trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
+        fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
+        return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
 
 
 def _check(arrays: dict[str, np.ndarray]) -> None:
@@ -155,11 +127,3 @@ def _check(arrays: dict[str, np.ndarray]) -> None:
             f"it has {members['fast']} networks of the fast limit for {members['force']} of the "
             "force; give one, or one for each"
         )
-
-
-def _digest(arrays: dict[str, np.ndarray]) -> str:
-    found = hashlib.sha256()
-    for name in sorted(arrays):
-        found.update(name.encode())
-        found.update(np.ascontiguousarray(arrays[name]).tobytes())
-    return found.hexdigest()

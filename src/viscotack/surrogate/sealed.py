@@ -1,0 +1,82 @@
+"""What was learned in a file: arrays in NPZ, words in JSON, a checksum over them; no pickle."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import os
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+from viscotack.files.archive import read_arrays
+from viscotack.files.whole import write_whole
+
+Arrays = Mapping[str, npt.NDArray[Any]]
+
+_WORDS = "words.json"
+
+
+def write(
+    path: str | os.PathLike[str], arrays: Arrays, form: str, facts: Mapping[str, Any]
+) -> None:
+    """Write arrays, and beside them their form, their checksum and what is to be known of them."""
+    words = {"form": form, "sha256": checksum(arrays), **facts}
+    text = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
+    buffer = io.BytesIO()
+    entries: dict[str, Any] = {**arrays, _WORDS: text}
+    np.savez_compressed(buffer, **entries)
+    write_whole(path, buffer.getvalue())
+
+
+@contextmanager
+def opened(
+    path: str | os.PathLike[str], form: str, what: str, most: float
+) -> Iterator[tuple[dict[str, npt.NDArray[Any]], dict[str, Any]]]:
+    """Give the arrays and words of a file that :func:`write` wrote.
+
+    Parameters
+    ----------
+    path : path
+    form : str
+        That it must have.
+    what : str
+        What it should be, in words.
+    most : float
+        Largest file that is taken [bytes unpacked].
+
+    Raises
+    ------
+    InputError
+        If the file is not of that form, is damaged, or what is made of it in the ``with`` fails.
+    """
+    try:
+        # opened here, for NumPy leaves a damaged file open
+        with open(path, "rb") as stream:
+            arrays = read_arrays(stream, lambda _: True, most)
+        words = json.loads(arrays.pop(_WORDS).tobytes())
+        if words["form"] != form:
+            raise InputError(f"it has the form {words['form']!r}, this version reads {form!r}")
+        if words["sha256"] != checksum(arrays):
+            raise InputError("its arrays do not have the checksum beside them")
+        yield arrays, words
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
+        raise InputError(f"{path} is not {what}, or damaged: {error}") from None
+
+
+def checksum(arrays: Arrays) -> str:
+    """Return the SHA-256 of arrays with their names."""
+    found = hashlib.sha256()
+    for name in sorted(arrays):
+        found.update(name.encode())
+        found.update(np.ascontiguousarray(arrays[name]).tobytes())
+    return found.hexdigest()
