@@ -68,7 +68,14 @@ def plain_network(rows: Rows) -> Predictor:
 
 def network_between(rows: Rows) -> Predictor:
     """Return a network of the share between slow and fast limit."""
-    network = _fit(physics.scaled(rows.groups), np.log10(rows.force)[:, None], _way(rows.groups))
+    return between_limits(rows, _HOW)
+
+
+def between_limits(rows: Rows, how: Fit) -> Predictor:
+    """Return a network of that share, fitted in a given way."""
+    target = np.log10(rows.force)[:, None]
+    task = Task(physics.scaled(rows.groups), target, np.ones_like(target), _way(rows.groups))
+    network = fit(task, how, seed=0)
     return lambda new: _between(new, network(physics.scaled(new.groups)))
 
 
@@ -104,7 +111,7 @@ def _fit(inputs: np.ndarray, target: np.ndarray, between: tuple | None) -> Netwo
 
 def _way(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     low, high = physics.way(groups, load(SHIPPED).fast)
-    return low, np.maximum(high, low + physics.LEAST_WAY)
+    return low, np.maximum(high.mean(axis=0), low + physics.LEAST_WAY)
 
 
 def _between(new: Rows, said: np.ndarray) -> np.ndarray:

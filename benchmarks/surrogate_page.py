@@ -25,7 +25,7 @@ from viscotack.surrogate import physics, short_range, store
 from viscotack.surrogate.store import shipped
 from viscotack.surrogate.training import drawing
 from viscotack.surrogate.training.calibration import Apart, covers, judged
-from viscotack.surrogate.training.make import kept_apart
+from viscotack.surrogate.training.make import parted
 from viscotack.surrogate.training.rows import LEARNED, Rows, certain, read
 from viscotack.surrogate.training.scores import scores
 from viscotack.surrogate.trust import OF
@@ -34,10 +34,10 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "surrogate.md"
 
 # Leaves of a tree that looks for bad places, the rows a leaf needs to be judged, and what is bad.
-_LEAVES, _ENOUGH, _LOW = 40, 15, 0.8
+_LEAVES, _ENOUGH, _LOW = 40, 20, 0.8
 # More rows than any table has.
 ALL = 1_000_000
-SETS = {"all": "all", "broad": "`broad`", "thesis": "`thesis`", "chosen": "`chosen`"}
+SETS = {"all": "all"} | {name: f"`{name}`" for name in LEARNED}
 Scores = dict[str, Any]
 
 
@@ -69,23 +69,22 @@ def errors(scores: Scores) -> list[str]:
 
 
 def judging() -> tuple[Rows, list[str]]:
-    """Return the rows of `fresh` that judge, and their designs."""
-    rows = read("fresh")
-    names = drawing.designs_of(rows.groups)
-    kept = ~drawing.measuring(names) & certain("fresh")
+    """Return the rows of `unseen` that judge, and their designs."""
+    rows, kept = read("unseen"), certain("unseen")
+    names = drawing.designs_of("unseen", rows.groups)
     return rows.chosen(kept), [name for name, one in zip(names, kept, strict=True) if one]
 
 
-def fresh(rows: Rows, designs: list[str], apart: Apart) -> list[str]:
+def unseen(rows: Rows, designs: list[str], apart: Apart) -> list[str]:
     """Return the table of errors and covers by design."""
     lines = [
-        "| fresh cases | rows | MSE of log10 force, work | 90 % hold: force | work | curve | "
+        "| unseen cases | rows | MSE of log10 force, work | 90 % hold: force | work | curve | "
         "travel | half width, median: force | work | curve | travel | "
         "worst, half widths: force | work |",
         "|---|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
     ]
     held = covers(shipped().trust, apart)
-    width = np.column_stack(shipped().trust.widths(apart.groups, apart.spreads, 0.9))
+    width = np.column_stack(shipped().trust.widths(apart.told, 0.9))
     of = np.array(designs)
     for name in ("all", *dict.fromkeys(designs)):
         some = np.ones(len(rows), dtype=bool) if name == "all" else of == name
@@ -103,30 +102,30 @@ def fresh(rows: Rows, designs: list[str], apart: Apart) -> list[str]:
     return lines
 
 
-def leaves(apart: Apart) -> str:
+def leaves(rows: Rows, apart: Apart, learned: Rows) -> str:
     """Return what intervals hold in the leaves of a tree that was grown on other rows."""
     from sklearn.tree import DecisionTreeRegressor
 
-    rows = read(*LEARNED)
-    grown = judged(shipped(), rows.chosen(~kept_apart(len(rows))).chosen(slice(None, None, 2)))
+    known = learned.chosen(slice(None, None, 2))
+    grown = judged(shipped(), known)
     words = []
     for column, name in enumerate(("force", "work")):
         missed = covers(shipped().trust, grown)[:, column] == 0
         tree = DecisionTreeRegressor(max_leaf_nodes=_LEAVES, min_samples_leaf=100, random_state=0)
-        tree.fit(physics.scaled(grown.groups), missed.astype(float))
-        of = tree.apply(physics.scaled(apart.groups))
+        tree.fit(physics.scaled(known.groups), missed.astype(float))
+        of = tree.apply(physics.scaled(rows.groups))
         held = covers(shipped().trust, apart)[:, column]
         found = [held[of == leaf] for leaf in np.unique(of)]
         enough = [one for one in found if len(one) >= _ENOUGH]
         low = sum(float(one.mean()) < _LOW for one in enough)
         words.append(
-            f"{name}: {len(enough)} leaves have {_ENOUGH} fresh rows or more, and intervals hold "
+            f"{name}: {len(enough)} leaves have {_ENOUGH} unseen rows or more, and intervals hold "
             f"{percent(min(float(one.mean()) for one in enough))} or more in each, less than "
             f"{_LOW:.0%} in {low}"
         )
     return (
         f"A tree of {_LEAVES} leaves, grown on the rows learned from to find where intervals fail, "
-        f"judged by the fresh rows: {'; '.join(words)}."
+        f"judged by the unseen rows: {'; '.join(words)}."
     )
 
 
@@ -139,7 +138,7 @@ def curves(scores: Scores, apart: Apart) -> str:
         f"{percent(one['median'])} of the pull-off force in the median case (root mean square "
         f"over the points), by less than {percent(one['90 %'])} in nine of ten and "
         f"{percent(one['99 %'])} in 99 of 100. The travel of a pressed start to zero force is off "
-        f"by {percent(middle)} in the median of the fresh cases and {percent(most)} in nine of "
+        f"by {percent(middle)} in the median of the unseen cases and {percent(most)} in nine of "
         "ten."
     )
 
@@ -242,14 +241,14 @@ def main() -> None:
     parser.add_argument("--write", action="store_true")
     chosen = parser.parse_args()
     facts = store.facts()
-    rows = read(*LEARNED)
-    at_random = scores(shipped(), rows.chosen(kept_apart(len(rows))))
+    learned, test = parted()
+    at_random = scores(shipped(), test)
     new, designs = judging()
     apart = judged(shipped(), new)
     parts = [
         "\n".join(errors(at_random)),
-        "\n".join(fresh(new, designs, apart)),
-        leaves(apart),
+        "\n".join(unseen(new, designs, apart)),
+        leaves(new, apart, learned),
         curves(at_random, apart),
         speed(),
         theory(),

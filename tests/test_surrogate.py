@@ -1,6 +1,7 @@
 """The learned answer: inside its bounds, one with its curve, and as good as its file says."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from viscotack.surrogate import line, physics, store
 from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
+from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, told
 from viscotack.surrogate.trust import INPUTS as TOLD
 from viscotack.theory import lennard_jones
 
@@ -163,10 +164,12 @@ def test_wider_confidence_is_a_wider_interval():
 def test_widths_are_smooth(made):
     surrogate, groups = made(), random_groups(300, seed=8)
     ahead = groups * 10 ** (1e-6 * np.random.default_rng(8).normal(size=groups.shape))
+    answers = (surrogate.evaluate(rows) for rows in (groups, ahead))
+    # how far a few networks are apart has corners
     a, b = (
-        np.array(s.widths(g, (spread, spread), 0.9))
-        for s in (surrogate.trust,)
-        for g, spread in ((groups, np.full(300, 1e-4)), (ahead, np.full(300, 1e-4)))
+        np.array(surrogate.trust.widths(told(rows, replace(said, **apart)), 0.9))
+        for apart in ({name: np.full(300, 1e-4) for name in ("force_spread", "work_spread")},)
+        for rows, said in zip((groups, ahead), answers, strict=True)
     )
     assert np.max(np.abs(b / a - 1)) < 1e-4
 
@@ -288,9 +291,8 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     from viscotack.surrogate.training.calibration import covers, judged
     from viscotack.surrogate.training.rows import certain, read
 
-    rows = read("fresh")
-    designs = np.array(drawing.designs_of(rows.groups))
-    new = ~drawing.measuring(designs.tolist()) & certain("fresh")
+    rows = read("unseen")
+    designs, new = np.array(drawing.designs_of("unseen", rows.groups)), certain("unseen")
     apart = judged(shipped(), rows.chosen(new))
     held = covers(shipped().trust, apart)
     every = np.nanmean(held, axis=0)
@@ -302,7 +304,7 @@ def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     for box in drawing.BOXES:
         assert held[designs[new] == box, 0].mean() > 0.8
     assert np.mean(apart.error[:, 0] ** 2) < 6e-7
-    width = np.column_stack(shipped().trust.widths(apart.groups, apart.spreads, 0.9))
+    width = np.column_stack(shipped().trust.widths(apart.told, 0.9))
     assert np.median(width[:, 0]) < 7e-4
 
 
@@ -342,12 +344,10 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_the_kept_rows_are_as_the_file_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.make import kept_apart
-    from viscotack.surrogate.training.rows import LEARNED, read
+    from viscotack.surrogate.training.make import parted
     from viscotack.surrogate.training.scores import scores
 
-    rows = read(*LEARNED)
-    found = scores(shipped(), rows.chosen(kept_apart(len(rows))))
+    found = scores(shipped(), parted()[1])
     said = store.facts()["scores"]["kept apart at random"]
     for name in ("force", "work"):
         for key in ("mse_log10", "median", "cover"):

@@ -14,7 +14,7 @@ from viscotack.surrogate.store import shipped  # noqa: E402
 from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
-from viscotack.surrogate.trust import CONFIDENCES, OF  # noqa: E402
+from viscotack.surrogate.trust import CONFIDENCES, OF, told  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
@@ -69,7 +69,7 @@ def test_unknown_numbers_are_not_learned(rows):
     assert np.all(rows.known[~tense][:, line.SHAPE] == 1)
 
 
-@pytest.mark.parametrize("name", ["broad", "thesis", "chosen"])
+@pytest.mark.parametrize("name", ["broad", "thesis", "chosen", "steep"])
 def test_all_that_is_to_be_learned_is_finite(name):
     rows = read(name)
     for values in (rows.line, rows.known, rows.give, rows.force, rows.work, rows.start_radius):
@@ -164,28 +164,29 @@ def test_intervals_hold_the_share_that_they_promise():
     def apart(count):
         u = random.random((count, 5))
         groups = physics.LOW * (physics.HIGH / physics.LOW) ** u
-        spread = 10 ** random.uniform(-4, -2, count)
-        usual = shipped().trust.widths(groups, (spread, spread), 0.9)
+        inputs = told(groups, shipped().evaluate(groups))
+        usual = shipped().trust.widths(inputs, 0.9)
         error = random.standard_t(4, (count, len(OF))) * np.array(usual).T
         # a start in tension has no travel to zero force
         error[::3, OF.index("travel")] = np.nan
-        return Apart(groups, error, spread, spread)
+        return Apart(inputs, error)
 
     trust, new = measured(shipped().trust, apart(20_000)), apart(20_000)
     for confidence in CONFIDENCES:
         held = covers(trust, new, confidence=confidence)
         assert np.nanmean(held, axis=0) == pytest.approx(np.full(len(OF), confidence), abs=0.015)
-        slow = new.groups[:, physics.RATE] < 1e3
+        slow = new.told[:, physics.RATE] < 0
         both = [np.nanmean(held[some], axis=0) for some in (slow, ~slow)]
         assert both[0] == pytest.approx(both[1], abs=0.03)
 
 
-def test_cases_are_chosen_where_the_networks_disagree():
+def test_cases_are_chosen_where_errors_reach_far():
     groups = choose(shipped(), 500, seed=3)
     u = np.random.default_rng(0).random((500, 5))
     everywhere = physics.LOW * (physics.HIGH / physics.LOW) ** u
-    spreads = [shipped().evaluate(g).force_spread.mean() for g in (groups, everywhere)]
-    assert spreads[0] > 2 * spreads[1]
+    reach = [shipped().intervals(g, shipped().evaluate(g)) for g in (groups, everywhere)]
+    half = [np.mean(np.ptp(np.log(one.pull_off_force), axis=1)) for one in reach]
+    assert half[0] > 3 * half[1]
     assert np.all(shipped().inside(groups))
     assert np.array_equal(groups, choose(shipped(), 500, seed=3))
     with pytest.raises(ValueError, match="81920 points .* 100000 were asked"):

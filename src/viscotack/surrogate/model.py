@@ -18,7 +18,7 @@ from .line import Curves, curves
 from .network import Networks
 from .physics import INPUTS, LIMITS, START, Array
 from .slopes import Sloped, by_logarithms
-from .trust import Trust
+from .trust import Trust, told
 
 __all__ = ["INPUTS", "Answers", "Curves", "Intervals", "Surrogate"]
 _STARTS = 64
@@ -37,12 +37,16 @@ class Answers:
         [1.5 pi R dg0 h0], from zero force or from a start in tension.
     force_spread, work_spread : ndarray
         Standard deviation of log10 among the networks.
+    way, share : ndarray
+        From the slow limit of the force to the fast one, log10, and the part of it that is covered.
     """
 
     pull_off_force: Array
     work_to_pull_off: Array
     force_spread: Array
     work_spread: Array
+    way: Array
+    share: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,16 +128,18 @@ class Surrogate:
     def evaluate(self, groups: npt.ArrayLike) -> Answers:
         """Return force and work of rows of groups; they are not checked to lie inside."""
         rows = _rows(groups)
-        forces = physics.between(
-            *physics.way(rows, self.fast), self.force(physics.scaled(rows))[..., 0]
-        )
+        slow, fast = physics.way(rows, self.fast)
+        forces = physics.between(slow, fast, self.force(physics.scaled(rows))[..., 0])
         force = forces.mean(axis=0)
+        way = np.maximum(fast.mean(axis=0) - slow, physics.LEAST_WAY)
         works = force + self.work(self._told(rows, force))[..., 0]
         return Answers(
             pull_off_force=10**force,
             work_to_pull_off=10 ** works.mean(axis=0),
             force_spread=forces.std(axis=0),
             work_spread=works.std(axis=0),
+            way=way,
+            share=(force - slow) / way,
         )
 
     def curves(self, groups: npt.ArrayLike, answers: Answers) -> Curves:
@@ -164,8 +170,7 @@ class Surrogate:
             If the confidence is not one of those that were measured.
         """
         rows = _rows(groups)
-        spreads = answers.force_spread, answers.work_spread
-        *halves, curve, travel = self.trust.widths(rows, spreads, confidence)
+        *halves, curve, travel = self.trust.widths(told(rows, answers), confidence)
         values = answers.pull_off_force, answers.work_to_pull_off
         force, work = (
             np.column_stack([v / 10**half, v * 10**half])

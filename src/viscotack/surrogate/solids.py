@@ -29,7 +29,7 @@ from . import physics, sealed, store
 from .alike import DECADES, Alike, again, alike
 from .model import Answers, Curves, Intervals, Scaled, Surrogate
 from .network import from_arrays
-from .trust import CONFIDENCES, OF, Trust, told
+from .trust import CONFIDENCES, INPUTS, OF, Trust, told
 
 Array = npt.NDArray[np.float64]
 
@@ -39,7 +39,7 @@ SHIPPED = Path(__file__).with_name("solids.npz")
 FEATURES, PARTS = 6, 3
 # What the network of the errors is told: what it is of power laws; how unlike the solid is, how far
 # from those learned from, and how far the window moved exponent and rate.
-TRUST_INPUTS = len(physics.INPUTS) + 3 + 4
+TRUST_INPUTS = INPUTS + 4
 _SAYS = ("start", "fast", "force", "work", "give", "line")
 _FORM, _MOST = "viscotack solids 1", 5e6
 # Below these likenesses and ways tell nothing more.
@@ -140,7 +140,7 @@ class Solids:
 
     def told(self, like: Likeness, answers: Answers) -> Array:
         """Return what the network of the errors is told, shape (n, TRUST_INPUTS)."""
-        plain = told(like.groups, (answers.force_spread, answers.work_spread))
+        plain = told(like.groups, answers)
         unlike = np.log10(like.first.unlike + _LEAST_UNLIKE) + 3
         far = np.log10(self.far(like) + _LEAST_UNLIKE) + 1
         return np.column_stack([plain, unlike, far, np.log10(np.abs(like.moved) + _LEAST_WAY) + 2])
@@ -153,7 +153,7 @@ class Solids:
         ValueError
             If the confidence is not one of those that were measured.
         """
-        *halves, curve, travel = self.trust.widths_told(self.told(like, answers), confidence)
+        *halves, curve, travel = self.trust.widths(self.told(like, answers), confidence)
         values = answers.pull_off_force, answers.work_to_pull_off
         force, work = (
             np.column_stack([v / 10**half, v * 10**half])

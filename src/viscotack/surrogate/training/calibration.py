@@ -4,12 +4,12 @@ How far they reach is learned from the errors of all rows, most of which the net
 where limits or inputs are told badly, errors are the same for those and for others, and several
 networks agree in them, so that no spread shows it. Overfitting makes them smaller for rows
 that were learned from, most on the faces of the range; so rows that were kept apart count more, and
-those that an adversary sought where intervals of an earlier surrogate failed. The
-levels, by which all widths are multiplied, come from the latter: networks of the reach learn
-from a half of them each, and are judged by the other half (cross-conformal prediction, Vovk,
-doi:10.1007/s10472-013-9368-4). Each set of them has levels of its own, and the largest counts: what
-holds in cases that are spread evenly must hold in those on faces too. What the rows themselves are
-uncertain by is in both.
+those that were drawn where errors reach far: by an adversary who sought where intervals of an
+earlier surrogate failed, and by how far its errors reached. The levels, by which all widths are
+multiplied, come from the latter: networks of the reach learn from a half of them each, and are
+judged by the other half (cross-conformal prediction, Vovk, doi:10.1007/s10472-013-9368-4). Each set
+of them has levels of its own, and the largest counts: what holds in cases that are spread evenly
+must hold in those on faces too. What the rows themselves are uncertain by is in both.
 """
 
 from collections.abc import Sequence
@@ -27,9 +27,10 @@ from .rows import Rows
 from .scores import curve_errors, travel_errors
 from .shop import Shop
 
-# The part of the errors that a network of their reach is to hold, and smaller errors than those of
-# the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
-REACH, LEAST = 0.9, np.array([5e-5, 1e-4, 3e-4, 1e-4])
+# The part of the errors that a network of their reach is to hold: the far ones decide, for where
+# errors are as large as elsewhere in the median their tails may be longer. And smaller errors than
+# those of the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
+REACH, LEAST = 0.98, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
 _WEIGHT = 8.0
 # Networks for each half of these rows: one alone errs by chance in places.
@@ -43,27 +44,19 @@ class Apart:
 
     Attributes
     ----------
-    groups : ndarray, shape (n, 5)
+    told : ndarray, shape (n, trust.INPUTS)
+        What a network of their reach is told.
     error : ndarray, shape (n, 4)
         Of log10 of force and of work, the largest of the curve in tension over the pull-off force,
         and of log10 of the travel to zero force; that is nan for starts in tension.
-    force_spread, work_spread : ndarray, shape (n,)
-        Of the networks, log10.
     """
 
-    groups: Array
+    told: Array
     error: Array
-    force_spread: Array
-    work_spread: Array
 
     def chosen(self, which: Any) -> "Apart":
         """Return the rows of a mask."""
         return Apart(**{f.name: getattr(self, f.name)[which] for f in fields(self)})
-
-    @property
-    def spreads(self) -> tuple[Array, Array]:
-        """Of force and work."""
-        return self.force_spread, self.work_spread
 
 
 def judged(surrogate: Surrogate, rows: Rows) -> Apart:
@@ -75,12 +68,7 @@ def judged(surrogate: Surrogate, rows: Rows) -> Apart:
         np.nanmax(np.abs(curve_errors(surrogate, rows, said)), axis=1),
         travel_errors(surrogate, rows, said),
     )
-    return Apart(
-        groups=rows.groups,
-        error=np.column_stack(errors),
-        force_spread=said.force_spread,
-        work_spread=said.work_spread,
-    )
+    return Apart(told(rows.groups, said), np.column_stack(errors))
 
 
 def trusted(
@@ -103,16 +91,14 @@ def trusted(
     kept : sequence of Apart
         Of others, a set each for which intervals are to hold.
     hard : Apart
-        Of others, that were sought where intervals fail: they tell how far errors reach there, and
-        nothing of how often.
+        Of others, that were sought where errors are large: they tell how far errors reach there,
+        and nothing of how often.
     shop : Shop
         Where networks are fitted.
     how : Fit
         Of the networks of the reach.
     """
-    halves = [
-        [one.chosen(np.arange(len(one.groups)) % 2 == half) for one in kept] for half in (0, 1)
-    ]
+    halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
     begun = [
         [shop.fit(_reach(learned, [*half, hard]), how, seed=seed) for seed in range(_MEMBERS)]
         for half in halves
@@ -128,12 +114,12 @@ def trusted(
 
 def _reach(learned: Apart, kept: Sequence[Apart]) -> Task:
     """Return the task to learn how far errors reach."""
-    inputs = np.concatenate([told(one.groups, one.spreads) for one in (learned, *kept)])
+    inputs = np.concatenate([one.told for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
     target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), LEAST))
     weight = known.astype(float)
-    weight[len(learned.groups) :] *= _WEIGHT
+    weight[len(learned.told) :] *= _WEIGHT
     return Task(inputs, target, weight, quantile=REACH)
 
 
@@ -159,9 +145,7 @@ def measured(trust: Trust, apart: Apart) -> Trust:
 
 def scored(trust: Trust, apart: Apart) -> Array:
     """Return errors over how far they usually reach, shape (n, 4); nan where there is none."""
-    return np.abs(apart.error) / np.column_stack(
-        trust.widths(apart.groups, apart.spreads, CONFIDENCES[0])
-    )
+    return np.abs(apart.error) / np.column_stack(trust.widths(apart.told, CONFIDENCES[0]))
 
 
 def levels_of(scores: Array) -> Array:
@@ -178,6 +162,6 @@ def _level(scores: Array) -> Array:
 
 def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> Array:
     """Return 1.0 where an interval holds, 0.0 where not, and nan where there is none, (n, 4)."""
-    widths = np.column_stack(trust.widths(apart.groups, apart.spreads, confidence))
+    widths = np.column_stack(trust.widths(apart.told, confidence))
     held = np.abs(apart.error) <= widths
     return np.where(np.isfinite(apart.error), held, np.nan)

@@ -1,9 +1,9 @@
-"""Cases that no network of an answer learns from, drawn with a fixed seed: the set `fresh`.
+"""Cases that no network learns from, drawn with fixed seeds: the sets `fresh` and `unseen`.
 
-``python -m viscotack.surrogate.training.drawing --out fresh.csv`` writes its list, which
-``python -m viscotack.datasets fresh`` runs. Any beginning of the list has cases of all designs, as
-many for their number. Every second case of a design measures how wide intervals must be; nothing is
-taken from the others, which judge.
+``python -m viscotack.surrogate.training.drawing fresh --out fresh.csv`` writes a list, which
+``python -m viscotack.datasets fresh`` runs. Any beginning of a list has cases of all its designs,
+as many for their number. Those of `fresh` measure how wide intervals must be; those of `unseen`
+judge, and nothing is taken from them.
 """
 
 import argparse
@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 
@@ -57,46 +56,33 @@ class Design:
     count: int
 
 
-SEED = 2311
-DESIGNS = (
-    Design("even", 500),
-    Design("faces", 500),
-    *(Design(box, 40) for box in BOXES),
-)
+def _designs(each: int, of_box: int) -> tuple[Design, ...]:
+    return (Design("even", each), Design("faces", each), *(Design(box, of_box) for box in BOXES))
 
 
-def fresh() -> tuple[Array, list[str]]:
-    """Return the inputs of the cases in the order of the list, shape (n, 5), and their designs."""
-    random = np.random.default_rng(SEED)
-    groups = np.concatenate([_draw(design, random) for design in DESIGNS])
-    place = np.concatenate([(np.arange(d.count) + 0.5) / d.count for d in DESIGNS])
-    names = [design.name for design in DESIGNS for _ in range(design.count)]
+# Seeds and designs of the lists.
+LISTS = {"fresh": (2311, _designs(500, 40)), "unseen": (2322, _designs(1900, 100))}
+
+
+def drawn(name: str) -> tuple[Array, list[str]]:
+    """Return the inputs of the cases in the order of a list, shape (n, 5), and their designs."""
+    seed, designs = LISTS[name]
+    random = np.random.default_rng(seed)
+    groups = np.concatenate([_draw(design, random) for design in designs])
+    place = np.concatenate([(np.arange(d.count) + 0.5) / d.count for d in designs])
+    names = [design.name for design in designs for _ in range(design.count)]
     order = np.argsort(place, kind="stable")
     return _rounded(groups[order]), [names[i] for i in order]
 
 
-def designs_of(groups: Array) -> list[str]:
-    """Return the designs of cases of the list, in their order."""
-    of = dict(zip(map(tuple, fresh()[0].tolist()), fresh()[1], strict=True))
+def designs_of(name: str, groups: Array) -> list[str]:
+    """Return the designs of cases of a list, in their order."""
+    inputs, designs = drawn(name)
+    of = dict(zip(map(tuple, inputs.tolist()), designs, strict=True))
     try:
         return [of[tuple(row)] for row in groups.tolist()]
     except KeyError as row:
         raise InputError(f"{row} is no case of the list; draw it again") from None
-
-
-def measuring(designs: list[str]) -> npt.NDArray[np.bool_]:
-    """Return which cases measure the intervals: of each design every second one, from the first.
-
-    Examples
-    --------
-    >>> measuring(["even", "faces", "even", "even"]).tolist()
-    [True, True, False, True]
-    """
-    found, seen = [], dict.fromkeys(designs, 0)
-    for name in designs:
-        found.append(seen[name] % 2 == 0)
-        seen[name] += 1
-    return np.array(found)
 
 
 def _draw(design: Design, random: np.random.Generator) -> Array:
@@ -118,10 +104,18 @@ def _rounded(groups: Array) -> Array:
 def main() -> None:
     """Draw and write."""
     parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.drawing")
+    parser.add_argument("name", choices=tuple(LISTS), help="which list")
     parser.add_argument("--out", type=Path, required=True, help="CSV file")
     given = parser.parse_args()
     form = f"%.{_DIGITS}g"
-    np.savetxt(given.out, fresh()[0], delimiter=",", header=",".join(INPUTS), comments="", fmt=form)
+    np.savetxt(
+        given.out,
+        drawn(given.name)[0],
+        delimiter=",",
+        header=",".join(INPUTS),
+        comments="",
+        fmt=form,
+    )
     print(given.out)
 
 

@@ -28,7 +28,7 @@ from . import drawing, rows, scores
 from .calibration import HOW, judged, trusted
 from .recipe import BANDED, QUICK, Recipe, learn, learn_limits
 from .refining import QUICK_REFINEMENT, Refinement, refine
-from .rows import FAST, LEARNED
+from .rows import FAR_OFF, FAST, LEARNED
 from .shop import Shop
 
 # Rows drawn at random that no network learns from.
@@ -55,11 +55,10 @@ def make(
         learned after the first networks.
     """
     began = perf_counter()
-    all_rows, fast = rows.read(*LEARNED), rows.read(FAST)
+    fast = rows.read(FAST)
+    learned, test = parted()
     if quick:
-        all_rows, fast = (r.chosen(slice(None, None, _THINNED)) for r in (all_rows, fast))
-    kept = kept_apart(len(all_rows))
-    learned, test = all_rows.chosen(~kept), all_rows.chosen(kept)
+        fast, learned, test = (r.chosen(slice(None, None, _THINNED)) for r in (fast, learned, test))
     recipe, banded = (QUICK, QUICK.force) if quick else (Recipe(), BANDED)
     refinement = QUICK_REFINEMENT if quick else Refinement()
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
@@ -74,7 +73,8 @@ def make(
         how = QUICK.line if quick else HOW
         apart = [judged(surrogate, measuring) for measuring in measuring_rows(test)]
         some = judged(surrogate, learned.chosen(slice(None, None, 2)))
-        hard = judged(surrogate, rows.read("hard").chosen(rows.certain("hard")))
+        far_off = [rows.read(name).chosen(rows.certain(name)) for name in FAR_OFF]
+        hard = judged(surrogate, rows.joined(far_off))
         surrogate = trusted(surrogate, some, apart, hard, shop, how=how)
         _say(began, "intervals")
         found: dict[str, Any] = {"kept apart at random": scores.scores(surrogate, test)}
@@ -91,18 +91,24 @@ def make(
 
 
 def measuring_rows(test: rows.Rows) -> tuple[rows.Rows, ...]:
-    """Return the rows that measure intervals: those kept apart, and every second one of `fresh`.
+    """Return the rows that measure intervals: those kept apart, and those of `fresh`.
 
     Of the former without those of `thesis`, most of which are materials of a few kinds; of the
     latter without those whose own errors are larger than what is to be measured, and those on faces
     of the range as a set of their own, for errors reach further there.
     """
     fresh = rows.read("fresh")
-    designs = drawing.designs_of(fresh.groups)
-    measuring = drawing.measuring(designs) & rows.certain("fresh")
-    faces = np.array(designs) == "faces"
+    measuring = rows.certain("fresh")
+    faces = np.array(drawing.designs_of("fresh", fresh.groups)) == "faces"
     kept = test.chosen(test.origin != LEARNED.index("thesis"))
     return kept, fresh.chosen(measuring & ~faces), fresh.chosen(measuring & faces)
+
+
+def parted() -> tuple[rows.Rows, rows.Rows]:
+    """Return the rows that networks learn from, and those kept apart."""
+    whole = rows.read(*LEARNED)
+    kept = kept_apart(len(whole))
+    return whole.chosen(~kept), whole.chosen(kept)
 
 
 def kept_apart(count: int) -> npt.NDArray[np.bool_]:
@@ -119,7 +125,7 @@ def _facts(learned: int, test: int, recipe: Recipe, refinement: Refinement) -> d
         "libraries": {name: version(name) for name in names},
         "sets": {
             name: datasets.files.checksum(datasets.path(name).read_bytes())
-            for name in (*LEARNED, FAST)
+            for name in (*LEARNED, FAST, *FAR_OFF, "fresh")
         },
         "rows": {"learned from": learned, "kept apart": test},
         "recipe": asdict(recipe) | {"refinement": asdict(refinement)},

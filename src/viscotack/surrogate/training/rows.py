@@ -16,6 +16,8 @@ Array = npt.NDArray[np.float64]
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"
+# Those that were drawn where errors reach far; they tell how far, and no network learns the answer.
+FAR_OFF = ("hard", "steep")
 # Largest stated errors of force and work of rows that may judge others.
 MOST_ERRORS = (3e-3, 1e-2)
 # Bands of Tabor number, modulus ratio and exponent, even in their logarithms.

@@ -238,7 +238,7 @@ def trusted(made: Solids, known: Judged, kept: Judged) -> Solids:
 
 def scores(made: Solids, found: Judged, *, confidence: float = 0.9) -> dict[str, Any]:
     """Return what answers and intervals are worth on rows, ready for JSON."""
-    widths = np.column_stack(made.trust.widths_told(found.told, confidence))
+    widths = np.column_stack(made.trust.widths(found.told, confidence))
     answer: dict[str, Any] = {"rows": len(found.told)}
     for i, name in enumerate(OF):
         known = np.isfinite(found.error[:, i])
