@@ -68,8 +68,8 @@ def make(
 
     Parameters
     ----------
-    name : {"thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "punch"}
-        Whose plan is run.
+    name : str
+        One of ``viscotack.datasets.NAMES``, whose plan is run.
     folder : path
         Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
     workers : int
