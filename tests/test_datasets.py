@@ -104,7 +104,7 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     facts = datasets.metadata(name)
     assert table.num_rows + len(facts["failures"]) == facts["cases"]
     # `fresh` and `hard` are drawn on faces and edges, where two in a thousand are not resolved
-    drawn_there = name in ("fresh", "hard")
+    drawn_there = name in ("fresh", "hard", "punch_faces")
     assert len(facts["failures"]) < (3e-3 if drawn_there else 1e-3) * facts["cases"]
 
 
@@ -167,7 +167,7 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     _, targets = how(name)
     assert np.mean(force > targets.force) < 0.01
     # `fresh` and `hard` are run once more only, and `solids` not at all
-    most = {"fresh": 0.03, "hard": 0.03, "solids": 0.08}.get(name, 0.01)
+    most = {"fresh": 0.03, "hard": 0.03, "solids": 0.08, "punch_faces": 0.03}.get(name, 0.01)
     assert np.mean(work > np.maximum(targets.work, least_work)) < most
 
 
@@ -272,7 +272,7 @@ def test_a_damaged_file_is_refused(tmp_path, monkeypatch):
 
 def test_an_unknown_set_is_refused():
     with pytest.raises(
-        ValueError, match="there are thesis, broad, chosen, .*, punch, punch_limits, punch_starts"
+        ValueError, match="there are thesis, broad, chosen, .*, punch, .*, punch_faces"
     ):
         datasets.load("thesys")
 

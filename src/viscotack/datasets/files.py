@@ -18,6 +18,7 @@ NAMES = (
     "punch",
     "punch_limits",
     "punch_starts",
+    "punch_faces",
 )
 _HERE = Path(__file__).parent
 # Written beside the data by whoever makes them; the format of `sha256sum`.
@@ -70,6 +71,7 @@ def load(name: str) -> Any:
         their intervals. ``solids``: spheres on as many random linear solids. ``punch``: 2,000 flat
         punches on a layer. ``punch_limits``: such punches on elastic layers, and retracted so fast
         that nothing relaxes. ``punch_starts``: such punches from starts of any stress.
+        ``punch_faces``: such punches at the ends of the range.
 
     Raises
     ------

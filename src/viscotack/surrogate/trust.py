@@ -40,8 +40,12 @@ def told(groups: Array, spreads: tuple[Array, Array]) -> Array:
     spreads : tuple of ndarray, shape (n,)
         Of the networks of force and work, log10.
     """
+    return told_of(physics.scaled(groups), spreads)
+
+
+def told_of(scaled: Array, spreads: tuple[Array, Array]) -> Array:
+    """Return the same from five inputs that are scaled, each from -1 to 1 over its range."""
     apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
-    scaled = physics.scaled(groups)
     # beyond a face there is no row, and networks know less of what is there
     near = np.exp((np.abs(scaled) - 1) / _NEAR)
     faces = sum(near[:, i] for i in range(1, len(physics.INPUTS))) + near[:, 0]
