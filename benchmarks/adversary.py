@@ -1,11 +1,12 @@
 """An adversary that looks for the worst violation of an interval; simulation is the judge.
 
-`python benchmarks/adversary.py [--cases 120] [--seed 1] [--out FILE.jsonl]`: an evolution over the
-whole range of the five inputs. It begins with the cases of the shipped sets that lie furthest out
-of their intervals, and with some at random; each round it varies those that were worst, simulates
-the new ones at an accuracy of 1e-3, and keeps what is worse, in half widths of the 90 % interval of
-force or work, whichever is larger. A simulation counts as far as it knows itself: its stated error
-is taken off. One or two seconds a case; with --out it goes on where it was stopped.
+`python benchmarks/adversary.py [--cases 120] [--seed 1] [--out FILE.jsonl] [--punch]`: an evolution
+over the whole range of the five inputs of a sphere, or of a punch on a layer. It begins with the
+cases of the sets that lie furthest out of their intervals, and with some at random; each round it
+varies those that were worst, simulates the new ones at an accuracy of 1e-3, and keeps what is
+worse, in half widths of the 90 % interval of force or work, whichever is larger. A simulation
+counts as far as it knows itself: its stated error is taken off. One or two seconds a case; with
+--out it goes on where it was stopped.
 """
 
 from __future__ import annotations
@@ -16,25 +17,98 @@ from pathlib import Path
 
 import numpy as np
 
-from viscotack import solve
+from viscotack import Groups, PunchGroups, solve, summary
 from viscotack.campaign.columns import KINDS
-from viscotack.result.observables import pull_off_force, work_to_pull_off
-from viscotack.surrogate.physics import HIGH, INPUTS, LOW
-from viscotack.surrogate.store import shipped
-from viscotack.surrogate.training.rows import LEARNED, read
+from viscotack.surrogate import physics, punch, punch_physics, store
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.punch import PunchSurrogate
+from viscotack.surrogate.training import punch as punches
+from viscotack.surrogate.training.rows import LEARNED, Rows, joined, read
 
 # Cases that are varied at a time, how far the first variations reach in halves of the range, and by
 # what they shrink each round.
 _KEPT, _REACH, _SHRINK = 6, 0.15, 0.9
-_LOW, _HIGH = np.log10(LOW), np.log10(HIGH)
 
 
-def violation(row: np.ndarray, true: tuple[float, float], stated: tuple[float, float]) -> float:
+class OfSphere:
+    """What is searched of a sphere."""
+
+    inputs, low, high = physics.INPUTS, np.log10(physics.LOW), np.log10(physics.HIGH)
+    force = "pull_off_force"
+
+    @staticmethod
+    def learned() -> Surrogate:
+        """Return what is to be caught."""
+        return store.shipped()
+
+    @staticmethod
+    def row(place: np.ndarray) -> np.ndarray:
+        """Return the inputs at a place of the range."""
+        return 10**place
+
+    @staticmethod
+    def place(row: np.ndarray) -> np.ndarray:
+        """Return where in the range inputs are."""
+        return np.log10(row)
+
+    @staticmethod
+    def rows() -> Rows:
+        """Return what is known beforehand."""
+        return read(*LEARNED)
+
+    @classmethod
+    def problem(cls, row: np.ndarray) -> Groups:
+        """Return the problem of inputs."""
+        return KINDS["sphere"].problem(dict(zip(cls.inputs, row.tolist(), strict=True)))
+
+
+class OfPunch:
+    """What is searched of a punch: the stress of its start in place of its depth."""
+
+    inputs = punch_physics.INPUTS
+    low, high = np.log10(punch_physics.LOW), np.log10(punch_physics.HIGH)
+    force = "pull_off_stress"
+
+    @staticmethod
+    def learned() -> PunchSurrogate:
+        """Return what is to be caught."""
+        return punch.shipped()
+
+    @staticmethod
+    def row(place: np.ndarray) -> np.ndarray:
+        """Return the inputs at a place of the range."""
+        found = 10**place
+        found[punch_physics.PRELOAD] *= punch_physics.compliance(found[None])[0]
+        return found
+
+    @staticmethod
+    def place(row: np.ndarray) -> np.ndarray:
+        """Return where in the range inputs are."""
+        return np.log10(punch_physics.stressed(row[None])[0])
+
+    @staticmethod
+    def rows() -> Rows:
+        """Return what is known beforehand."""
+        return joined([punches.read(name) for name in punches.LEARNED])
+
+    @classmethod
+    def problem(cls, row: np.ndarray) -> PunchGroups:
+        """Return the problem of inputs."""
+        stated = dict(zip(cls.inputs, row.tolist(), strict=True))
+        return KINDS["punch"].problem({"cohesion": 0.05, **stated})
+
+
+Of = type[OfSphere] | type[OfPunch]
+
+
+def violation(
+    of: Of, row: np.ndarray, true: tuple[float, float], stated: tuple[float, float]
+) -> float:
     """Return how many half widths the worse of force and work is off, less their stated errors."""
-    said = shipped().evaluate(row[None])
-    held = shipped().intervals(row[None], said)
+    said = of.learned().evaluate(row[None])
+    held = of.learned().intervals(row[None], said)
     found = []
-    for value, pair, of, error in zip(
+    for value, pair, known, error in zip(
         (said.pull_off_force, said.work_to_pull_off),
         (held.pull_off_force, held.work_to_pull_off),
         true,
@@ -42,32 +116,28 @@ def violation(row: np.ndarray, true: tuple[float, float], stated: tuple[float, f
         strict=True,
     ):
         half = np.log(pair[0, 1] / value[0])
-        found.append(max(abs(np.log(value[0] / of)) - error, 0.0) / half)
+        found.append(max(abs(np.log(value[0] / known)) - error, 0.0) / half)
     return float(max(found))
 
 
-def simulated(row: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]] | None:
+def simulated(of: Of, row: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]] | None:
     """Return force and work of a case and their stated errors; None where there is no answer."""
-    problem = KINDS["sphere"].problem(dict(zip(INPUTS, row.tolist(), strict=True)))
-    result = solve(problem, accuracy=1e-3, until="pull-off", throw=False)
-    error = result.error_estimate
-    if error is None or "work" not in error:
+    result = solve(of.problem(row), accuracy=1e-3, until="pull-off", throw=False)
+    error, said = result.error_estimate, summary(result)
+    numbers = said[of.force], said["work_to_pull_off"]
+    if error is None or "work" not in error or None in numbers:
         return None
-    try:
-        return (pull_off_force(result), work_to_pull_off(result)), (error["force"], error["work"])
-    except ValueError:
-        return None
+    return numbers, (error["force"], error["work"])
 
 
-def worst_known(count: int) -> list[tuple[float, list[float]]]:
+def worst_known(of: Of, count: int) -> list[list[float]]:
     """Return the cases of the sets that lie furthest out of their intervals."""
-    rows = read(*LEARNED)
-    said = shipped().evaluate(rows.groups)
-    held = shipped().intervals(rows.groups, said)
+    rows = of.rows()
+    said = of.learned().evaluate(rows.groups)
+    held = of.learned().intervals(rows.groups, said)
     off = np.abs(np.log(said.pull_off_force / rows.force))
     off /= np.log(held.pull_off_force[:, 1] / said.pull_off_force)
-    worst = np.argsort(-off)[:count]
-    return [(float(off[i]), rows.groups[i].tolist()) for i in worst]
+    return rows.groups[np.argsort(-off)[:count]].tolist()
 
 
 def main() -> None:
@@ -76,25 +146,27 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=120)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path)
+    parser.add_argument("--punch", action="store_true", help="of a punch on a layer")
     given = parser.parse_args()
+    of: Of = OfPunch if given.punch else OfSphere
     random = np.random.default_rng(given.seed)
     done: list[tuple[float, list[float]]] = []
     if given.out is not None and given.out.exists():
         done = [tuple(json.loads(line)) for line in given.out.read_text().splitlines()]
-    beginning = [row for _, row in worst_known(_KEPT)]
-    beginning += (10 ** (_LOW + random.random((_KEPT, 5)) * (_HIGH - _LOW))).tolist()
+    beginning = [np.array(row) for row in worst_known(of, _KEPT)]
+    beginning += [of.row(of.low + u * (of.high - of.low)) for u in random.random((_KEPT, 5))]
     while len(done) < given.cases:
         number = len(done)
         if number < len(beginning):
-            row = np.array(beginning[number])
+            row = beginning[number]
         else:
             best = sorted(done, reverse=True)[:_KEPT]
             reach = _REACH * _SHRINK ** (number / _KEPT) + 0.01
-            parent = np.log10(best[number % len(best)][1])
-            step = reach * random.standard_t(3, 5) * (_HIGH - _LOW) / 2
-            row = 10 ** np.clip(parent + step, _LOW, _HIGH)
-        found = simulated(row)
-        done.append((-1.0 if found is None else violation(row, *found), row.tolist()))
+            parent = of.place(np.array(best[number % len(best)][1]))
+            step = reach * random.standard_t(3, 5) * (of.high - of.low) / 2
+            row = of.row(np.clip(parent + step, of.low, of.high))
+        found = simulated(of, row)
+        done.append((-1.0 if found is None else violation(of, row, *found), row.tolist()))
         if given.out is not None:
             with given.out.open("a") as file:
                 file.write(json.dumps(done[-1]) + "\n")
@@ -102,7 +174,7 @@ def main() -> None:
     print(f"{len(off)} simulated; {np.mean(off > 1):.0%} beyond their interval")
     print("worst, half widths, and its case:")
     for each, row in sorted(done, reverse=True)[:5]:
-        words = ", ".join(f"{n} {x:.4g}" for n, x in zip(INPUTS, row, strict=True))
+        words = ", ".join(f"{n} {x:.4g}" for n, x in zip(of.inputs, row, strict=True))
         print(f"  {each:.2f}  {words}")
 
 

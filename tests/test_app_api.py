@@ -11,7 +11,7 @@ import pytest
 
 from viscotack.app.api import application
 from viscotack.app.api.guard import Guard, Rules
-from viscotack.app.engine.examples import FIRST
+from viscotack.app.engine.examples import EXAMPLES, FIRST
 from viscotack.app.engine.jobs import Engine, Limits, _harmless
 
 ROOT = Path(__file__).parents[1]
@@ -62,10 +62,11 @@ def ask(engine):
     found.loop.close()
 
 
-def test_a_prediction_is_that_of_the_package(ask):
+@pytest.mark.parametrize("tables", [FIRST, EXAMPLES["A flat punch on a soft layer"]])
+def test_a_prediction_is_that_of_the_package(ask, tables):
     import viscotack as vt
 
-    answer = ask("POST", "/api/predict", json={"problem": FIRST})
+    answer = ask("POST", "/api/predict", json={"problem": tables})
     assert answer.status_code == 200
     problem = vt.from_dict(answer.json()["problem"])
     expected = json.loads(json.dumps(vt.prediction_summary(vt.predict(problem))))

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import viscotack as vt
@@ -209,6 +210,22 @@ def test_an_elastic_pad_comes_off_as_a_crack_or_at_its_strength(work, is_crack):
     assert (crack < strength) is is_crack
     assert -elastic["force"][-1] == pytest.approx(min(crack, strength), 1e-6)
     assert elastic["force"][0] == pytest.approx(2e3)
+
+
+def test_a_pad_has_what_was_learned_of_punches_and_its_speeds():
+    state = State(EXAMPLES["A flat punch on a soft layer"])
+    found, problem = quick(state), state.problem
+    one = learned_prediction(problem)
+    strength = problem.traction.strength
+    assert found["numbers"][0]["value"] == pytest.approx(one.value * strength)
+    assert found["numbers"][0]["method"] == "surrogate of punches"
+    curve, speeds = found["curves"]["surrogate"], found["speeds"]
+    # drawn numbers have seven digits
+    assert -curve["force"][-1] == pytest.approx(one.value * strength, rel=1e-5)
+    assert curve["radius"][0] == pytest.approx(1e-3, rel=1e-5)
+    assert speeds["words"] == "surrogate" and speeds["here"] == problem.protocol.speed
+    here = np.interp(np.log(speeds["here"]), np.log(speeds["speed"]), speeds["force"])
+    assert here == pytest.approx(one.value * strength, rel=1e-3)
 
 
 def test_the_surrogate_says_at_once_where_it_has_no_answer():

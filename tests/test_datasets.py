@@ -53,7 +53,7 @@ def named(request):
 
 
 def kind_of(name):
-    return {"punch": "punch", "solids": "solid"}.get(name, "sphere")
+    return "punch" if name.startswith("punch") else {"solids": "solid"}.get(name, "sphere")
 
 
 def planned(name):
@@ -104,19 +104,20 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     facts = datasets.metadata(name)
     assert table.num_rows + len(facts["failures"]) == facts["cases"]
     # these are drawn on faces and edges too, where two in a thousand are not resolved
-    drawn_there = name in ("steep", "fresh", "unseen", "hard")
+    drawn_there = name in ("steep", "fresh", "unseen", "hard", "punch_faces")
     assert len(facts["failures"]) < (3e-3 if drawn_there else 1e-3) * facts["cases"]
 
 
 def test_what_a_set_says_is_consistent(named):
     name, table = named
-    force = "stress" if name == "punch" else "force"
+    punch = kind_of(name) == "punch"
+    force = "stress" if punch else "force"
     peak = numbers(table, f"pull_off_{force}")
     assert np.all(np.isfinite(peak) & (peak > 0))
     line = np.array(table.column(f"trajectory_{force}").to_pylist())
     assert line.shape == (table.num_rows, 24)
     # pull-off is the end of the trajectory, in the sign of the column
-    assert line[:, -1] == pytest.approx(peak if name == "punch" else -peak, rel=1e-6)
+    assert line[:, -1] == pytest.approx(peak if punch else -peak, rel=1e-6)
     # depth at the pull-off is the start less the travel; both keep seven digits
     start, travel = numbers(table, "preload"), numbers(table, "travel_to_pull_off")
     off = np.abs(start - travel - numbers(table, "pull_off_depth"))
@@ -131,7 +132,7 @@ def gathered(count):
 
 def test_a_trajectory_has_eight_points_to_zero_force_and_sixteen_from_there(named):
     name, table = named
-    sign, force = (-1, "stress") if name == "punch" else (1, "force")
+    sign, force = (-1, "stress") if kind_of(name) == "punch" else (1, "force")
     line = sign * np.array(table.column(f"trajectory_{force}").to_pylist())
     left = np.array(table.column("trajectory_travel_left").to_pylist())
     assert np.all(np.diff(left) < 0)
@@ -157,7 +158,7 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     name, table = named
     deep = numbers(table, "preload") > 80
     steep = np.zeros_like(deep)
-    if name != "punch":
+    if kind_of(name) != "punch":
         steep = (numbers(table, "tabor") > 5) & (numbers(table, "modulus_ratio") < 1e-3)
     force, work = (numbers(table, f"{what}_error") for what in ("force", "work"))
     least_work = np.where(steep, np.float32(2e-2), np.float32(5e-3))
@@ -166,7 +167,8 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     _, targets = how(name)
     assert np.mean(force > targets.force) < 0.01
     # those that measure and judge are run once more only, and `solids` not at all
-    most = {"fresh": 0.03, "unseen": 0.03, "hard": 0.03, "solids": 0.08}.get(name, 0.01)
+    few = dict.fromkeys(("fresh", "unseen", "hard", "steep", "punch_faces"), 0.03)
+    most = (few | {"solids": 0.08}).get(name, 0.01)
     assert np.mean(work > np.maximum(targets.work, least_work)) < most
 
 
@@ -222,6 +224,24 @@ def test_in_fast_nothing_relaxes():
         assert work == pytest.approx(row["work_to_pull_off"], rel=row["work_error"], abs=0)
 
 
+def test_the_limits_of_punches_are_elastic_layers_and_fast_ones():
+    table = datasets.load("punch_limits")
+    elastic = numbers(table, "modulus_ratio") == 1
+    assert elastic.sum() == 256
+    assert set(numbers(table, "rate")[~elastic]) == {1e16}
+    # a layer that does not relax is one of the glassy modulus: fast ones of k are elastic ones
+    # whose lengths are k times as large in their own a0, but for what the start has pressed
+    pressed = np.array(table.column("trajectory_stress").to_pylist())[:, 0]
+    lightest = np.argmax(np.where(elastic, -np.inf, pressed))
+    (row,) = table.slice(lightest, 1).to_pylist()
+    other = {name: row[name] for name in INPUTS["punch"]}
+    ratio = other["modulus_ratio"]
+    other |= {"modulus_ratio": 1.0, "rate": 1.0}
+    other |= {name: ratio * row[name] for name in ("size", "thickness")}
+    result = solve(KINDS["punch"].problem(other), until="pull-off", accuracy=row["accuracy"])
+    assert pull_off(result).force == pytest.approx(row["pull_off_stress"], rel=2e-3)
+
+
 @pytest.mark.parametrize("name", datasets.NAMES)
 def test_rows_are_what_the_solver_gives(name):
     table = datasets.load(name)
@@ -231,7 +251,7 @@ def test_rows_are_what_the_solver_gives(name):
         kind = KINDS[kind_of(name)]
         problem = kind.problem({column: row[column] for column in INPUTS[kind.name]})
         result = solve(problem, until="pull-off", accuracy=row["accuracy"], estimate_error=False)
-        force = row["pull_off_stress" if name == "punch" else "pull_off_force"]
+        force = row["pull_off_stress" if kind.name == "punch" else "pull_off_force"]
         assert pull_off(result).force == pytest.approx(force, rel=row["force_error"], abs=0)
         work = row["work_to_pull_off"]
         assert work_to_pull_off(result) == pytest.approx(work, rel=row["work_error"], abs=0)

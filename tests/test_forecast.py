@@ -411,17 +411,6 @@ def test_impossible_questions_are_refused():
             assert said.startswith("confidence must be one of 0.5, ") and "0.98, " in said
             with pytest.raises(ValueError, match=r"confidence must be one of"):
                 vt.predict_table(series(rate=[rate]), confidence=confidence)
-    material = vt.StandardSolid(**UNIT, glassy_modulus=10.0, tau0=1.0)
-    punch = vt.PunchGroups(
-        size=64.85,
-        thickness=3.24,
-        cohesion=0.05,
-        material=material,
-        start=vt.AtDepth(1.0),
-        rate=1.0,
-    )
-    with pytest.raises(vt.OutOfRange, match="for spheres, got a punch"):
-        vt.predict(punch)
     with pytest.raises(TypeError, match=r"got 'lens\.toml'; for a file give .*read_case"):
         vt.predict("lens.toml")
 

@@ -16,6 +16,10 @@ from viscotack.surrogate import physics, store, trust
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]
+PUNCH = (
+    "punch --size 64.85 --thickness 3.24 --cohesion 0.05 --modulus-ratio 0.1 --preload 1".split()
+)
+PAD = Path(__file__).parents[1] / "examples" / "from_toml" / "pad.toml"
 LENS = """
 [material]
 model = "power-law"
@@ -228,7 +232,11 @@ def test_what_is_wrong_is_said_before_anything_is_written(lens, tmp_path, capsys
         ("--curve writes the curve", [lens, *out]),
         ("states the whole problem; leave out --rate", [lens, *RATE]),
         ("give one file", [lens, lens]),
-        ("for 'sphere', a file CASE.toml or a table CASES.csv, got 'punch'", ["punch"]),
+        ("for 'sphere', 'punch', a file CASE.toml or a table CASES.csv, got 'cone'", ["cone"]),
+        ("--size, --thickness, --cohesion and --modulus-ratio missing", ["punch", *RATE]),
+        ("a punch is not asked --tabor, --radius", [*PUNCH, "--tabor", "1", "--radius", "1 mm"]),
+        ("a sphere is not asked --size", [*SPHERE, *RATE, "--size", "1"]),
+        ("rate is 1e+09 h0/tau0, and 0.001 to", [*PUNCH, "--rate", "1e9"]),
         ("--rate missing", SPHERE),
         ("the machine has a stiffness of 2", [*SPHERE, *RATE, "--stiffness", "2"]),
         ("confidence must be one of 0.5", [*SPHERE, *RATE, "--confidence", "90"]),
@@ -278,3 +286,42 @@ def test_the_page_states_the_ranges_that_there_are():
         words = " | ".join(f"{end:g}".replace("+", "") for end in ends)
         title = "Tabor number" if name == "tabor" else name.replace("_", " ")
         assert f"| {title} | {words} |" in page
+
+
+def test_a_punch_by_flags_by_file_and_beside_its_simulation(tmp_path, capsys):
+    curve, picture = tmp_path / "curve.csv", tmp_path / "pad.svg"
+    found = answer(capsys, *PUNCH, "--rate", "10", "--compare", "--curve", curve, "--plot", picture)
+    assert found["method"] == "surrogate of punches" and found["inside"]
+    assert found["pull_off_stress"] == pytest.approx(0.9957, rel=5e-3)
+    simulated = found["simulation"]["pull_off_stress"]
+    assert found["difference"]["pull_off_stress"] == found["pull_off_stress"] / simulated - 1
+    assert set(found["interval_held"]) == {"pull_off_stress", "work_to_pull_off"}
+    rows = table(curve)
+    assert list(rows[0]) == ["depth", "stress", "ligament"] and rows[0]["ligament"] == "1.0"
+    # tension is positive, as `simulate --csv` has it
+    assert float(rows[-1]["stress"]) == pytest.approx(found["pull_off_stress"])
+    assert float(rows[0]["stress"]) < 0 and picture.exists()
+    pad = answer(capsys, PAD, "--curve", curve)
+    strength = vt.read_case(PAD).traction.strength
+    assert pad["pull_off_stress_Pa"] == pytest.approx(pad["pull_off_stress"] * strength)
+    assert list(table(curve)[0])[3:] == ["depth_m", "stress_Pa", "ligament_m"]
+    assert call(PAD) == 0
+    words = capsys.readouterr().out
+    assert "pull-off stress" in words and "depth at zero stress" in words
+
+
+def test_a_table_of_punches(tmp_path, capsys):
+    cases, answers = tmp_path / "cases.csv", tmp_path / "answers.csv"
+    cases.write_text(
+        "name,size,thickness,cohesion,modulus_ratio,preload_force,rate\n"
+        "a,64.85,3.24,0.05,0.1,1,10\n"
+        "b,64.85,3.24,0.05,0.1,1,1e9\n"
+        "c,64.85,thin,0.05,0.1,1,10\n"
+    )
+    found = answer(capsys, cases, "--csv", answers)
+    assert found["rows"] == 3 and found["methods"] == {"surrogate of punches": 1}
+    written = table(answers)
+    assert [row["inside"] for row in written] == ["true", "false", "false"]
+    low, value, high = (float(written[0][f"pull_off_stress{e}"]) for e in ("_low", "", "_high"))
+    assert low < value < high and written[1]["pull_off_stress"] == ""
+    assert "rate is 1e+09" in written[1]["why"] and "'thin', not a number" in written[2]["why"]

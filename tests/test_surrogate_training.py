@@ -8,11 +8,13 @@ import pytest
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack.result import trajectory  # noqa: E402
-from viscotack.surrogate import line, physics  # noqa: E402
+from viscotack.surrogate import line, physics, punch  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
+from viscotack.surrogate.training import punch as punches  # noqa: E402
 from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
+from viscotack.surrogate.training.punch import parts  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, told  # noqa: E402
 
@@ -206,3 +208,31 @@ def test_the_whole_training_runs_on_few_rows(tmp_path):
     assert store.facts(tmp_path / "surrogate.npz")["scores"]["bands kept apart"]
     again = make(tmp_path / "again", workers=1, quick=True)
     assert again == found
+
+
+def test_rows_that_measure_and_judge_punches_stay_what_they_were_in_a_longer_set():
+    few, many = parts(100), parts(5000)
+    for a, b in zip(few, many, strict=True):
+        assert np.array_equal(a, b[:100])
+    measuring, judging = many
+    assert not np.any(measuring & judging)
+    assert measuring.mean() == pytest.approx(0.1, abs=0.02)
+    assert judging.mean() == pytest.approx(0.1, abs=0.02)
+
+
+@pytest.mark.slow
+def test_the_training_of_punches_runs_on_few_rows(tmp_path, monkeypatch):
+    pytest.importorskip("jax", reason="networks are fitted with JAX")
+    whole = punches.read
+    monkeypatch.setattr(punches, "read", lambda name: whole(name).chosen(slice(None, None, 4)))
+    quick = Fit((8,), steps=60, scale=0.3)
+    for name in ("SLOW", "FAST", "STRESS", "WORK", "GIVE", "START"):
+        monkeypatch.setattr(punches, name, punches.Looks(quick, quick, 0.1))
+    monkeypatch.setattr(punches, "LINE", quick)
+    facts = punches.make(tmp_path, workers=2)
+    assert facts["rows"]["judging"] > 50
+    made, said = punch.load(tmp_path / "punch.npz")
+    assert said["scores"] == facts["scores"]
+    assert facts["scores"]["all"]["stress"]["median"] < 0.1
+    assert 0.7 < facts["scores"]["all"]["stress"]["cover"] <= 1.0
+    assert np.all(np.diff(made.trust.levels, axis=1) >= 0)

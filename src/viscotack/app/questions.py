@@ -204,6 +204,9 @@ PROFILE = Door(
     "power-law",
 )
 PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
+# Of either: what a sphere is asked, and what a punch alone.
+_OF_SPHERE = {question.name for question in SPHERE.questions}
+SPHERE_OR_PUNCH = (*SPHERE.questions, *(q for q in PUNCH.questions if q.name not in _OF_SPHERE))
 # Of a problem that a file states whole.
 OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
 

@@ -7,7 +7,21 @@ from typing import Any
 
 from viscotack.errors import InputError
 
-NAMES = ("thesis", "broad", "chosen", "steep", "fast", "fresh", "unseen", "hard", "solids", "punch")
+NAMES = (
+    "thesis",
+    "broad",
+    "chosen",
+    "steep",
+    "fast",
+    "fresh",
+    "unseen",
+    "hard",
+    "solids",
+    "punch",
+    "punch_limits",
+    "punch_starts",
+    "punch_faces",
+)
 _HERE = Path(__file__).parent
 # Written beside the data by whoever makes them; the format of `sha256sum`.
 _CHECKSUMS = _HERE / "SHA256SUMS"
@@ -58,7 +72,9 @@ def load(name: str) -> Any:
         spheres that no network learned from, evenly in that range, on its faces and in boxes;
         ``unseen``: others of these designs, on which nothing was measured. ``hard``: those of an
         adversary that looked for the furthest out of their intervals. ``solids``: spheres on as
-        many random linear solids. ``punch``: 2,000 flat punches on a layer.
+        many random linear solids. ``punch``: 2,000 flat punches on a layer. ``punch_limits``: such
+        punches on elastic layers, and retracted so fast that nothing relaxes. ``punch_starts``:
+        such punches from starts of any stress. ``punch_faces``: such at the ends of the range.
 
     Raises
     ------

@@ -49,6 +49,7 @@ _OF_SETS = {
     "unseen": _TO_JUDGE,
     "hard": _ONCE_MORE,
     "steep": _ONCE_MORE,
+    "punch_faces": _ONCE_MORE,
     # what is learned from it errs by more; rows state what they are uncertain by
     "solids": (1, Targets(force=4e-3, work=2e-2)),
 }
@@ -73,8 +74,7 @@ def make(
     Parameters
     ----------
     name : str
-        One of ``datasets.NAMES``.
-        Whose plan is run.
+        One of ``viscotack.datasets.NAMES``, whose plan is run.
     folder : path
         Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
     workers : int

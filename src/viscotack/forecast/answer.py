@@ -13,20 +13,20 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.materials.conversion import slowed
-from viscotack.problem import Groups, Problem, PunchGroups
+from viscotack.problem import Case, Groups, Problem, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
-from viscotack.result.trajectory import PRESSED
 from viscotack.theory import jkr
 from viscotack.traction import LennardJones
 from viscotack.traction.growing import check_of_gap_alone
 
 from .beyond import beyond
-from .prediction import MEASURED, Prediction
+from .prediction import MEASURED, Prediction, with_curve
+from .punches import by_learned_punch
 from .solids import LEARNED_SOLID, alike_words, like_of, unlike_words
 from .theory import by_crack, by_learned_theory, by_theory
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Curves, Intervals, Surrogate
+    from viscotack.surrogate.model import Surrogate
     from viscotack.surrogate.solids import Likeness, Solids
 
 Array = npt.NDArray[np.float64]
@@ -36,13 +36,16 @@ _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
 
 def predict(
-    problem: Problem | Groups, *, confidence: float = 0.9, shift_deviation: float = 0.0
+    problem: Case,
+    *,
+    confidence: float = 0.9,
+    shift_deviation: float = 0.0,
 ) -> Prediction:
     """Return the pull-off force, its work and its curve, without simulating.
 
     Parameters
     ----------
-    problem : Problem or Groups
+    problem : Problem, Groups or PunchGroups
         In SI or dimensionless.
     confidence : float
         Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for
@@ -79,7 +82,8 @@ def predict(
     the Lennard-Jones traction and a rigid machine. It has learned from
     :class:`viscotack.RetardationPowerLaw`; for any other linear solid that one answers which creeps
     like it around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals that
-    were measured on other solids.
+    were measured on other solids. Of a flat punch it knows the same test on a standard solid that
+    slides on its base (:mod:`viscotack.surrogate.punch`); no theory answers where that ends.
 
     Examples
     --------
@@ -96,15 +100,16 @@ def predict(
         return _uncertain(problem, confidence, shift_deviation)
     groups = _groups(problem)
     check_confidence(confidence)
+    if isinstance(groups, PunchGroups):
+        return by_learned_punch(problem, groups, confidence)
     if unlearned := _unlearned(groups):
         return by_crack(problem, unlearned)
-    assert isinstance(groups, Groups), "others were not learned"
     inputs = _inputs(groups, _learned(), problem)
     found = _by_learned(problem, groups, inputs, confidence)
     return found or by_theory(problem, groups, "; ".join(inputs.out), confidence)
 
 
-def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) -> Prediction:
+def learned_prediction(problem: Case, *, confidence: float = 0.9) -> Prediction:
     """Return what was learned, in some milliseconds whatever the problem.
 
     Parameters and returns are those of :func:`predict`, which asks the theories where this has no
@@ -130,9 +135,10 @@ def learned_prediction(problem: Problem | Groups, *, confidence: float = 0.9) ->
     """
     groups = _groups(problem)
     check_confidence(confidence)
+    if isinstance(groups, PunchGroups):
+        return by_learned_punch(problem, groups, confidence)
     if unlearned := _unlearned(groups):
         raise OutOfRange(unlearned)
-    assert isinstance(groups, Groups), "others were not learned"
     inputs = _inputs(groups, _learned(), problem)
     found = _by_learned(problem, groups, inputs, confidence)
     if found is None:
@@ -160,7 +166,7 @@ class _Inputs:
 
 
 def _by_learned(
-    problem: Problem | Groups, groups: Groups, inputs: _Inputs, confidence: float
+    problem: Case, groups: Groups, inputs: _Inputs, confidence: float
 ) -> Prediction | None:
     """Return what the surrogate says, or the learned theory of large Tabor numbers; else None."""
     learned, rows, out, like = _learned(), inputs.rows, inputs.out, inputs.like
@@ -200,29 +206,11 @@ def _by_learned(
         curve_band=None,
         problem=problem,
     )
-    return _with_curve(found, learned.curves(at, answers), held) if found.inside else found
-
-
-def _with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
-    """Return a prediction with its curve, the first of several, and how well it is known."""
-    depth = curves.depth[0]
-    found = replace(
-        found,
-        curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
-        curve_band=float(held.curve[0] * found.value),
-    )
-    if curves.force[0, 0] <= 0:
-        return found
-    least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
-    return replace(
-        found,
-        zero_force_depth=float(depth[PRESSED]),
-        zero_force_interval=(float(least), float(most)),
-    )
+    return with_curve(found, learned.curves(at, answers), held) if found.inside else found
 
 
 def _large(
-    problem: Problem | Groups, groups: Groups, rows: Array, out: str, confidence: float
+    problem: Case, groups: Groups, rows: Array, out: str, confidence: float
 ) -> Prediction | None:
     """Return the learned theory of large Tabor numbers, None where it was not learned."""
     from viscotack.surrogate import physics, short_range
@@ -254,7 +242,7 @@ def _short_range_depth(groups: Groups) -> float:
     return float(jkr.depth(radius, **unit)) * groups.tabor
 
 
-def _uncertain(problem: Problem | Groups, confidence: float, deviation: float) -> Prediction:
+def _uncertain(problem: Case, confidence: float, deviation: float) -> Prediction:
     """Return a prediction whose intervals hold the uncertainty of the material's times as well."""
     found = predict(problem, confidence=confidence)
     decades = NormalDist().inv_cdf((1 + confidence) / 2) * deviation
@@ -316,9 +304,7 @@ def check_confidence(confidence: float) -> None:
         )
 
 
-def _out_words(
-    name: str, value: float, limits: tuple[float, float], problem: Problem | Groups
-) -> str:
+def _out_words(name: str, value: float, limits: tuple[float, float], problem: Case) -> str:
     """Return that an input is out of the range of the surrogate, with its value and the range."""
     unit, si = _UNITS.get(name, ""), ""
     if unit and (scales := problem.scales()) is not None:
@@ -360,11 +346,10 @@ def _groups(problem: Any) -> Groups | PunchGroups:
     return groups
 
 
-def _unlearned(groups: Groups | PunchGroups) -> str:
+def _unlearned(groups: Groups) -> str:
     """Return in words why neither the surrogate nor the theories of a sphere know a test."""
-    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
-        shape = "punch" if isinstance(groups, PunchGroups) else groups.geometry.word
-        return f"what was learned is for spheres, got a {shape}"
+    if not isinstance(groups.geometry, Sphere):
+        return f"what was learned is for spheres, got a {groups.geometry.word}"
     found = ""
     if not isinstance(groups.start, Start):
         found = f"the test begins {groups.start!r}"
@@ -380,7 +365,7 @@ def _unlearned(groups: Groups | PunchGroups) -> str:
     )
 
 
-def _inputs(groups: Groups, learned: Surrogate, problem: Problem | Groups) -> _Inputs:
+def _inputs(groups: Groups, learned: Surrogate, problem: Case) -> _Inputs:
     """Return what the surrogate takes of a problem, and what of it is out of range."""
     material, mu = groups.material, groups.tabor
     if not isinstance(groups.traction, LennardJones):

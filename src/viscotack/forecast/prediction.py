@@ -6,22 +6,20 @@ Force positive in compression, depth positive into the solid; numbers are dimens
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from viscotack import __version__
-from viscotack.problem import Groups, Problem
-from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
+from viscotack.result.trajectory import PRESSED
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Curves
+    from viscotack.surrogate.model import Curves, Intervals
 
 MEASURED, NOT_MEASURED = "measured", "not measured"
-# An observable in the same unit as what is none.
-_MEASURED_LIKE = {"zero_force_depth": "pull_off_depth"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +29,14 @@ class Prediction:
     Attributes
     ----------
     value : float
-        Pull-off force [1.5 pi R dg0], positive.
+        Pull-off force [1.5 pi R dg0], positive; of a punch the pull-off stress [sigma0].
     interval : tuple of float
         Between which the simulated force lies with that confidence, same unit. Where a fitted
         theory answers and its band was not measured: between the slowest and the fastest pull-off
         of such a contact from any relaxed start.
     work_to_pull_off : float or None
-        [1.5 pi R dg0 h0]; None where a theory answers, which has none.
+        [1.5 pi R dg0 h0], of a punch that of unit area [dg0]; None where a theory answers, which
+        has none.
     work_interval : tuple of float, or None
         The same for the work.
     confidence : float or None
@@ -46,7 +45,8 @@ class Prediction:
     band : str
         "measured" where it was measured how many cases the intervals hold, else "not measured".
     method : str
-        "surrogate", "surrogate of solids", or the theory's name as in :class:`viscotack.Estimate`.
+        "surrogate", "surrogate of solids", "surrogate of punches", or the theory's name as in
+        :class:`viscotack.Estimate`.
     inside : bool
         Whether the problem lies in the range that the surrogate learned from.
     why : str
@@ -54,7 +54,9 @@ class Prediction:
         theory's interval was measured elsewhere.
     curve : Curves or None
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
-        retraction, shape (24,) each; the last point is the pull-off. None where a theory answers.
+        retraction, shape (24,) each; of a punch, as in a :class:`viscotack.Result`, mean stress
+        [sigma0], compression positive, and half length of the contact [a0]. The last point is the
+        pull-off. None where a theory answers.
     curve_band : float or None
         How far the force in tension is off at worst, at the same travel from zero force (or from a
         start in tension), with that confidence [1.5 pi R dg0]; None without a curve.
@@ -63,7 +65,7 @@ class Prediction:
         without a curve.
     zero_force_interval : tuple of float, or None
         Between which it lies with that confidence [h0].
-    problem : Problem or Groups
+    problem : Problem, Groups or PunchGroups
         What was asked.
     """
 
@@ -78,9 +80,27 @@ class Prediction:
     why: str
     curve: Curves | None
     curve_band: float | None
-    problem: Problem | Groups
+    problem: Case
     zero_force_depth: float | None = None
     zero_force_interval: tuple[float, float] | None = None
+
+
+def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
+    """Return a prediction with its curve, the first of several, and how well it is known."""
+    depth = curves.depth[0]
+    found = replace(
+        found,
+        curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
+        curve_band=float(held.curve[0] * found.value),
+    )
+    if curves.force[0, 0] <= 0:
+        return found
+    least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
+    return replace(
+        found,
+        zero_force_depth=float(depth[PRESSED]),
+        zero_force_interval=(float(least), float(most)),
+    )
 
 
 def prediction_summary(prediction: Prediction) -> dict[str, Any]:
@@ -91,30 +111,35 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     work to pull-off.
     """
     problem, curve = prediction.problem, prediction.curve
+    groups = problem.groups()
+    kind = groups.outputs
+    force, edge = kind.name_of("force"), kind.name_of("contact_radius")
+    pull_off, at_pull_off = f"pull_off_{force}", f"{edge}_at_pull_off"
+    ended = None if curve is None else curve.contact_radius[-1] * kind.series[edge].factor(groups)
     values: dict[str, Any] = {
-        "pull_off_force": prediction.value,
+        pull_off: prediction.value,
         "work_to_pull_off": prediction.work_to_pull_off,
         "pull_off_depth": None if curve is None else float(curve.depth[-1]),
-        "zero_force_depth": prediction.zero_force_depth,
-        "contact_radius_at_pull_off": None if curve is None else _known(curve.contact_radius[-1]),
+        f"zero_{force}_depth": prediction.zero_force_depth,
+        at_pull_off: None if ended is None else _known(ended),
     }
     intervals = {
-        "interval": (prediction.interval, "pull_off_force"),
+        "interval": (prediction.interval, pull_off),
         "work_interval": (prediction.work_interval, "work_to_pull_off"),
-        "zero_force_interval": (prediction.zero_force_interval, "pull_off_depth"),
+        f"zero_{force}_interval": (prediction.zero_force_interval, "pull_off_depth"),
     }
     answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
     answer = values | answer
     if (scales := problem.scales()) is not None:
         for name, value in values.items():
-            unit = REVOLUTION.observables[_MEASURED_LIKE.get(name, name)].unit
+            like = "pull_off_depth" if name == f"zero_{force}_depth" else name
+            unit = kind.observables[like].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if value is None else value * scale
         for name, (pair, of) in intervals.items():
-            unit = REVOLUTION.observables[of].unit
+            unit = kind.observables[of].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if pair is None else [x * scale for x in pair]
-    groups = problem.groups()
     return answer | {
         "method": prediction.method,
         "inside": prediction.inside,

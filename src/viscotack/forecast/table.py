@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
@@ -13,18 +13,47 @@ from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
 from .prediction import MEASURED
+from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
+    from viscotack.campaign.columns import Kind
     from viscotack.surrogate.model import Surrogate
 
 Array = npt.NDArray[np.float64]
 
-FORCE = ("pull_off_force", "pull_off_force_low", "pull_off_force_high")
-WORK = ("work_to_pull_off", "work_to_pull_off_low", "work_to_pull_off_high")
+
+def _with_interval(name: str) -> tuple[str, str, str]:
+    return name, f"{name}_low", f"{name}_high"
+
+
+# Columns of what is pulled, by kind of case, and of the work.
+FORCE = {
+    "sphere": _with_interval("pull_off_force"),
+    "punch": _with_interval("pull_off_stress"),
+}
+WORK = _with_interval("work_to_pull_off")
 # What a column tells of a start.
 _BY = {"preload_force": "force", "preload_radius": "contact_radius"}
-# Columns of an answer, in their order.
-ANSWERS = (*FORCE, *WORK, "method", "inside", "band", "why")
+# Rows that were learned, their answers and intervals, and the method.
+_Known = tuple[npt.NDArray[np.intp], Any, Any, str]
+
+
+def kind_of(names: Collection[str]) -> Kind:
+    """Return the kind of the cases of a table with these columns: spheres have a Tabor number.
+
+    Examples
+    --------
+    >>> kind_of(("size", "thickness", "cohesion", "modulus_ratio", "rate", "preload")).name
+    'punch'
+    """
+    from viscotack.campaign.columns import KINDS
+
+    return KINDS["punch" if "tabor" not in names and "size" in names else "sphere"]
+
+
+def answers_of(kind: Kind) -> tuple[str, ...]:
+    """Return the columns of the answers to cases of a kind, in their order."""
+    return *FORCE[kind.name], *WORK, "method", "inside", "band", "why"
 
 
 def predict_table(
@@ -33,13 +62,16 @@ def predict_table(
     confidence: float = 0.9,
     report: Callable[[int, int], None] | None = None,
 ) -> dict[str, npt.NDArray[Any]]:
-    """Return the pull-off force and the work to pull-off of many spheres on power-law solids.
+    """Return the pull-off force and the work to pull-off of many spheres, or of many punches.
 
     Parameters
     ----------
     columns : mapping of str to array_like, shape (n,)
-        The inputs of a campaign of spheres: tabor, modulus_ratio, exponent, rate [h0/tau0], and one
-        of preload [h0], preload_force [1.5 pi R dg0] and preload_radius [(pi R^2 dg0/E0*)^(1/3)].
+        The inputs of a campaign of spheres on power-law solids: tabor, modulus_ratio, exponent,
+        rate [h0/tau0], and one of preload [h0], preload_force [1.5 pi R dg0] and preload_radius
+        [(pi R^2 dg0/E0*)^(1/3)]. Or of flat punches on layers of a standard solid: size and
+        thickness [a0], cohesion, modulus_ratio, rate [h0/tau0], and preload [h0] or preload_force
+        [sigma0].
     confidence : float
         Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.
     report : callable, optional
@@ -50,10 +82,10 @@ def predict_table(
     -------
     dict of str to ndarray, shape (n,)
         A row for each row, in its order: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
-        [1.5 pi R dg0 h0], their intervals `..._low` and `..._high`, `method`, `inside`, whether
-        the `band` was measured, and `why` it is not inside. A row outside has the answer of a
-        theory, without work; where none applies, or the case is impossible, numbers are nan,
-        `method` is "" and `why` says it.
+        [1.5 pi R dg0 h0], of punches `pull_off_stress` [sigma0] and the work [dg0], their intervals
+        `..._low` and `..._high`, `method`, `inside`, whether the `band` was measured, and `why` it
+        is not inside. A sphere outside has the answer of a theory, without work; where none
+        applies, or the case is impossible, numbers are nan, `method` is "" and `why` says it.
 
     Raises
     ------
@@ -76,24 +108,19 @@ def predict_table(
     >>> str(found["why"][2])
     'rate must be positive, got -1.0 h0 per time unit'
     """
-    from viscotack.campaign.columns import KINDS
-    from viscotack.surrogate import store
-    from viscotack.surrogate.physics import INPUTS, PRELOAD, TABOR
-
     check_confidence(confidence)
-    kind, given = KINDS["sphere"], _arrays(columns)
+    kind, given = kind_of(columns), _arrays(columns)
     kind.check(set(given))
-    learned, count = store.shipped(), len(next(iter(given.values())))
-    (start,) = set(given) & set(kind.choices)
-    unknown = np.full(count, np.nan)
-    rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
-    if start != "preload":
-        known = learned.inside(rows)[:, TABOR]
-        rows[known, PRELOAD] = _depths(learned, given["tabor"][known], given[start][known], start)
-    table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in FORCE + WORK}
+    count, force = len(next(iter(given.values()))), FORCE[kind.name]
+    table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    _fill(table, rows, learned, confidence, _BY.get(start))
+    learned = _punches if kind.name == "punch" else _spheres
+    at, answers, held, method = learned(given, count, confidence)
+    if at.size:
+        _put(table, force, at, answers.pull_off_force, held.pull_off_force.T)
+        _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
+        table["method"][at], table["inside"][at], table["band"][at] = method, True, MEASURED
     done = int(table["inside"].sum())
     for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
         try:
@@ -103,7 +130,7 @@ def predict_table(
         except (ValueError, OverflowError) as error:
             table["why"][at] = str(error)
         else:
-            _put(table, FORCE, at, found.value, found.interval)
+            _put(table, force, at, found.value, found.interval)
             _put(table, WORK, at, found.work_to_pull_off, found.work_interval)
             table["method"][at], table["inside"][at] = found.method, found.inside
             table["band"][at] = found.band
@@ -148,26 +175,50 @@ def _depths(learned: Surrogate, tabor: Array, start: Array, name: str) -> Array:
     return found[where.ravel()]
 
 
-def _fill(
-    table: dict[str, Any], rows: Array, learned: Surrogate, confidence: float, by: str | None
-) -> None:
-    """Put the answers of the surrogate in the table, where it knows them.
+def _spheres(given: dict[str, Array], count: int, confidence: float) -> _Known:
+    """Return the answers of the surrogate to spheres, where it knows them."""
+    from viscotack.surrogate import store
+    from viscotack.surrogate.physics import INPUTS, PRELOAD, TABOR
 
-    `by` is what was told of the starts, None for their depths.
-    """
+    learned, unknown = store.shipped(), np.full(count, np.nan)
+    rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
+    start = next((name for name in _BY if name in given), None)
+    if start is not None:
+        known = learned.inside(rows)[:, TABOR]
+        rows[known, PRELOAD] = _depths(learned, given["tabor"][known], given[start][known], start)
     at = np.flatnonzero(learned.inside(rows).all(axis=1))
-    if not at.size:
-        return
     inside = rows[at]
     answers = learned.evaluate(inside)
     held = learned.intervals(inside, answers, confidence=confidence)
-    if by is not None:
+    if start is not None and at.size:
         half = NormalDist().inv_cdf((1 + confidence) / 2)
-        held = learned.with_start_doubt(inside, answers, held, by=by, quantile=half)
-    _put(table, FORCE, at, answers.pull_off_force, held.pull_off_force.T)
-    _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
-    table["method"][at], table["inside"][at] = "surrogate", True
-    table["band"][at] = MEASURED
+        held = learned.with_start_doubt(inside, answers, held, by=_BY[start], quantile=half)
+    return at, answers, held, "surrogate"
+
+
+def _punches(given: dict[str, Array], count: int, confidence: float) -> _Known:
+    """Return the answers of the surrogate to punches, where it knows them."""
+    from viscotack.surrogate import punch
+    from viscotack.surrogate.punch_physics import INPUTS, PRELOAD, SIZE, THICKNESS
+
+    learned, unknown = punch.shipped(), np.full(count, np.nan)
+    rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
+    # it changes crack speeds and no stress, but a case needs one
+    possible = given["cohesion"] > 0
+    if "preload_force" in given:
+        sized = learned.inside(rows)[:, [SIZE, THICKNESS]].all(axis=1)
+        for i in np.flatnonzero(sized & np.isfinite(given["preload_force"])).tolist():
+            try:
+                rows[i, PRELOAD] = learned.start_depth(
+                    rows[i, SIZE], rows[i, THICKNESS], given["preload_force"][i]
+                )
+            except ValueError:
+                continue  # said row by row, by `predict`
+    at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible & (rows > 0).all(axis=1))
+    inside = rows[at]
+    answers = learned.evaluate(inside)
+    held = learned.intervals(inside, answers, confidence=confidence)
+    return at, answers, held, LEARNED_PUNCH
 
 
 def _put(

@@ -10,7 +10,7 @@ from viscotack.bem.by_crack import METHOD, crack_contact
 from viscotack.bem.crack_band import ELSEWHERE, band_parts, not_measured, outside
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import RetardationPowerLaw, StandardSolid
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import hertz, lennard_jones
 from viscotack.traction import LennardJones, effective_range, softening
@@ -45,7 +45,7 @@ _BOUND_ERROR, _OTHER_BOUND_ERROR = 0.005, 0.05
 _MEASURED_LAWS = {"effective range": (0.69, 8.4), "steepest fall": (0.76, 6.7)}
 
 
-def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: float) -> Prediction:
+def by_theory(problem: Case, groups: Groups, out: str, confidence: float) -> Prediction:
     """Return what the best of the theories says of a problem that was not learned.
 
     Parameters
@@ -99,7 +99,7 @@ def by_theory(problem: Problem | Groups, groups: Groups, out: str, confidence: f
 
 
 def by_learned_theory(
-    problem: Problem | Groups, groups: Groups, said: Said, error: float, out: str, confidence: float
+    problem: Case, groups: Groups, said: Said, error: float, out: str, confidence: float
 ) -> Prediction:
     """Return what the learned theory of a crack at the edge says of a case in its range.
 
@@ -134,7 +134,7 @@ def by_learned_theory(
 
 
 def _without_curve(
-    problem: Problem | Groups,
+    problem: Case,
     force: float,
     interval: tuple[float, float],
     method: str,
@@ -176,7 +176,7 @@ def _bounds(groups: Groups, force: float) -> tuple[float, float]:
     return min(low * (1 - wider), force), max(high * (1 + wider), force)
 
 
-def by_crack(problem: Problem | Groups, out: str) -> Prediction:
+def by_crack(problem: Case, out: str) -> Prediction:
     """Return what a contact says whose edge is a steady crack, for other tests and shapes.
 
     Raises
@@ -184,6 +184,7 @@ def by_crack(problem: Problem | Groups, out: str) -> Prediction:
     OutOfRange
         If the theory does not hold there.
     """
+    assert not isinstance(problem, PunchGroups), "punches are answered elsewhere"
     try:
         found = crack_contact(problem)
     except InputError as error:

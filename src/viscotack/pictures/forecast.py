@@ -33,7 +33,8 @@ _BETWEEN = 8
 def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
     """Return the predicted force against the depth, its band, the pull-off's interval at its end.
 
-    In um and mN for a problem in SI, else in h0 and 1.5 pi R dg0.
+    In um and mN for a problem in SI, else in h0 and 1.5 pi R dg0; of a punch the mean stress, in
+    kPa or in sigma0.
 
     Parameters
     ----------
@@ -53,12 +54,16 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
     curve = prediction.curve
     if curve is None:
         raise InputError(f"the theory {prediction.method!r} gives a force and no curve to draw")
-    scales = prediction.problem.scales()
+    scales, kind = prediction.problem.scales(), prediction.problem.groups().outputs
+    drawn = [kind.of(name).unit for name in ("depth", "force")]
+    what = "force" if kind is REVOLUTION else "mean stress"
     if scales is None:
         length, load = 1.0, 1.0
-        units = [f"/ {REVOLUTION.series[name].unit.drawn}" for name in ("depth", "force")]
+        units = [f"/ {unit.drawn}" for unit in drawn]
     else:
-        length, load, units = scales.length * 1e6, scales.force * 1e3, ["[µm]", "[mN]"]
+        larger, small = {"N": (1e3, "mN"), "Pa": (1e-3, "kPa")}[drawn[1].si]
+        length, load = scales.length * 1e6, getattr(scales, drawn[1].scale) * larger
+        units = ["[µm]", f"[{small}]"]
     with matplotlib.style.context(_STYLE):
         figure = Figure()
         axes = figure.subplots()
@@ -83,7 +88,7 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
             depth, force = simulated.depth * length, simulated.force * load
             axes.plot(depth, force, "o", label="simulation", **place)
         axes.set_xlabel(f"depth {units[0]}")
-        axes.set_ylabel(f"force {units[1]}")
+        axes.set_ylabel(f"{what} {units[1]}")
         axes.legend()
     return figure
 

@@ -50,16 +50,20 @@ def told(groups: Array, answers: Answers) -> Array:
     answers : Answers
         What is said of them.
     """
-    spreads = answers.force_spread, answers.work_spread
-    apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
     share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
     climb = np.log10(np.maximum(share * (1 - share) * answers.way, _LEAST_SHARE)) / 3 + 1
     place = np.log(share / (1 - share)) / 5
-    scaled = physics.scaled(groups)
+    spreads = answers.force_spread, answers.work_spread
+    return np.column_stack([told_of(physics.scaled(groups), spreads), climb, place])
+
+
+def told_of(scaled: Array, spreads: tuple[Array, Array]) -> Array:
+    """Return what it is told of five inputs that are scaled, from -1 to 1, and of two spreads."""
+    apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
     # beyond a face there is no row, and networks know less of what is there
     near = np.exp((np.abs(scaled) - 1) / _NEAR)
     faces = sum(near[:, i] for i in range(1, len(physics.INPUTS))) + near[:, 0]
-    return np.column_stack([scaled, faces - 1, *apart, climb, place])
+    return np.column_stack([scaled, faces - 1, *apart])
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,12 +8,12 @@ import numpy as np
 import typer
 from typer import Argument, Option
 
-from viscotack.app.questions import SPHERE, given_of
+from viscotack.app.questions import PUNCH, SPHERE, SPHERE_OR_PUNCH, given_of
 from viscotack.errors import InputError
 from viscotack.forecast import predict
 from viscotack.forecast.prediction import Prediction, prediction_summary
-from viscotack.problem import Groups, Problem
-from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem import Case
+from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import summary
 
@@ -29,22 +29,33 @@ from .commands import (
 )
 from .writing import Writing, check_files
 
+# What is predicted of numbers alone.
+_DOORS = {door.word: door for door in (SPHERE, PUNCH)}
 # What a simulation would only repeat.
-_SAID_ONCE = ("problem", "run_id", "tabor", "modulus_ratio", "rate")
-# Of both answers, what is compared.
-_COMPARED = {"pull_off_force": "interval", "work_to_pull_off": "work_interval"}
+_SAID_ONCE = (
+    "problem",
+    "run_id",
+    "tabor",
+    "size",
+    "thickness",
+    "cohesion",
+    "modulus_ratio",
+    "rate",
+)
 
 
-@application.command("predict", cls=asking(SPHERE.questions))
+@application.command("predict", cls=asking(SPHERE_OR_PUNCH))
 def _predict(
     context: typer.Context,
     what: Annotated[
         str,
         Argument(
-            metavar="sphere|CASE.toml|CASES.csv",
-            help="The word sphere, and flags as for simulate sphere; or a problem in SI; or a "
+            metavar="sphere|punch|CASE.toml|CASES.csv",
+            help="The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
+            "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
             "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
-            "preload, preload_force, preload_radius, in the units of the flags.",
+            "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
+            "rate and preload or preload_force.",
             show_default=False,
         ),
     ],
@@ -87,11 +98,14 @@ def _predict(
     """Say at once how hard one must pull, and how sure that is.
 
     It has learned from simulations. In their range the answer takes a millisecond, and has force,
-    work and curve. Outside a theory gives the force, with its own band, or the command says which
-    input is out and that simulating answers it.
+    work and curve. Outside a theory gives the force of a sphere, with its own band, or the command
+    says which input is out and that simulating answers it.
 
     One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
     --preload 73 --rate 316.23
+
+    A flat punch on a layer: viscotack predict punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
 
     In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
 
@@ -118,7 +132,7 @@ def _predict(
         else:
             _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
             problem = _problem(what, case, context, own)
-            case = Path(what) if what != "sphere" else case
+            case = case if what in _DOORS else Path(what)
             deviation = deviation_of_shift(case, context)
             found = _predicted(problem, confidence, deviation, curve_file or plot_file)
             result = _simulated(problem) if compare else None
@@ -139,24 +153,27 @@ def _refuse(others: dict[str, Any], why: str) -> None:
         raise InputError(f"{why}; leave out {', '.join(given)}")
 
 
-def _problem(
-    what: str, case: Path | None, context: typer.Context, own: list[Path] | None
-) -> Problem | Groups:
-    if what != "sphere":
+def _problem(what: str, case: Path | None, context: typer.Context, own: list[Path] | None) -> Case:
+    door = _DOORS.get(what)
+    if door is None:
         if case is not None:
             raise InputError(f"give one file, got {what} and {case}")
         if not Path(what).suffix:
             raise InputError(
-                f"predictions are for 'sphere', a file CASE.toml or a table CASES.csv, got {what!r}"
+                "predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv, got "
+                f"{what!r}"
             )
         case = Path(what)
-    problem = stated_problem(case, context, SPHERE if case is None else None, own)
-    assert isinstance(problem, Problem | Groups)
-    return problem
+    elif case is None:
+        asked = {question.name for question in door.questions}
+        others = [f"--{name}" for name in given_of(answers(context)) if name not in asked]
+        if others:
+            raise InputError(f"a {what} is not asked {', '.join(others)}; leave it out")
+    return stated_problem(case, context, door if case is None else None, own)
 
 
 def _predicted(
-    problem: Problem | Groups, confidence: float, deviation: float, curve_wanted: Path | None
+    problem: Case, confidence: float, deviation: float, curve_wanted: Path | None
 ) -> Prediction:
     found = predict(problem, confidence=confidence, shift_deviation=deviation)
     if found.curve is None and curve_wanted:
@@ -166,10 +183,15 @@ def _predicted(
     return found
 
 
-def _simulated(problem: Problem | Groups) -> Result:
+def _simulated(problem: Case) -> Result:
     from viscotack.bem import solve
 
     return solve(problem, until="pull-off", throw=False)
+
+
+def _compared(kind: Kind) -> dict[str, str]:
+    """Return what of both answers is compared, with the name of its interval."""
+    return {f"pull_off_{kind.name_of('force')}": "interval", "work_to_pull_off": "work_interval"}
 
 
 def _comparison(found: Prediction, result: Result) -> dict[str, Any]:
@@ -182,9 +204,10 @@ def _comparison(found: Prediction, result: Result) -> dict[str, Any]:
         "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
     }
     predicted = prediction_summary(found)
-    difference: dict[str, float | None] = dict.fromkeys(_COMPARED)
-    held: dict[str, bool | None] = dict.fromkeys(_COMPARED)
-    for name, interval in _COMPARED.items():
+    compared = _compared(found.problem.groups().outputs)
+    difference: dict[str, float | None] = dict.fromkeys(compared)
+    held: dict[str, bool | None] = dict.fromkeys(compared)
+    for name, interval in compared.items():
         true = simulated[name]
         if predicted[name] is not None and true is not None:
             difference[name] = predicted[name] / true - 1
@@ -215,10 +238,15 @@ def _write(
 def _curve(found: Prediction) -> dict[str, Any]:
     """Return the columns of the curve, as `simulate --csv` names them."""
     assert found.curve is not None, "checked before anything is written"
-    names = ("depth", "force", "contact_radius")
-    table = {name: np.asarray(getattr(found.curve, name)) for name in names}
+    groups = found.problem.groups()
+    kind = groups.outputs
+    names = {kind.name_of(name): name for name in ("depth", "force", "contact_radius")}
+    table = {
+        name: np.asarray(getattr(found.curve, of)) * kind.series[name].factor(groups)
+        for name, of in names.items()
+    }
     if (scales := found.problem.scales()) is not None:
-        units = {name: REVOLUTION.series[name].unit for name in names}
+        units = {name: kind.series[name].unit for name in names}
         table |= {f"{n}_{u.tail}": table[n] * getattr(scales, u.scale) for n, u in units.items()}
     return table
 
@@ -229,14 +257,15 @@ def _words(found: Prediction, answer: dict[str, Any]) -> str:
     held = (
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
-    for name, observable in REVOLUTION.observables.items():
-        told = observable.words, observable.unit, _COMPARED.get(name)
+    kind = found.problem.groups().outputs
+    for name, observable in kind.observables.items():
+        told = observable.words, observable.unit, _compared(kind).get(name)
         lines += _number_words(name, *told, answer, held)
-    depth = REVOLUTION.observables["pull_off_depth"].unit
-    interval = "zero_force_interval"
-    lines += _number_words("zero_force_depth", "depth at zero force", depth, interval, answer, held)
+    force, depth = kind.name_of("force"), kind.observables["pull_off_depth"].unit
+    told = f"depth at zero {force}", depth, f"zero_{force}_interval"
+    lines += _number_words(f"zero_{force}_depth", *told, answer, held)
     if "simulation" in answer:
-        lines += _comparison_words(answer)
+        lines += _comparison_words(answer, kind)
     return "\n".join(lines)
 
 
@@ -259,12 +288,12 @@ def _number_words(
     return [line.rstrip(), between.rstrip()]
 
 
-def _comparison_words(answer: dict[str, Any]) -> list[str]:
+def _comparison_words(answer: dict[str, Any], kind: Kind) -> list[str]:
     simulated = answer["simulation"]
     took = simulated["wall_time_s"]
     lines = ["simulated" + ("" if took is None else f" in {took:.2g} s")]
-    for name in _COMPARED:
-        words, true = REVOLUTION.observables[name].words, simulated[name]
+    for name in _compared(kind):
+        words, true = kind.observables[name].words, simulated[name]
         if true is None:
             why = simulated.get(f"{name}_note") or simulated["status"]
             lines.append(f"  {words:<21}{'none':>12}  {why}")

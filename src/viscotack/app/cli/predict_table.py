@@ -14,12 +14,11 @@ import numpy as np
 import numpy.typing as npt
 import typer
 
-from viscotack.campaign.columns import KINDS
 from viscotack.campaign.listed import read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, is_standard_output, write_whole, writing_whole
-from viscotack.forecast.table import ANSWERS, predict_table
+from viscotack.forecast.table import answers_of, kind_of, predict_table
 
 from .writing import Writing
 
@@ -38,24 +37,24 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
         If there is no such file.
     ValueError
         If nobody says where to write, or it is the file itself, or columns or rows are not those of
-        a table of spheres.
+        a table of spheres or punches.
     """
     if out is None:
         raise InputError(f"say where the answers to {path} are to go: --csv answers.csv")
     header, rows = read_words(path)
     if not is_standard_output(out) and out.exists() and out.samefile(path):
         raise InputError(f"--csv {out} is the table of cases itself; give it another name")
-    if there := [name for name in ANSWERS if name in header]:
-        raise InputError(
-            f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
-            "rename or leave them out"
-        )
-    kind = KINDS["sphere"]
+    kind = kind_of(header)
     names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
         kind.check(set(names))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+    if there := [name for name in answers_of(kind) if name in header]:
+        raise InputError(
+            f"{path} has the columns {', '.join(there)} already, which the answers are to have; "
+            "rename or leave them out"
+        )
     counts: Counter[str] = Counter()
 
     def answered(file: Target) -> None:

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast.advice import edge_curve
 from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.punches import inputs_of
 from viscotack.forecast.table import predict_table
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.problem import Groups, Problem
@@ -20,6 +21,7 @@ from viscotack.problem.outputs import PLANE, REVOLUTION
 from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.surrogate import store
+from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.theory.elastic import indenter
 from viscotack.theory.punch import Pad, unloading
 
@@ -74,7 +76,7 @@ def quick(state: State, *, confidence: float = 0.9) -> dict[str, Any]:
     else:
         _elastic(problem, found)
         _edge(problem, found)
-        _learned(problem, found, confidence)
+    _learned(problem, found, confidence)
     return found
 
 
@@ -203,20 +205,19 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
     except OutOfRange as error:
         found["notes"].append(f"surrogate: {error}")
         return
-    scales, curve = problem.scales(), answer.curve
-    low, high = (x * scales.force for x in answer.interval)
+    scales, curve, punch = problem.scales(), answer.curve, isinstance(problem.geometry, FlatPunch)
+    load, edge = (scales.stress, scales.width) if punch else (scales.force, scales.radius)
+    low, high = (x * load for x in answer.interval)
     if curve is not None:
         found["curves"]["surrogate"] = _curve(
-            "learned from 30,000 simulations",
+            f"learned from {'6,000' if punch else '30,000'} simulations",
             curve.depth * scales.length,
-            curve.force * scales.force,
-            radius=drawn(curve.contact_radius * scales.radius),
+            curve.force * load,
+            radius=drawn(curve.contact_radius * edge),
             interval=[low, high],
             confidence=confidence,
         )
-    told = [
-        _number("pull_off", answer.value * scales.force, (low, high), answer.method, confidence)
-    ]
+    told = [_number("pull_off", answer.value * load, (low, high), answer.method, confidence)]
     if answer.work_to_pull_off is not None and answer.work_interval is not None:
         work = [x * scales.work for x in answer.work_interval]
         value = answer.work_to_pull_off * scales.work
@@ -225,7 +226,7 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
     if curve is None:
         found["notes"].append(f"surrogate: {answer.why}")
         return
-    found["speeds"] = _speeds(problem, confidence)
+    found["speeds"] = (_punch_speeds if punch else _speeds)(problem, confidence)
 
 
 def _number(name: str, value: float, pair: Any, method: str, confidence: float) -> dict[str, Any]:
@@ -264,6 +265,28 @@ def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
         "low": below,
         "high": above,
         "here": problem.protocol.speed,
+        "words": "surrogate",
+    }
+
+
+def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
+    """Return the pull-off stress at other speeds, all at once, as far as it was learned."""
+    groups, speed = problem.groups(), problem.protocol.speed
+    assert isinstance(groups, PunchGroups) and speed is not None
+    here = inputs_of(groups)
+    low, high = LOW[RATE] * 1.0001, HIGH[RATE] / 1.0001
+    least, most = here["rate"] * 10**-_DECADES, here["rate"] * 10**_DECADES
+    rates = np.geomspace(max(low, least), min(high, most), _SPEEDS)
+    columns = {name: np.full(_SPEEDS, value) for name, value in here.items()} | {"rate": rates}
+    answers = predict_table(columns, confidence=confidence)
+    names = ("pull_off_stress", "pull_off_stress_low", "pull_off_stress_high")
+    value, below, above = (drawn(answers[name] * problem.scales().stress) for name in names)
+    return {
+        "speed": drawn(rates * speed / here["rate"]),
+        "force": value,
+        "low": below,
+        "high": above,
+        "here": speed,
         "words": "surrogate",
     }
 

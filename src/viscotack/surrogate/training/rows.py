@@ -1,5 +1,6 @@
 """Rows to learn from: what the datasets say, as inputs and targets of the networks."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.problem.outputs import REVOLUTION, Kind
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
 
 from ... import datasets
@@ -101,16 +103,27 @@ def _of_set(name: str, number: int) -> Rows:
     return of_table(datasets.load(name), number)
 
 
-def of_table(table: Any, number: int = 0) -> Rows:
-    """Return the rows of a table with the columns of a dataset, as those of one set."""
+def of_table(
+    table: Any,
+    number: int = 0,
+    *,
+    inputs: Sequence[str] = physics.INPUTS,
+    kind: Kind = REVOLUTION,
+) -> Rows:
+    """Return the rows of a table with the columns of a dataset, as those of one set.
+
+    Of a punch forces are mean stresses, compression positive, and radii ligaments.
+    """
+    what, edge = kind.name_of("force"), kind.name_of("contact_radius")
+    sense = kind.of("force").factor(None)
 
     def column(key: str) -> Array:
         return np.array(table.column(key).to_pylist(), dtype=float)
 
-    groups = np.column_stack([column(key) for key in physics.INPUTS])
-    force, left = column("trajectory_force"), column("trajectory_travel_left")
-    radius = column("trajectory_contact_radius")
-    peak = column("pull_off_force")
+    groups = np.column_stack([column(key) for key in inputs])
+    force, left = sense * column(f"trajectory_{what}"), column("trajectory_travel_left")
+    radius = column(f"trajectory_{edge}")
+    peak = column(f"pull_off_{what}")
     said, known = _curves(force, radius)
     travel = left[:, 0] - left[:, PRESSED]
     return Rows(
