@@ -7,7 +7,7 @@ from typing import Any
 
 from viscotack.errors import InputError
 
-NAMES = ("thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "punch")
+NAMES = ("thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "rough", "punch")
 _HERE = Path(__file__).parent
 # Written beside the data by whoever makes them; the format of `sha256sum`.
 _CHECKSUMS = _HERE / "SHA256SUMS"
@@ -49,15 +49,15 @@ def load(name: str) -> Any:
 
     Parameters
     ----------
-    name : {"thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "punch"}
+    name : {"thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "rough", "punch"}
         ``thesis``: 8,505 spheres distributed as in Table A.1 of Maghami, PhD thesis (2025).
         ``broad``: 20,000 spheres that fill a far wider range evenly. ``chosen``: 2,000 spheres of
         that range where models trained on these two agreed least. ``fast``: 4,096 spheres
         retracted so fast that nothing relaxes, over the same Tabor numbers, modulus ratios and
         depths. ``fresh``: 1,119 spheres that no network learned from, evenly in that range, on its
         faces and in boxes. ``hard``: those of an adversary that looked for the furthest out of
-        their intervals. ``solids``: spheres on as many random linear solids. ``punch``: 2,000 flat
-        punches on a layer.
+        their intervals. ``solids``: spheres on as many random linear solids. ``rough``: others,
+        simulated less finely, to learn from. ``punch``: 2,000 flat punches on a layer.
 
     Raises
     ------

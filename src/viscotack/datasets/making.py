@@ -47,6 +47,7 @@ _OF_SETS = {
     "hard": _ONCE_MORE,
     # what is learned from it errs by more; rows state what they are uncertain by
     "solids": (1, Targets(force=4e-3, work=2e-2)),
+    "rough": (1, Targets(force=2e-2, work=1e-1)),
 }
 
 
@@ -68,7 +69,7 @@ def make(
 
     Parameters
     ----------
-    name : {"thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "punch"}
+    name : {"thesis", "broad", "chosen", "fast", "fresh", "hard", "solids", "rough", "punch"}
         Whose plan is run.
     folder : path
         Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
@@ -76,7 +77,7 @@ def make(
         Processes.
     targets : Targets, optional
         Which errors make a case run again; leave it out for 0.2 % and 0.5 %, and for `fresh` and
-        `hard` 0.4 % and 2 %, which have one finer pass, and `solids`, which has none.
+        `hard` 0.4 % and 2 %, which have one finer pass; `solids` and `rough` have none.
     cases : int, optional
         Only so many cases from the beginning of the plan, which for a Sobol fill are spread over
         the whole range.
