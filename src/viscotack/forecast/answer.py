@@ -56,8 +56,9 @@ def predict(
     Returns
     -------
     Prediction
-        By the surrogate, in less than a millisecond, where the problem lies in the range that it
-        learned from. Else by the theory with the smallest error of those that apply, in about 0.01
+        By the surrogate, in less than a millisecond (of solids that are no power laws in some),
+        where the problem lies in the range that it learned from. Else by the theory with the
+        smallest error of those that apply, in about 0.01
         s and with its own band, whatever the confidence asked for. The band held nine of ten cases
         where it was measured: power laws and standard solids, Tabor numbers 0.3 to 8, modulus
         ratios 1e-3 to 0.3, exponents 0.3 to 1.6, rates 0.1 to 1e8 h0/tau0. Elsewhere it is not
