@@ -53,13 +53,14 @@ def named(request):
 
 
 def kind_of(name):
-    return "punch" if name.startswith("punch") else {"solids": "solid"}.get(name, "sphere")
+    solids = dict.fromkeys(("solids", "rough"), "solid")
+    return "punch" if name.startswith("punch") else solids.get(name, "sphere")
 
 
 def planned(name):
     """Return the inputs of the cases of a plan, in their order."""
     inputs = INPUTS[kind_of(name)]
-    if name != "solids":
+    if kind_of(name) != "solid":
         return [tuple(case.inputs[i] for i in inputs) for case in read_plan(plan(name)).cases]
     # names by content would be asked of some thousand solids
     found = []
@@ -166,8 +167,8 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     assert np.all(work >= least_work)
     _, targets = how(name)
     assert np.mean(force > targets.force) < 0.01
-    # those that measure and judge are run once more only, and `solids` not at all
-    few = dict.fromkeys(("fresh", "unseen", "hard", "steep", "punch_faces"), 0.03)
+    # those that measure and judge are run once more only, `solids` and `rough` not at all
+    few = dict.fromkeys(("fresh", "unseen", "hard", "steep", "punch_faces", "rough"), 0.03)
     most = (few | {"solids": 0.08}).get(name, 0.01)
     assert np.mean(work > np.maximum(targets.work, least_work)) < most
 

@@ -16,6 +16,7 @@ from viscotack.surrogate.model import Scaled
 from viscotack.surrogate.network import Networks, single
 from viscotack.surrogate.punch import PunchSurrogate, shipped
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
+from viscotack.surrogate.trust import INPUTS as TOLD
 
 SOLID = {"rubbery_modulus": 1.5e6, "glassy_modulus": 15e6, "poisson_ratio": 0.5}
 # A pad of SI units, in the middle of the range.
@@ -60,7 +61,7 @@ def random_surrogate(seed=0):
         give=scaled(7, 1),
         # shapes that rise, and waver
         line=Scaled(networks(8, OUTPUTS, 1), _rising(), np.full(OUTPUTS, 0.02)),
-        trust=Trust(networks(8, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
+        trust=Trust(networks(TOLD, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
     )
 
 

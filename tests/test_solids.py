@@ -36,7 +36,7 @@ def sphere(material, tabor=1.0, preload=10.0, rate=3.0):
 
 
 def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
-    off = []
+    off, errors = [], []
     for name, values in SIMULATED.items():
         for test, (force, work) in zip(TESTS, values, strict=True):
             said = vt.predict(sphere(SOLIDS[name], *test))
@@ -45,16 +45,17 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
                 "measured",
                 True,
             )
-            off.append(
-                [
-                    abs(np.log(force / said.value)) / np.log(said.interval[1] / said.value),
-                    abs(np.log(work / said.work_to_pull_off))
-                    / np.log(said.work_interval[1] / said.work_to_pull_off),
-                ]
+            assert said.work_interval is not None and said.work_to_pull_off is not None
+            pairs = (
+                (force, said.value, said.interval),
+                (work, said.work_to_pull_off, said.work_interval),
             )
+            errors.append([abs(np.log10(true / value)) for true, value, _ in pairs])
+            off.append([abs(np.log(true / v)) / np.log(ends[1] / v) for true, v, ends in pairs])
     # twelve cases are no measure of a share of nine in ten: docs/surrogate.md has one
     assert np.all(np.mean(np.array(off) <= 1, axis=0) >= 0.75)
-    assert np.max(off) < 2.5
+    assert np.max(off) < 3.5
+    assert np.all(np.max(errors, axis=0) < [0.01, 0.07])
 
 
 def test_a_power_law_has_the_same_answer_through_either_door():
@@ -75,6 +76,39 @@ def test_a_power_law_has_the_same_answer_through_either_door():
     assert np.mean(off < np.log10(half)) > 0.98 and np.median(off) < 1e-5
     assert np.sqrt(np.mean(off**2)) < 3e-4
     assert np.all(made.inside(like))
+
+
+def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
+    pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+    from viscotack import datasets
+    from viscotack.surrogate.training.solids import CHOSEN, parts, read
+
+    tests = read(datasets.load("solids"))
+    tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
+    made, facts = solids.load(solids.SHIPPED)
+    said = made.evaluate(tests.like(made))
+    stated = facts["scores"]["judged by, drawn evenly"]
+    for name, found, true in (
+        ("force", said.pull_off_force, tests.rows.force),
+        ("work", said.work_to_pull_off, tests.rows.work),
+    ):
+        assert np.mean(np.log10(found / true) ** 2) == pytest.approx(stated[name]["mse"], rel=1e-3)
+
+
+def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
+    pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
+    from viscotack.surrogate.training import likeness
+
+    tests, creep = likeness.made_up(150, 50)
+    found = solids.shipped().like(*tests, creep)
+    slow = likeness.first(tests, creep)
+    begun = np.column_stack(
+        [np.log(slow.groups[:, 1]), np.log(slow.groups[:, 2]), np.log10(slow.groups[:, 4])]
+    )
+    again = alike.alike(tests, creep, begun, found.counts, enough=1e-6)
+    # two in a hundred end in another place, that is as good or better in most
+    assert np.mean(found.unlike > again.unlike + 1e-3) < 0.03
+    assert np.median(np.abs(found.unlike - again.unlike)) < 1e-6
 
 
 @pytest.mark.parametrize("name", SOLIDS)
@@ -117,14 +151,14 @@ def test_its_curve_ends_at_the_pull_off_and_has_a_band():
 
 
 def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
-    # two steps to both sides of the test, of a solid that is nearly elastic
-    solid = vt.Prony(**UNIT, branches=((0.3697, 0.03937), (0.2563, 71.18)))
+    # a step to either side of the test, of a solid that is hardly stiffer as a glass
+    solid = vt.Prony(**UNIT, branches=((0.6776, 0.1623), (0.5848, 329.8)))
     with pytest.raises(vt.OutOfRange, match="is unlike that of all solids which were learned from"):
-        learned_prediction(sphere(solid, 0.22, 28.0, 1.0))
+        learned_prediction(sphere(solid, 0.06, 0.03, 1.0))
     with pytest.raises(vt.OutOfRange, match="is unlike that of all solids .* no theory applies"):
-        vt.predict(sphere(solid, 0.22, 28.0, 1.0))
+        vt.predict(sphere(solid, 0.06, 0.03, 1.0))
     # a hundred times slower it is a step like others
-    assert learned_prediction(sphere(solid, 0.22, 28.0, 0.01)).inside
+    assert learned_prediction(sphere(solid, 0.06, 0.03, 0.01)).inside
 
 
 @pytest.mark.parametrize(
@@ -155,8 +189,11 @@ def test_the_file_says_what_it_is_worth():
     _, facts = solids.load(solids.SHIPPED)
     even = facts["scores"]["judged by, drawn evenly"]
     assert 0.88 <= even["force"]["cover"] <= 0.95 and 0.88 <= even["work"]["cover"] <= 0.95
+    assert even["force"]["mse"] < 1e-5 and even["work"]["mse"] < 1e-4
+    chosen = facts["scores"]["judged by, chosen"]
+    assert chosen["force"]["mse"] < 2e-5 and chosen["work"]["mse"] < 2e-4
     # judged by rows that no one learned from
-    assert facts["rows"]["judge"] > 400
+    assert facts["rows"]["judge"] > 700
 
 
 # Random solids -------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from viscotack.surrogate import line, physics, store
 from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, told
+from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, error_inputs
 from viscotack.surrogate.trust import INPUTS as TOLD
 from viscotack.theory import lennard_jones
 
@@ -167,7 +167,9 @@ def test_widths_are_smooth(made):
     answers = (surrogate.evaluate(rows) for rows in (groups, ahead))
     # how far a few networks are apart has corners
     a, b = (
-        np.array(surrogate.trust.widths(told(rows, replace(said, **apart)), 0.9))
+        np.array(
+            surrogate.trust.widths(error_inputs(physics.scaled(rows), replace(said, **apart)), 0.9)
+        )
         for apart in ({name: np.full(300, 1e-4) for name in ("force_spread", "work_spread")},)
         for rows, said in zip((groups, ahead), answers, strict=True)
     )

@@ -16,7 +16,7 @@ from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
 from viscotack.surrogate.training.punch import parts  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
-from viscotack.surrogate.trust import CONFIDENCES, OF, told  # noqa: E402
+from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
 
@@ -166,7 +166,7 @@ def test_intervals_hold_the_share_that_they_promise():
     def apart(count):
         u = random.random((count, 5))
         groups = physics.LOW * (physics.HIGH / physics.LOW) ** u
-        inputs = told(groups, shipped().evaluate(groups))
+        inputs = error_inputs(physics.scaled(groups), shipped().evaluate(groups))
         usual = shipped().trust.widths(inputs, 0.9)
         error = random.standard_t(4, (count, len(OF))) * np.array(usual).T
         # a start in tension has no travel to zero force

@@ -17,6 +17,7 @@ NAMES = (
     "unseen",
     "hard",
     "solids",
+    "rough",
     "punch",
     "punch_limits",
     "punch_starts",
@@ -72,9 +73,10 @@ def load(name: str) -> Any:
         spheres that no network learned from, evenly in that range, on its faces and in boxes;
         ``unseen``: others of these designs, on which nothing was measured. ``hard``: those of an
         adversary that looked for the furthest out of their intervals. ``solids``: spheres on as
-        many random linear solids. ``punch``: 2,000 flat punches on a layer. ``punch_limits``: such
-        punches on elastic layers, and retracted so fast that nothing relaxes. ``punch_starts``:
-        such punches from starts of any stress. ``punch_faces``: such at the ends of the range.
+        many random linear solids; ``rough``: others, simulated less finely, to learn from.
+        ``punch``: 2,000 flat punches on a layer. ``punch_limits``: such punches on elastic layers,
+        and retracted so fast that nothing relaxes. ``punch_starts``: such punches from starts of
+        any stress. ``punch_faces``: such at the ends of the range.
 
     Raises
     ------

@@ -52,6 +52,7 @@ _OF_SETS = {
     "punch_faces": _ONCE_MORE,
     # what is learned from it errs by more; rows state what they are uncertain by
     "solids": (1, Targets(force=4e-3, work=2e-2)),
+    "rough": (1, Targets(force=2e-2, work=1e-1)),
 }
 
 
@@ -81,7 +82,7 @@ def make(
         Processes.
     targets : Targets, optional
         Which errors make a case run again; leave it out for 0.2 % and 0.5 %, and for `fresh` and
-        `hard` 0.4 % and 2 %, which have one finer pass, and `solids`, which has none.
+        `hard` 0.4 % and 2 %, which have one finer pass; `solids` and `rough` have none.
     cases : int, optional
         Only so many cases from the beginning of the plan, which for a Sobol fill are spread over
         the whole range.

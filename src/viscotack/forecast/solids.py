@@ -9,13 +9,13 @@ import numpy as np
 from viscotack.problem import Groups
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.solids import Likeness
+    from viscotack.surrogate.alike import Alike
 
 # How an answer is named that was learned of power laws and measured on other solids.
 LEARNED_SOLID = "surrogate of solids"
 
 
-def like_of(groups: Groups, depth: float) -> Likeness:
+def like_of(groups: Groups, depth: float) -> Alike:
     """Return the power law that stands for the solid of a test from a start at a depth [h0]."""
     from viscotack.surrogate import alike, solids
 
@@ -28,7 +28,7 @@ def like_of(groups: Groups, depth: float) -> Likeness:
     return solids.shipped().like(groups.tabor * one, k * one, depth * one, creep[None])
 
 
-def unlike_words(like: Likeness) -> list[str]:
+def unlike_words(like: Alike) -> list[str]:
     """Return in words that a solid is unlike all that were learned from, or nothing."""
     from viscotack.surrogate import solids
 
@@ -37,18 +37,18 @@ def unlike_words(like: Likeness) -> list[str]:
         return []
     return [
         "the creep of the solid around h0 over the speed is unlike that of all solids which were "
-        f"learned from: it leaves a power law by {like.first.unlike[0]:.2g} of the way from glass "
+        f"learned from: it leaves a power law by {like.unlike[0]:.2g} of the way from glass "
         f"to rubber, in the logarithm, and {learned.farthest[0]:.2g} was learned from (in the "
         f"directions of those {learned.far(like)[0]:.2g}, up to {learned.farthest[1]:.2g})"
     ]
 
 
-def alike_words(like: Likeness) -> str:
+def alike_words(like: Alike) -> str:
     """Return in words what a solid is like."""
     from viscotack.surrogate import physics
 
     return (
         "around the times of the test the solid creeps like a power law by retardation with the "
-        f"exponent {like.groups[0, physics.EXPONENT]:.3g}, to {like.found.unlike[0]:.1g} of the "
+        f"exponent {like.groups[0, physics.EXPONENT]:.3g}, to {like.unlike[0]:.1g} of the "
         "way from glass to rubber, in the logarithm"
     )

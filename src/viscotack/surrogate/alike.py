@@ -8,8 +8,8 @@ There any solid is like one of the retardation power laws that simulations are k
 with its own modulus ratio k and an exponent and a time that make the logarithms of the two creeps
 agree best. Creep is sampled at fifteen fixed multiples of h0/v, so that no rate and no temperature
 is an input: a solid that is slower, pulled slower, has the same samples. How much each of them
-counts is a window that is sought first around a time somewhat above h0/v, and then where
-:mod:`viscotack.surrogate.solids` has learned that it matters. A power law is like itself.
+counts, and where the search begins, is told by :mod:`viscotack.surrogate.solids`; from there a few
+steps suffice. A power law is like itself.
 """
 
 from __future__ import annotations
@@ -29,27 +29,47 @@ Array = npt.NDArray[np.float64]
 # Where creep is sampled: times over h0/v, two a decade.
 DECADES = np.arange(-3.5, 3.6, 0.5)
 TIMES = 10.0**DECADES
-# How much each of the samples counts in the likeness: those around 10^_CENTRE most.
-_CENTRE, _WIDTH, _LEAST = 0.25, 0.6, 0.005
-_COUNTS = np.exp(-((DECADES - _CENTRE) ** 2) / (2 * _WIDTH**2)) + _LEAST
 # Logarithms of exponents and of times at which the creep of power laws is tabulated; on steps of
 # the times the samples fall again.
 _LN_N = np.linspace(np.log(0.1), np.log(3.0), 40)
 _STEP, _FIRST, _LAST = 0.1, -36.0, 8.0
 _LOG_T = _FIRST + _STEP * np.arange(round((_LAST - _FIRST) / _STEP) + 1)
+_STEP_N = _LN_N[1] - _LN_N[0]
 # All has crept by then, and the formula has no digits left.
 _CREPT = 5.9
-_APART = np.rint((DECADES - DECADES[0]) / _STEP).astype(int)
-# Where the search begins, how many steps it takes, and the longest and the shortest.
-_EXPONENTS, _RATES = np.geomspace(0.15, 2.0, 10), np.arange(-2.0, 10.1, 0.5)
-_STEPS, _LONGEST, _ENOUGH = 12, np.array([1.0, 0.5, 1.0]), 1e-6
-# What is sought: modulus ratio, exponent and rate.
-_SOUGHT = (physics.MODULUS_RATIO, physics.EXPONENT, physics.RATE)
-_STIFFEST = np.log(physics.LIMITS["modulus_ratio"][1])
+# Places in the table, counted along it, of the neighbours of all samples: 4 exponents, 15 samples,
+# 4 times.
+_AROUND = np.arange(-1, 3)
+_NEAR = (
+    _AROUND[:, None, None] * len(_LOG_T)
+    + np.rint((DECADES - DECADES[0]) / _STEP).astype(int)[:, None]
+    + _AROUND
+).ravel()
+# Powers of a place between neighbours, to their weights in a cubic and to its derivatives.
+_CUBIC = (
+    np.array(
+        [
+            [[0, -2], [6, -3], [0, 6], [0, -1]],
+            [[-2, 6], [-3, -12], [6, 6], [-1, 0]],
+            [[3, -3], [-6, 9], [3, -9], [0, 3]],
+            [[-1, 0], [3, 0], [-3, 0], [1, 0]],
+        ]
+    ).reshape(4, 8)
+    / 6
+)
+# What is sought: modulus ratio, exponent and rate; how many steps are taken at most, the longest
+# ones, and the part of the curvature by which the first is shortened.
+SOUGHT = (physics.MODULUS_RATIO, physics.EXPONENT, physics.RATE)
+_MOST, _LONGEST, _SHORTER = 20, np.array([1.0, 0.5, 1.0]), 1e-2
+# A step shorter than this is the last one.
+ENOUGH = 5e-3
+STIFFEST = np.log(physics.LIMITS["modulus_ratio"][1])
+ENDS = np.log(physics.LIMITS["exponent"]), np.log10(physics.LIMITS["rate"])
 # Where creep is as good as over, or has not begun, it tells no exponent; then it is this one. And
 # where it does not tell how stiff the glass is, the modulus ratio is that of the solid.
-_USUAL, _DOUBTS = np.log(0.6), np.array([1e-5, 1e-6, 1e-9])
+USUAL, DOUBTS = np.log(0.6), np.array([1e-5, 1e-6, 1e-9])
 _ROWS = 2000
+_ONE = np.eye(3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,87 +80,79 @@ class Alike:
     ----------
     groups : ndarray, shape (n, 5)
         Of the tests on these power laws, in the order of ``physics.INPUTS``.
+    modulus_ratio : ndarray, shape (n,)
+        Of the solids.
     over : ndarray, shape (n, 15)
         What is left over at ``TIMES``: logarithm of the power law's creep less that of the solid's,
         over that of the modulus ratio.
-    counts : ndarray, shape (n, 15) or (15,)
+    counts : ndarray, shape (n, 15)
         How much each of the samples counted.
     """
 
     groups: Array
+    modulus_ratio: Array
     over: Array
     counts: Array
 
     @property
     def unlike(self) -> Array:
         """How unlike the solids are: root mean square of what is left over, shape (n,)."""
-        return np.sqrt(_weighed(self.counts, self.over**2) / self.counts.sum(axis=-1))
+        return np.sqrt(np.sum(self.counts * self.over**2, axis=1) / self.counts.sum(axis=1))
 
 
-@cache
-def _table() -> Array:
-    """Return the logarithm of the part of the creep of power laws that is over; made once."""
-    times = 10.0 ** np.minimum(_LOG_T, _CREPT)
-    return np.log([spectrum.crept(np.exp(ln_n), times) for ln_n in _LN_N])
+def climbed(modulus_ratio: Array, creep: Array) -> Array:
+    """Return where between rubber (0) and glass (1) creep is, in the logarithm, shape (n, 15)."""
+    return np.log(creep) / np.log(modulus_ratio)[:, None]
 
 
-def alike(tabor: Array, modulus_ratio: Array, preload: Array, creep: Array) -> Alike:
+def alike(
+    tests: tuple[Array, Array, Array],
+    creep: Array,
+    begun: Array,
+    counts: Array,
+    *,
+    enough: float = ENOUGH,
+) -> Alike:
     """Return the power laws that solids are like.
 
     Parameters
     ----------
-    tabor, modulus_ratio, preload : ndarray, shape (n,)
-        Of the tests.
+    tests : tuple of ndarray, shape (n,)
+        Tabor number, modulus ratio and depth of the start.
     creep : ndarray, shape (n, 15)
         Creep over the relaxed one, at ``TIMES`` in units of h0 over the speed.
+    begun : ndarray, shape (n, 3)
+        Where the search begins: ln of modulus ratio and exponent, log10 of the rate.
+    counts : ndarray, shape (n, 15)
+        How much each sample counts.
+    enough : float
+        A step shorter than this is the last one.
 
     Examples
     --------
     A standard solid, whose creep is over within one decade, is steeper than any power law:
 
     >>> one = np.ones(1)
-    >>> found = alike(one, 0.1 * one, 10 * one, 1 - 0.9 * np.exp(-TIMES / 30)[None])
+    >>> creep, counts = 1 - 0.9 * np.exp(-TIMES / 30)[None], np.exp(-(DECADES[None] ** 2))
+    >>> begun = np.log([[0.1, 0.6, 2.0]])
+    >>> found = alike((one, 0.1 * one, one), creep, begun, counts)
     >>> f"{found.groups[0, 2]:.1f}, {found.unlike[0]:.3f}"
-    '2.0, 0.016'
+    '2.0, 0.015'
     """
-    share = np.log(creep) / np.log(modulus_ratio)[:, None]
-    starts = range(0, len(creep), _ROWS)
-    parts = [_begun(modulus_ratio[i : i + _ROWS], share[i : i + _ROWS]) for i in starts]
-    begun = np.concatenate(parts)
-    k, n, rate = np.exp(begun[:, 0]), np.exp(begun[:, 1]), 10 ** begun[:, 2]
-    groups = np.column_stack([tabor, k, n, preload, rate])
-    plain = Alike(groups, np.zeros_like(creep), _COUNTS)
-    return again(plain, modulus_ratio, creep, np.broadcast_to(_COUNTS, creep.shape))
-
-
-def again(first: Alike, modulus_ratio: Array, creep: Array, counts: Array) -> Alike:
-    """Return the power laws that solids are like where other samples count.
-
-    Parameters
-    ----------
-    first : Alike
-        From which they are sought.
-    modulus_ratio : ndarray, shape (n,)
-        Of the solids.
-    creep : ndarray, shape (n, 15)
-        As :func:`alike` takes it.
-    counts : ndarray, shape (n, 15)
-        How much each sample counts.
-    """
-    groups = first.groups.copy()
-    over = np.empty_like(creep)
-    for i in range(0, len(creep), _ROWS):
+    tabor, k, preload = tests
+    share = climbed(k, creep)
+    x, over = np.empty((len(k), 3)), np.empty_like(share)
+    for i in range(0, len(k), _ROWS):
         some = slice(i, i + _ROWS)
-        k, n, rate = groups[some][:, _SOUGHT].T
-        begun = np.column_stack([np.log(k), np.log(n), np.log10(rate)])
-        whole = np.log(modulus_ratio[some])[:, None]
-        x, over[some] = _sought(whole, np.log(creep[some]) / whole, begun, counts[some])
-        groups[some, _SOUGHT[0]], groups[some, _SOUGHT[1]] = np.exp(x[:, 0]), np.exp(x[:, 1])
-        groups[some, _SOUGHT[2]] = 10 ** x[:, 2]
-    return Alike(groups, over, counts)
+        whole = np.log(k[some])[:, None]
+        x[some], over[some] = _sought(whole, share[some], begun[some], counts[some], enough)
+    groups = np.column_stack([tabor, np.exp(x[:, :2]), preload, 10 ** x[:, 2]])
+    return Alike(groups, k, over, counts)
 
 
-def _sought(whole: Array, share: Array, begun: Array, counts: Array) -> tuple[Array, Array]:
+def _sought(
+    whole: Array, share: Array, begun: Array, counts: Array, enough: float
+) -> tuple[Array, Array]:
     """Return ln k, ln n and log10 of the rate of power laws, shape (n, 3), and what is left over.
 
     Levenberg and Marquardt's steps; a number at its end stays there, and the others follow.
@@ -149,112 +161,126 @@ def _sought(whole: Array, share: Array, begun: Array, counts: Array) -> tuple[Ar
     ----------
     whole : ndarray, shape (n, 1)
         ln k of the solids.
-    share : ndarray, shape (n, 15)
-        Of the way from rubber to glass, in the logarithm.
+    share, counts : ndarray, shape (n, 15)
     begun : ndarray, shape (n, 3)
-    counts : ndarray, shape (n, 15)
+    enough : float
     """
-    ends = [np.log(physics.LIMITS["exponent"]), np.log10(physics.LIMITS["rate"])]
-    low = np.column_stack([whole[:, 0], *(np.full(len(share), end[0]) for end in ends)])
-    high = np.array([_STIFFEST, *(end[1] for end in ends)])
-    usual = np.column_stack([whole[:, 0], np.full((len(share), 1), _USUAL), begun[:, 2]])
-
-    def left(x: Array) -> tuple[Array, Array]:
-        """Return what is left over, and its derivatives, shape (n, 15, 3)."""
-        k = np.exp(x[:, :1])
-        log_f, by_n, by_rate = _crept(x[:, 1], x[:, 2])
-        part = np.exp(log_f)
-        c = k + (1 - k) * part
-        steep = (1 - k) * part / (c * whole)
-        slopes = (k * (1 - part) / (c * whole), steep * by_n, steep * by_rate)
-        return np.log(c) / whole - share, np.stack(slopes, axis=-1)
-
-    def cost(over: Array, x: Array) -> Array:
-        return _weighed(counts, over**2) + _weighed(_DOUBTS, (x - usual) ** 2)
-
-    x = np.clip(begun, low, high)
-    over, slopes = left(x)
-    best, damping = cost(over, x), np.full(len(x), 1e-3)
-    one = np.eye(3)
-    for _ in range(_STEPS):
-        bent = np.einsum("nm,nmi,nmj->nij", counts, slopes, slopes) + one * _DOUBTS
-        bent = bent + one * (damping[:, None] * np.einsum("nii->ni", bent))[:, None]
-        fall = -np.einsum("nm,nmi,nm->ni", counts, slopes, over) - _DOUBTS * (x - usual)
-        step = np.linalg.solve(bent, fall[..., None])[..., 0]
-        new = np.clip(x + np.clip(step, -_LONGEST, _LONGEST), low, high)
-        held = (new == low) | (new == high)
-        if held.any():
-            away = np.where(held, new - x, 0.0)
-            fall = np.where(held, away, fall - np.einsum("nij,nj->ni", bent, away))
-            both = held[:, :, None] | held[:, None]
-            step = np.linalg.solve(np.where(both, one, bent), fall[..., None])[..., 0]
-            new = np.clip(x + np.clip(step, -_LONGEST, _LONGEST), low, high)
-        found, found_slopes = left(new)
-        new_cost = cost(found, new)
-        better = new_cost <= best
-        moved = np.abs(new - x).max()
-        x, over = np.where(better[:, None], new, x), np.where(better[:, None], found, over)
-        slopes = np.where(better[:, None, None], found_slopes, slopes)
-        best = np.where(better, new_cost, best)
-        damping = np.where(better, damping * 0.2, damping * 5)
-        if moved < _ENOUGH:
-            break
-    return x, over
+    low, high = ends(whole)
+    x = np.minimum(np.maximum(begun, low), high)
+    usual = np.concatenate([whole, np.full_like(whole, USUAL), x[:, 2:]], axis=1)
+    over, slopes = left(x, whole, share)
+    best, shorter = _cost(counts, over, x - usual), np.full(len(x), _SHORTER)
+    found, found_over, place = x.copy(), over.copy(), np.arange(len(x))
+    for _ in range(_MOST):
+        new = _next(x, over, slopes, usual, counts, shorter, low, high)
+        new_over, new_slopes = left(new, whole, share)
+        cost = _cost(counts, new_over, new - usual)
+        better = cost <= best
+        settled = better & (np.abs(new - x).max(axis=1) < enough)
+        shorter = np.where(better, 0.1 * shorter, 10 * shorter)
+        if not better.all():
+            up = ~better
+            new[up], new_over[up], new_slopes[up] = x[up], over[up], slopes[up]
+            cost = np.minimum(cost, best)
+        x, over, slopes, best = new, new_over, new_slopes, cost
+        if settled.any():
+            found[place], found_over[place] = x, over
+            if settled.all():
+                return found, found_over
+            on = ~settled
+            place = place[on]
+            rows = x, over, slopes, best, shorter, usual, counts, low, whole, share
+            x, over, slopes, best, shorter, usual, counts, low, whole, share = (r[on] for r in rows)
+    found[place], found_over[place] = x, over
+    return found, found_over
 
 
-def _begun(k: Array, share: Array) -> Array:
-    """Return the best of some power laws of the same modulus ratio, as `_sought` takes them."""
-    ln_n, rate, part = _beginnings()
-    best = np.empty(len(k), dtype=int)
-    for i, ratio in enumerate(k):
-        over = np.log(ratio + (1 - ratio) * part) / np.log(ratio) - share[i]
-        best[i] = np.argmin(_weighed(_COUNTS, over**2) + _DOUBTS[1] * (ln_n - _USUAL) ** 2)
-    return np.column_stack([np.log(k), ln_n[best], rate[best]])
+def _next(
+    x: Array,
+    over: Array,
+    slopes: Array,
+    usual: Array,
+    counts: Array,
+    shorter: Array,
+    low: Array,
+    high: Array,
+) -> Array:
+    """Return where the next step leads, shape (n, 3)."""
+    weighed = slopes * counts[:, None]
+    bent = weighed @ slopes.transpose(0, 2, 1)
+    own = DOUBTS + shorter[:, None] * np.einsum("nii->ni", bent)
+    bent = bent + _ONE * own[:, None]
+    fall = -(weighed @ over[..., None])[..., 0] - DOUBTS * (x - usual)
+    new = _stepped(x, np.linalg.solve(bent, fall[..., None])[..., 0], low, high)
+    held = (new == low) | (new == high)
+    if not held.any():
+        return new
+    away = np.where(held, new - x, 0.0)
+    fall = np.where(held, away, fall - (bent @ away[..., None])[..., 0])
+    both = held[:, :, None] | held[:, None]
+    step = np.linalg.solve(np.where(both, _ONE, bent), fall[..., None])[..., 0]
+    return _stepped(x, step, low, high)
 
 
-@cache
-def _beginnings() -> tuple[Array, Array, Array]:
-    """Return logarithms of exponents and rates, and what has crept at the samples."""
-    ln_n, rate = (x.ravel() for x in np.meshgrid(np.log(_EXPONENTS), _RATES, indexing="ij"))
-    return ln_n, rate, np.exp(_crept(ln_n, rate)[0])
+def ends(whole: Array) -> tuple[Array, Array]:
+    """Return the least of what is sought, shape (n, 3), and the largest, shape (3,)."""
+    least = [np.full_like(whole, end[0]) for end in ENDS]
+    return np.concatenate([whole, *least], axis=1), np.array([STIFFEST, *(e[1] for e in ENDS)])
 
 
-def _weighed(counts: Array, values: Array) -> Array:
-    return np.sum(counts * values, axis=-1)
+def _stepped(x: Array, step: Array, low: Array, high: Array) -> Array:
+    limited = np.minimum(np.maximum(step, -_LONGEST), _LONGEST)
+    return np.minimum(np.maximum(x + limited, low), high)
 
 
-def _crept(ln_n: Array, rate: Array) -> tuple[Array, Array, Array]:
+def _cost(counts: Array, over: Array, unusual: Array) -> Array:
+    return np.sum(counts * over**2, axis=1) + unusual**2 @ DOUBTS
+
+
+def left(x: Array, whole: Array, share: Array) -> tuple[Array, Array]:
+    """Return what power laws leave over, shape (n, 15), and its derivatives, shape (n, 3, 15)."""
+    k = np.exp(x[:, :1])
+    log_f, by_n, by_rate = crept(x[:, 1], x[:, 2])
+    part = np.exp(log_f)
+    c = k + (1 - k) * part
+    inverse = 1 / (c * whole)
+    steep = (1 - k) * part * inverse
+    slopes = np.stack([k * (1 - part) * inverse, steep * by_n, steep * by_rate], axis=1)
+    return np.log(c) / whole - share, slopes
+
+
+def crept(ln_n: Array, rate: Array) -> tuple[Array, Array, Array]:
     """Return the logarithm of what has crept at the samples, and its derivatives; (n, 15) each.
 
     Cubics through four neighbours in the table, along both of its sides.
+
+    Parameters
+    ----------
+    ln_n, rate : ndarray, shape (n,)
+        Logarithm of the exponent, log10 of the rate.
     """
-    at = (ln_n - _LN_N[0]) / (_LN_N[1] - _LN_N[0])
-    i = np.clip(at.astype(int), 1, len(_LN_N) - 3)
-    along, slope = _cubic(at - i)
-    at = (DECADES[0] - rate - _FIRST) / _STEP
+    at = (ln_n - _LN_N[0]) / _STEP_N
+    i = np.minimum(np.maximum(at.astype(int), 1), len(_LN_N) - 3)
+    along = _cubic(at - i)
+    at = (DECADES[0] - _FIRST - rate) / _STEP
     j = np.floor(at).astype(int)
-    across, bend = _cubic(at - j)
-    near = np.arange(-1, 3)
-    columns = j[:, None, None] + _APART[:, None] + near
-    some = _table()[(i[:, None] + near)[:, :, None, None], columns[:, None]]
-    of_n = np.einsum("nimx,nx->nmi", some, across)
-    by_n = np.einsum("nmi,ni->nm", of_n, slope) / (_LN_N[1] - _LN_N[0])
-    by_rate = -np.einsum("nimx,nx,ni->nm", some, bend, along) / _STEP
-    return np.einsum("nmi,ni->nm", of_n, along), by_n, by_rate
+    across = _cubic(at - j)
+    some = _table().take((i * len(_LOG_T) + j)[:, None] + _NEAR).reshape(-1, 4, len(DECADES), 4)
+    of_n = some @ across[:, None]
+    both = along.transpose(0, 2, 1) @ of_n.reshape(-1, 4, 2 * len(DECADES))
+    both = both.reshape(-1, 2, len(DECADES), 2)
+    return both[:, 0, :, 0], both[:, 1, :, 0] / _STEP_N, both[:, 0, :, 1] / -_STEP
 
 
-def _cubic(f: Array) -> tuple[Array, Array]:
-    """Return weights of the neighbours at -1, 0, 1 and 2 of a place f, and their derivatives."""
-    values = (
-        -f * (f - 1) * (f - 2) / 6,
-        (f + 1) * (f - 1) * (f - 2) / 2,
-        -(f + 1) * f * (f - 2) / 2,
-        (f + 1) * f * (f - 1) / 6,
-    )
-    slopes = (
-        -(3 * f**2 - 6 * f + 2) / 6,
-        (3 * f**2 - 4 * f - 1) / 2,
-        -(3 * f**2 - 2 * f - 2) / 2,
-        (3 * f**2 - 1) / 6,
-    )
-    return np.stack(values, axis=-1), np.stack(slopes, axis=-1)
+@cache
+def _table() -> Array:
+    """Return the logarithm of the part of the creep of power laws that is over; made once."""
+    times = 10.0 ** np.minimum(_LOG_T, _CREPT)
+    return np.log([spectrum.crept(np.exp(ln_n), times) for ln_n in _LN_N]).ravel()
+
+
+def _cubic(f: Array) -> Array:
+    """Return weights of the neighbours at -1, 0, 1 and 2 of places, and derivatives; (n, 4, 2)."""
+    square = f * f
+    powers = np.stack([np.ones_like(f), f, square, square * f], axis=1)
+    return (powers @ _CUBIC).reshape(-1, 4, 2)

@@ -3,7 +3,7 @@
 Evaluated with NumPy alone. What is learned and what is not: :mod:`viscotack.surrogate.physics`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,9 +18,10 @@ from .line import Curves, curves
 from .network import Networks
 from .physics import INPUTS, LIMITS, START, Array
 from .slopes import Sloped, by_logarithms
-from .trust import Trust, told
+from .trust import Trust, error_inputs
 
 __all__ = ["INPUTS", "Answers", "Curves", "Intervals", "Surrogate"]
+Bent = Callable[[Array], tuple[Array, Array]]
 _STARTS = 64
 _REFINEMENTS = 4
 
@@ -68,6 +69,17 @@ class Intervals:
     work_to_pull_off: Array
     curve: Array
     travel: Array
+
+
+def intervals_of(trust: Trust, inputs: Array, answers: Answers, confidence: float) -> Intervals:
+    """Return intervals around answers, as wide as a network of the errors says of its inputs."""
+    *halves, curve, travel = trust.widths(inputs, confidence)
+    values = answers.pull_off_force, answers.work_to_pull_off
+    force, work = (
+        np.column_stack([v / 10**half, v * 10**half])
+        for v, half in zip(values, halves, strict=True)
+    )
+    return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,14 +137,29 @@ class Surrogate:
         said = self.start(physics.scaled(groups)[:, START]).mean(axis=0)
         return physics.start_force(groups, said[:, 0]), 10 ** said[:, 1]
 
-    def evaluate(self, groups: npt.ArrayLike) -> Answers:
-        """Return force and work of rows of groups; they are not checked to lie inside."""
+    def evaluate(self, groups: npt.ArrayLike, bent: Bent | None = None) -> Answers:
+        """Return force and work of rows of groups; they are not checked to lie inside.
+
+        Parameters
+        ----------
+        groups : array_like, shape (n, 5)
+        bent : callable, optional
+            Takes what the networks of the force say, shape (m, n), and returns what is added to
+            that, and to log10 of work over force, shape (n,) each.
+        """
         rows = _rows(groups)
         slow, fast = physics.way(rows, self.fast)
-        forces = physics.between(slow, fast, self.force(physics.scaled(rows))[..., 0])
+        output = self.force(physics.scaled(rows))[..., 0]
+        further: Any = None
+        if bent is not None:
+            more, further = bent(output)
+            output = output + more
+        forces = physics.between(slow, fast, output)
         force = forces.mean(axis=0)
         way = np.maximum(fast.mean(axis=0) - slow, physics.LEAST_WAY)
         works = force + self.work(self._told(rows, force))[..., 0]
+        if further is not None:
+            works = works + further
         return Answers(
             pull_off_force=10**force,
             work_to_pull_off=10 ** works.mean(axis=0),
@@ -169,14 +196,8 @@ class Surrogate:
         ValueError
             If the confidence is not one of those that were measured.
         """
-        rows = _rows(groups)
-        *halves, curve, travel = self.trust.widths(told(rows, answers), confidence)
-        values = answers.pull_off_force, answers.work_to_pull_off
-        force, work = (
-            np.column_stack([v / 10**half, v * 10**half])
-            for v, half in zip(values, halves, strict=True)
-        )
-        return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))
+        inputs = error_inputs(physics.scaled(_rows(groups)), answers)
+        return intervals_of(self.trust, inputs, answers, confidence)
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the derivatives of log force and log work by the logarithms of the inputs, exact.
@@ -291,13 +312,14 @@ class Surrogate:
             Standard deviations in half an interval.
         """
         doubt = 10 ** (quantile * self.start_doubt(groups, by=by))
-        near = np.tile(groups, (2, 1))
-        near[:, physics.PRELOAD] *= np.concatenate([doubt, 1 / doubt])
+        near = np.tile(groups, (3, 1))
+        near[:, physics.PRELOAD] *= np.concatenate([np.ones_like(doubt), doubt, 1 / doubt])
         others = self.evaluate(near)
 
         def wider(name: str) -> Array:
             value, pair = np.log(getattr(answers, name)), np.log(getattr(held, name))
-            far = np.log(getattr(others, name)).reshape(2, -1) - value
+            here, *there = np.log(getattr(others, name)).reshape(3, -1)
+            far = np.array(there) - here
             down, up = -np.minimum(far.min(axis=0), 0.0), np.maximum(far.max(axis=0), 0.0)
             low, high = np.hypot(value - pair[:, 0], down), np.hypot(pair[:, 1] - value, up)
             return np.exp(np.column_stack([value - low, value + high]))

@@ -23,10 +23,10 @@ from viscotack.errors import InputError
 from . import physics, sealed
 from . import punch_physics as punch
 from .line import OUTPUTS, Curves, curves
-from .model import Answers, Intervals, Scaled
+from .model import Answers, Intervals, Scaled, intervals_of
 from .network import Networks, from_arrays
 from .punch_physics import Array
-from .trust import CONFIDENCES, OF, Trust, told_of
+from .trust import CONFIDENCES, INPUTS, OF, Trust, error_inputs
 
 SHIPPED = Path(__file__).with_name("punch.npz")
 # How many inputs and outputs each of the networks has.
@@ -38,7 +38,7 @@ _SHAPES = {
     "work": (len(punch.INPUTS) + 2, 1),
     "give": (len(punch.INPUTS) + 2, 1),
     "line": (len(punch.INPUTS) + 3, OUTPUTS),
-    "trust": (len(punch.INPUTS) + 3, len(OF)),
+    "trust": (INPUTS, len(OF)),
 }
 _SCALED = ("start", "work", "give", "line")
 # Steps in which the depth of a start by force is sought, and depths in each.
@@ -120,13 +120,16 @@ class PunchSurrogate:
         inputs = punch.scaled(rows)
         slow, fast = self.way(rows)
         stresses = physics.between(slow, fast, self.stress(inputs)[..., 0])
-        stress = stresses.mean(axis=0)
-        works = stress + self.work(told(rows, slow.mean(axis=0), stress))[..., 0]
+        stress, least = stresses.mean(axis=0), slow.mean(axis=0)
+        way = np.maximum(fast.mean(axis=0) - least, physics.LEAST_WAY)
+        works = stress + self.work(told(rows, least, stress))[..., 0]
         return Answers(
             pull_off_force=10**stress,
             work_to_pull_off=10 ** works.mean(axis=0),
             force_spread=stresses.std(axis=0),
             work_spread=works.std(axis=0),
+            way=way,
+            share=(stress - least) / way,
         )
 
     def curves(self, groups: npt.ArrayLike, answers: Answers) -> Curves:
@@ -164,15 +167,8 @@ class PunchSurrogate:
         ValueError
             If the confidence is not one of those that were measured.
         """
-        rows = np.asarray(groups, dtype=float)
-        spreads = answers.force_spread, answers.work_spread
-        *halves, curve, travel = self.trust.widths(told_of(punch.scaled(rows), spreads), confidence)
-        values = answers.pull_off_force, answers.work_to_pull_off
-        stress, work = (
-            np.column_stack([v / 10**half, v * 10**half])
-            for v, half in zip(values, halves, strict=True)
-        )
-        return Intervals(stress, work, curve, np.column_stack([10**-travel, 10**travel]))
+        inputs = error_inputs(punch.scaled(np.asarray(groups, dtype=float)), answers)
+        return intervals_of(self.trust, inputs, answers, confidence)
 
     def start_depth(self, size: float, thickness: float, force: float) -> float:
         """Return the depth [h0] of the relaxed start with a mean stress [sigma0].

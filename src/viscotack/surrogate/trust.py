@@ -38,7 +38,7 @@ _LEAST_SPREAD, _DECADES = 1e-5, 2.0
 _LEAST_SHARE = 1e-6
 
 
-def told(groups: Array, answers: Answers) -> Array:
+def error_inputs(scaled: Array, answers: Answers) -> Array:
     """Return what the network of the errors is told of cases, shape (n, INPUTS).
 
     An error of the output of a network that says where between its limits the force is changes
@@ -46,24 +46,20 @@ def told(groups: Array, answers: Answers) -> Array:
 
     Parameters
     ----------
-    groups : ndarray, shape (n, 5)
+    scaled : ndarray, shape (n, 5)
+        Inputs of the cases, each from -1 to 1 over its range.
     answers : Answers
         What is said of them.
     """
-    share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
-    climb = np.log10(np.maximum(share * (1 - share) * answers.way, _LEAST_SHARE)) / 3 + 1
-    place = np.log(share / (1 - share)) / 5
     spreads = answers.force_spread, answers.work_spread
-    return np.column_stack([told_of(physics.scaled(groups), spreads), climb, place])
-
-
-def told_of(scaled: Array, spreads: tuple[Array, Array]) -> Array:
-    """Return what it is told of five inputs that are scaled, from -1 to 1, and of two spreads."""
     apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
     # beyond a face there is no row, and networks know less of what is there
     near = np.exp((np.abs(scaled) - 1) / _NEAR)
     faces = sum(near[:, i] for i in range(1, len(physics.INPUTS))) + near[:, 0]
-    return np.column_stack([scaled, faces - 1, *apart])
+    share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
+    climb = np.log10(np.maximum(share * (1 - share) * answers.way, _LEAST_SHARE)) / 3 + 1
+    place = np.log(share / (1 - share)) / 5
+    return np.column_stack([scaled, faces - 1, *apart, climb, place])
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +84,7 @@ class Trust:
         Parameters
         ----------
         inputs : ndarray
-            What the network is :func:`told`.
+            As :func:`error_inputs` has them.
         confidence : float
             One of ``CONFIDENCES``.
         """

@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 
+from .. import physics
 from ..model import Surrogate
 from ..network import together
 from ..physics import Array
-from ..trust import CONFIDENCES, OF, Trust, told
+from ..trust import CONFIDENCES, OF, Trust, error_inputs
 from .fitting import Fit, Task
 from .rows import Rows
 from .scores import curve_errors, travel_errors
@@ -68,7 +69,7 @@ def judged(surrogate: Surrogate, rows: Rows) -> Apart:
         np.nanmax(np.abs(curve_errors(surrogate, rows, said)), axis=1),
         travel_errors(surrogate, rows, said),
     )
-    return Apart(told(rows.groups, said), np.column_stack(errors))
+    return Apart(error_inputs(physics.scaled(rows.groups), said), np.column_stack(errors))
 
 
 def trusted(

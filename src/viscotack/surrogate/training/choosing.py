@@ -19,7 +19,7 @@ from .. import physics
 from ..model import Surrogate
 from ..physics import INPUTS, Array
 from ..store import SHIPPED, load
-from ..trust import CONFIDENCES, told
+from ..trust import CONFIDENCES, error_inputs
 
 # Points to choose from: a Sobol fill, and a quarter as many on the faces of the range, where a
 # fill has few.
@@ -59,7 +59,7 @@ def choose(surrogate: Surrogate, count: int, *, seed: int = 0) -> Array:
     faces[np.arange(len(faces)), side] = random.integers(0, 2, len(faces))
     groups = 10 ** (low + np.concatenate([inner, faces]) * (high - low))
     said = surrogate.evaluate(groups)
-    reach = surrogate.trust.widths(told(groups, said), CONFIDENCES[0])[0]
+    reach = surrogate.trust.widths(error_inputs(physics.scaled(groups), said), CONFIDENCES[0])[0]
     chance = np.minimum(reach, _MOST) ** _POWER
     return groups[random.choice(len(groups), count, replace=False, p=chance / chance.sum())]
 

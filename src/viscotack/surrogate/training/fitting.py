@@ -64,6 +64,9 @@ class Task:
         What the output is multiplied by before it is added.
     quantile : float or None
         The part of the targets that is to lie below the output, in place of squared errors.
+    factors : ndarray, shape (n, outputs of the network), or None
+        The single output is the mean of those of the network times these; None for outputs that
+        are told apart.
     """
 
     inputs: Array
@@ -73,6 +76,7 @@ class Task:
     before: Array | None = None
     gain: float = 1.0
     quantile: float | None = None
+    factors: Array | None = None
 
 
 def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Networks:
@@ -96,11 +100,13 @@ def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Ne
     """
     jax = _jax()
     jnp = jax.numpy
-    sizes = (task.inputs.shape[1], *how.hidden, task.target.shape[1])
+    outputs = (task.target if task.factors is None else task.factors).shape[1]
+    sizes = (task.inputs.shape[1], *how.hidden, outputs)
     shapes = [s for a, b in zip(sizes[:-1], sizes[1:], strict=True) for s in ((a, b), (b,))]
     ends = np.cumsum([int(np.prod(shape)) for shape in shapes])[:-1]
     x, target, weight = (jnp.asarray(a) for a in (task.inputs, task.target, task.weight))
     before = None if task.before is None else jnp.asarray(task.before)
+    factors = None if task.factors is None else jnp.asarray(task.factors)
     total = float(task.weight.sum())
 
     def parts(v: Any) -> list[Any]:
@@ -111,6 +117,8 @@ def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Ne
         for weights, bias in zip(layers[:-2:2], layers[1:-2:2], strict=True):
             h = jnp.tanh(h @ weights + bias)
         out = task.gain * (h @ layers[-2] + layers[-1])
+        if factors is not None:
+            out = jnp.mean(out * factors, axis=1, keepdims=True)
         if task.before is not None:
             out = out + before
         if task.between is None:

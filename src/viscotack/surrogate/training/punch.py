@@ -35,8 +35,8 @@ from ..model import Scaled
 from ..network import Networks, added, together
 from ..punch import PunchSurrogate, told, with_work
 from ..punch_physics import Array
-from ..trust import OF, Trust, told_of
-from .calibration import HOW, LEAST, REACH, levels_of, untested
+from ..trust import OF, Trust, error_inputs
+from .calibration import HOW, LEAST, REACH, Apart, levels_of, untested
 from .fitting import Fit, Task
 from .recipe import untested as everywhere_alike
 from .rows import Rows, joined, of_table
@@ -184,28 +184,7 @@ def _scaled(inputs: Array, target: Array, known: Array) -> tuple[Task, Array, Ar
     return Task(inputs, (target - centre) / spread, known), centre, spread
 
 
-@dataclass(frozen=True, eq=False)
-class Errors:
-    """How far a surrogate is off on some rows.
-
-    Attributes
-    ----------
-    told : ndarray, shape (n, 8)
-        What the networks of the reach are told of them.
-    error : ndarray, shape (n, 4)
-        Of log10 of stress and of work, the largest of the curve in tension over the pull-off
-        stress, and of log10 of the travel to zero stress.
-    """
-
-    told: Array
-    error: Array
-
-    def chosen(self, which: Any) -> Errors:
-        """Return the rows of a mask."""
-        return Errors(self.told[which], self.error[which])
-
-
-def judged(made: PunchSurrogate, rows: Rows) -> Errors:
+def judged(made: PunchSurrogate, rows: Rows) -> Apart:
     """Return how far a surrogate is off on some rows."""
     said: Any = made.evaluate(rows.groups)
     duck: Any = made
@@ -215,11 +194,10 @@ def judged(made: PunchSurrogate, rows: Rows) -> Errors:
         np.nanmax(np.abs(curve_errors(duck, rows, said)), axis=1),
         travel_errors(duck, rows, said),
     )
-    inputs = told_of(physics.scaled(rows.groups), (said.force_spread, said.work_spread))
-    return Errors(inputs, np.column_stack(errors))
+    return Apart(error_inputs(physics.scaled(rows.groups), said), np.column_stack(errors))
 
 
-def trusted(made: PunchSurrogate, learned: Errors, kept: Errors, shop: Shop) -> PunchSurrogate:
+def trusted(made: PunchSurrogate, learned: Apart, kept: Apart, shop: Shop) -> PunchSurrogate:
     """Return a surrogate with intervals: networks of the reach, and levels of rows kept apart.
 
     A network learns from the rows that were learned from and from one half of the others, and is
@@ -235,7 +213,7 @@ def trusted(made: PunchSurrogate, learned: Errors, kept: Errors, shop: Shop) -> 
     return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
 
 
-def _reach(learned: Errors, kept: Errors) -> Task:
+def _reach(learned: Apart, kept: Apart) -> Task:
     error = np.concatenate([learned.error, kept.error])
     target = np.log10(np.maximum(np.abs(error), LEAST))
     weight = np.ones_like(target)
@@ -243,7 +221,7 @@ def _reach(learned: Errors, kept: Errors) -> Task:
     return Task(np.concatenate([learned.told, kept.told]), target, weight, quantile=REACH)
 
 
-def _scores(trust: Trust, errors: Errors, confidence: float = 0.5) -> Array:
+def _scores(trust: Trust, errors: Apart, confidence: float = 0.5) -> Array:
     """Return errors over half widths of intervals, shape (n, 4)."""
     widths = trust.widths(errors.told, confidence)
     return np.abs(errors.error) / np.column_stack(widths)

@@ -1,10 +1,10 @@
-"""The surrogate of any linear solid, from the set `solids` to its file and its scores.
+"""The surrogate of any linear solid, from the sets `solids` and `rough` to its file and its scores.
 
-``python -m viscotack.surrogate.training.solids --out DIR``: the window in which a power law must be
-like a solid is sought by least squares of the logarithms of the forces, nineteen numbers for all
-solids; then it is learned how far errors reach, and measured how many times that half an interval
-must be. Solids that are kept apart are never learned from, and the family of the stretched
-exponentials neither.
+``python -m viscotack.surrogate.training.solids --out DIR``: a network learns where the search for
+the power law that a solid is like begins (:mod:`viscotack.surrogate.training.likeness`); others
+learn from simulated tests how what that one leaves over bends force and work; then it is learned
+how far errors reach, and measured how many times that half an interval must be. Solids that are
+kept apart are never learned from, and the family of the stretched exponentials neither.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import least_squares
 
 from viscotack import __version__, datasets
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
 
-from .. import solids, store
-from ..alike import TIMES
-from ..network import together
-from ..solids import FEATURES, PARTS, TRUST_INPUTS, Likeness, Solids
+from .. import physics, solids, store
+from ..alike import TIMES, Alike
+from ..network import Networks, together
+from ..solids import BEND_INPUTS, SAMPLES, TRUST_INPUTS, Solids
 from ..trust import OF, Trust
-from .calibration import LEAST, REACH, levels_of
+from . import likeness
+from .calibration import LEAST, REACH, Apart, levels_of
 from .fitting import Fit, Task, fit
 from .recipe import untested
 from .rows import Rows, of_table
@@ -40,33 +40,25 @@ from .scores import curve_errors, travel_errors
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
-# Numbers of solids from here on were chosen where the answer feels them.
-CHOSEN = 100_000
-# Of solids drawn evenly, and of those chosen, one in so many measures intervals, and one judges.
-_EVEN, _OF_CHOSEN = 3, 5
+LEARNED = ("solids", "rough")
+# Numbers of solids from here on were chosen where the answer feels them, and from there on to be
+# learned from alone.
+CHOSEN, ROUGH = 100_000, 200_000
+# Of the first solids drawn evenly, of the others, and of those chosen one in so many measures
+# intervals, and one judges.
+_FIRST, _EVEN, _OTHERS, _OF_CHOSEN = 900, 3, 6, 5
 # Labels that are worse than this tell nothing [part of the force].
 _WORST_LABEL = 1e-2
-# Errors of log10 of the force that count in full, and how often the window is improved, by what
-# differences.
-_SOFT, _LOOKS, _STEP = 5e-3, 3, 3e-3
-# How much a window is held to the one that it began with.
-_HELD = 1e-3
 # Every so many rows of `broad` tell how far errors of power laws reach.
 _THINNED = 20
 HOW = Fit(hidden=(16, 16), steps=700, scale=1.0, penalty=1e-3)
-# The window that is improved: from 0.25 +- 0.6 decades everywhere least squares end in a worse
-# place.
-_BEGUN = np.array(
-    [
-        [-0.038, -1.542, 0.019],
-        [0.047, 0.838, 0.525],
-        [0.598, 0.526, 0.046],
-        [-0.049, 0.197, 0.01],
-        [-0.164, -0.461, -1.175],
-        [0.255, -0.015, 0.194],
-    ]
-)
-_FLOOR = 0.000321
+# Networks of the bends, and how they are fitted: stopped early, and begun near zero, for rows are
+# few. Errors of force and work of log10 from which on a row counts less.
+MEMBERS, _GAIN, _SOFT = 4, 0.1, (5e-3, 2e-2)
+# How far errors reach is learned from networks that had not seen the test: parts they go without.
+_FOLDS = 3
+FORCE = Fit(hidden=(32, 32, 32), steps=300, scale=2e-3, penalty=1e-3)
+WORK = Fit(hidden=(48, 48), steps=300, scale=8e-3, penalty=1e-3)
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +91,7 @@ class Tests:
         some = {f.name: getattr(self, f.name)[which] for f in fields(self) if f.name != "rows"}
         return Tests(rows=self.rows.chosen(which), **some)
 
-    def like(self, made: Solids) -> Likeness:
+    def like(self, made: Solids) -> Alike:
         """Return the power laws that stand for the solids."""
         return made.like(self.tabor, self.modulus_ratio, self.preload, self.creep)
 
@@ -134,76 +126,76 @@ def power_laws(every: int) -> Tests:
 def parts(tests: Tests) -> dict[str, Mask]:
     """Return which rows are learned from, measure intervals, judge, and are of the other family."""
     number = tests.number
-    even, other = number < CHOSEN, number >= STRETCHED
-    place = np.where(even, number % _EVEN, number % _OF_CHOSEN)
-    found = {"measure": ~other & (place == 0), "judge": ~other & (place == 1), "other": other}
+    other = number >= STRETCHED
+    kept = ~other & (number < ROUGH)
+    every = np.where(number < CHOSEN, _OTHERS, _OF_CHOSEN)
+    place = number % np.where(number < _FIRST, _EVEN, every)
+    found = {"measure": kept & (place == 0), "judge": kept & (place == 1), "other": other}
     return {"learn": ~(found["measure"] | found["judge"] | other), **found}
 
 
-def first() -> Solids:
-    """Return solids with the window that is improved, and no intervals yet."""
+def unbent() -> Solids:
+    """Return solids that know what they are like; nothing bends their answers yet."""
     return Solids(
         power_law=store.shipped(),
-        window=_BEGUN,
-        floor=_FLOOR,
+        begin=likeness.begin(),
+        floor=likeness.FLOOR,
+        usual=np.ones(SAMPLES),
+        force=_none(),
+        work=_none(),
         trust=untested(TRUST_INPUTS),
-        spread=np.zeros((len(TIMES), len(TIMES))),
+        spread=np.zeros((SAMPLES, SAMPLES)),
         farthest=np.full(2, np.inf),
     )
 
 
-def learned(tests: Tests, begun: Solids) -> Solids:
-    """Return solids whose window was sought on tests."""
-    target = np.log10(tests.rows.force)
-    held = np.concatenate([begun.window.ravel(), [np.log(begun.floor)]])
+def _none() -> Networks:
+    """Return networks that bend nothing."""
+    return Networks((np.zeros((1, BEND_INPUTS, SAMPLES)),), (np.zeros((1, 1, SAMPLES)),))
 
-    def put(u: Array) -> Solids:
-        # differences are taken with steps that go with the numbers, and many of these are 0
-        v = held + u - 1
-        return replace(begun, window=v[:-1].reshape(FEATURES, PARTS), floor=float(np.exp(v[-1])))
 
-    def off(u: Array) -> Array:
-        made = put(u)
-        error = np.log10(made.evaluate(tests.like(made)).pull_off_force) - target
-        # large ones count in proportion, not squared
-        soft = _SOFT * np.sign(error) * np.sqrt(2 * (np.sqrt(1 + (error / _SOFT) ** 2) - 1))
-        return np.concatenate([soft, _HELD * (u - 1)])
+def bent(begun: Solids, tests: Tests) -> Solids:
+    """Return solids that have learned from tests how what is left over bends force and work."""
+    like = tests.like(begun)
+    made = replace(begun, usual=np.sqrt(np.mean(like.over**2, axis=0)), work=_none())
+    groups, power_law = like.groups, made.power_law
+    output = power_law.force(physics.scaled(groups))[..., 0]
+    over = solids.scaled_over(like, made.usual)
+    inputs = np.column_stack([solids.features(like, output), over])
+    factor = solids.felt(output)
+    low, high = physics.way(groups, power_law.fast)
+    # one way and one output stand for those of several networks, which hardly differ
+    output, high = output.mean(axis=0), high.mean(axis=0)
+    plainly = physics.between(low, high, output)
+    off = np.log10(tests.rows.force / power_law.evaluate(groups).pull_off_force)
+    limits, before = (low, high), output[:, None]
+    force = Task(inputs, plainly + off, _soft(off, _SOFT[0]), limits, before, _GAIN, factors=over)
+    made = replace(made, force=_members(force, FORCE))
+    off = np.log10(tests.rows.work / made.evaluate(like).work_to_pull_off)
+    work = Task(inputs, off, _soft(off, _SOFT[1]), gain=_GAIN, factors=over * factor)
+    return replace(made, work=_members(work, WORK))
 
-    found = least_squares(off, np.ones_like(held), max_nfev=_LOOKS, diff_step=_STEP)
-    return put(found.x)
+
+def _soft(off: Array, usual: float) -> Array:
+    """Return weights by which errors that are large already count in proportion, not squared."""
+    return 1 / np.sqrt(1 + (off / usual) ** 2)
+
+
+def _members(task: Task, how: Fit) -> Networks:
+    task = replace(task, target=task.target[:, None], weight=task.weight[:, None])
+    return together([fit(task, how, seed=seed) for seed in range(MEMBERS)])
 
 
 def with_range(made: Solids, tests: Tests) -> Solids:
     """Return solids that know how far those learned from are from power laws."""
-    over = tests.like(made).first.over
-    sizes, axes = np.linalg.eigh(over.T @ over / len(over))
+    like = tests.like(made)
+    sizes, axes = np.linalg.eigh(like.over.T @ like.over / len(like.over))
     # directions in which hardly any solid differs are as far as the last ones in which some do
     made = replace(made, spread=axes / np.sqrt(np.maximum(sizes, 1e-4 * sizes[-1])))
-    like = tests.like(made)
-    return replace(made, farthest=np.array([like.first.unlike.max(), made.far(like).max()]))
+    return replace(made, farthest=np.array([like.unlike.max(), made.far(like).max()]))
 
 
-@dataclass(frozen=True, eq=False)
-class Judged:
-    """How far answers are off, and what the network of the errors is told.
-
-    Attributes
-    ----------
-    told : ndarray, shape (n, TRUST_INPUTS)
-    error : ndarray, shape (n, 4)
-        Of log10 of force and work, the largest of the curve over the pull-off force, and of log10
-        of the travel to zero force; that is nan for starts in tension.
-    """
-
-    told: Array
-    error: Array
-
-    def chosen(self, which: Any) -> Judged:
-        """Return the rows of a mask."""
-        return Judged(self.told[which], self.error[which])
-
-
-def judged(made: Solids, tests: Tests) -> Judged:
+def judged(made: Solids, tests: Tests) -> Apart:
     """Return how far answers are off on tests."""
     like = tests.like(made)
     said = made.evaluate(like)
@@ -212,10 +204,18 @@ def judged(made: Solids, tests: Tests) -> Judged:
     force = np.log10(said.pull_off_force / rows.force)
     work = np.log10(said.work_to_pull_off / rows.work)
     travel = travel_errors(made.power_law, rows, said)
-    return Judged(made.told(like, said), np.column_stack([force, work, curve, travel]))
+    return Apart(made.told(like, said), np.column_stack([force, work, curve, travel]))
 
 
-def trusted(made: Solids, known: Judged, kept: Judged) -> Solids:
+def across(made: Solids, tests: Tests) -> list[Apart]:
+    """Return how far answers are off where what they learned from has other tests only."""
+    fold = np.arange(len(tests)) % _FOLDS
+    return [
+        judged(bent(made, tests.chosen(fold != i)), tests.chosen(fold == i)) for i in range(_FOLDS)
+    ]
+
+
+def trusted(made: Solids, known: Apart, kept: Apart) -> Solids:
     """Return solids with intervals: their reach from all, their levels from those kept apart.
 
     Two networks of the reach learn from a half of those kept apart each, and each is judged by the
@@ -236,7 +236,7 @@ def trusted(made: Solids, known: Judged, kept: Judged) -> Solids:
     return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
 
 
-def scores(made: Solids, found: Judged, *, confidence: float = 0.9) -> dict[str, Any]:
+def scores(made: Solids, found: Apart, *, confidence: float = 0.9) -> dict[str, Any]:
     """Return what answers and intervals are worth on rows, ready for JSON."""
     widths = np.column_stack(made.trust.widths(found.told, confidence))
     answer: dict[str, Any] = {"rows": len(found.told)}
@@ -260,9 +260,9 @@ def make(table: Any) -> tuple[Solids, dict[str, Any]]:
     """Return what was learned from a table, and what it is worth."""
     tests = read(table)
     part = {name: tests.chosen(mask) for name, mask in parts(tests).items()}
-    made = with_range(learned(part["learn"], first()), part["learn"])
-    known = [judged(made, part["learn"]), judged(made, power_laws(_THINNED))]
-    both = Judged(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Judged)))
+    made = with_range(bent(unbent(), part["learn"]), part["learn"])
+    known = [*across(made, part["learn"]), judged(made, power_laws(_THINNED))]
+    both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
     made = trusted(made, both, judged(made, part["measure"]))
     judge = part["judge"]
     even = judge.number < CHOSEN
@@ -275,22 +275,24 @@ def make(table: Any) -> tuple[Solids, dict[str, Any]]:
     return made, {"rows": counts, "scores": found}
 
 
+def tables(path: Path | None, *, rows: int | None) -> Any:
+    """Return the rows of the sets `solids` and `rough`, or of a file, so many of each at most."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    found = [datasets.load(name) for name in LEARNED] if path is None else [pq.read_table(path)]
+    return pa.concat_tables(one.slice(0, rows).replace_schema_metadata() for one in found)
+
+
 def main() -> None:
     """Learn, measure, write and say what it is worth."""
     parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.solids")
     parser.add_argument("--out", type=Path, required=True, help="folder of the file")
-    parser.add_argument("--table", type=Path, help="Parquet file in place of the set `solids`")
-    parser.add_argument("--rows", type=int, help="only so many rows, from the beginning")
+    parser.add_argument("--table", type=Path, help="Parquet file in place of the sets")
+    parser.add_argument("--rows", type=int, help="only so many rows of each, from the beginning")
     given = parser.parse_args()
     began = perf_counter()
-    if given.table is None:
-        table = datasets.load("solids")
-    else:
-        import pyarrow.parquet as pq
-
-        table = pq.read_table(given.table)
-    table = table.slice(0, given.rows or table.num_rows)
-    made, found = make(table)
+    made, found = make(tables(given.table, rows=given.rows))
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
