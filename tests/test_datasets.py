@@ -104,9 +104,10 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     name, table = named
     facts = datasets.metadata(name)
     assert table.num_rows + len(facts["failures"]) == facts["cases"]
-    # these are drawn on faces and edges too, where two in a thousand are not resolved
-    drawn_there = name in ("steep", "fresh", "unseen", "hard", "punch_faces")
-    assert len(facts["failures"]) < (3e-3 if drawn_there else 1e-3) * facts["cases"]
+    # these are drawn on faces and edges too, where two in a thousand are not resolved, and four of
+    # those drawn where errors are large
+    most = dict.fromkeys(("fresh", "unseen", "hard", "punch_faces"), 3e-3) | {"steep": 5e-3}
+    assert len(facts["failures"]) < most.get(name, 1e-3) * facts["cases"]
 
 
 def test_what_a_set_says_is_consistent(named):
@@ -169,7 +170,7 @@ def test_stated_errors_are_no_less_than_what_was_found_and_seldom_above_the_targ
     assert np.mean(force > targets.force) < 0.01
     # those that measure and judge are run once more only, `solids` and `rough` not at all
     few = dict.fromkeys(("fresh", "unseen", "hard", "steep", "punch_faces", "rough"), 0.03)
-    most = (few | {"solids": 0.08}).get(name, 0.01)
+    most = (few | {"unseen": 0.04, "solids": 0.08}).get(name, 0.01)
     assert np.mean(work > np.maximum(targets.work, least_work)) < most
 
 
@@ -286,7 +287,7 @@ def test_a_set_can_be_made_again_and_misses_are_run_finer(tmp_path):
     for row, stored in zip(made, whole, strict=True):
         # how often a case was run again depends on what the solver of the day says of its errors
         finest = row["accuracy"] == 2e-3 / 16
-        assert finest or row["error_estimate"] <= Targets().force
+        assert finest or row["force_error"] <= Targets().force
         assert row["pull_off_stress"] == pytest.approx(stored["pull_off_stress"], rel=1e-3, abs=0)
     strict = Targets(force=1e-5, work=1e-5)
     made = pq.read_table(make("punch", tmp_path / "b", cases=2, targets=strict)).to_pylist()

@@ -102,9 +102,9 @@ def assert_same_digits(exported, surrogate, groups):
             continue
         assert np.isfinite(value).all()
         size = np.abs(value) if value.ndim == 1 else np.abs(value).max(axis=1, keepdims=True)
-        # widths are told by small differences of networks, and by parts of short ways
+        # widths are told by small differences of networks, and by parts of ways of 1e-4
         width = name.endswith(("_band", "_interval"))
-        limit = 30 * DIGITS if width else DIGITS
+        limit = 1e-8 if width else DIGITS
         assert np.max(np.abs(found[name] - value) / size) < limit, name
 
 

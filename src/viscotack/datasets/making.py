@@ -149,7 +149,8 @@ def write_dataset(
     for store in stores:
         accuracy = store.settings.accuracy
         for row in store.results().to_pylist():
-            rows[row["name"]] = row | {"accuracy": accuracy}
+            if row["error_estimate"] is not None:  # else nobody knows what it is worth
+                rows[row["name"]] = row | {"accuracy": accuracy}
     planned = [case.name for case in stores[0].plan().cases[:cases]]
     solved = [rows[case] for case in planned if case in rows]
     kind = stores[0].provenance["kind"]

@@ -31,7 +31,8 @@ import numpy.typing as npt
 from viscotack.theory import lennard_jones
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Answers, Intervals, Surrogate
+    from viscotack.surrogate.answers import Answers, Intervals
+    from viscotack.surrogate.model import Surrogate
 
 Array = npt.NDArray[np.float64]
 

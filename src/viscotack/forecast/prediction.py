@@ -17,7 +17,8 @@ from viscotack.problem.record import run_id, to_dict
 from viscotack.result.trajectory import PRESSED
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.model import Curves, Intervals
+    from viscotack.surrogate.answers import Intervals
+    from viscotack.surrogate.line import Curves
 
 MEASURED, NOT_MEASURED = "measured", "not measured"
 

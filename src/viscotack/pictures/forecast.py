@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from viscotack.surrogate.model import Curves
+    from viscotack.surrogate.line import Curves
 
 Array = npt.NDArray[np.float64]
 

@@ -14,72 +14,16 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from viscotack.errors import InputError
 
 from . import physics
+from .answers import Answers, Intervals
 from .line import Curves, curves
 from .network import Networks
-from .physics import INPUTS, LIMITS, START, Array
+from .physics import LIMITS, START, Array
 from .slopes import Sloped, by_logarithms
 from .trust import Trust, error_inputs
 
-__all__ = ["INPUTS", "Answers", "Curves", "Intervals", "Surrogate"]
 Bent = Callable[[Array], tuple[Array, Array]]
 _STARTS = 64
 _REFINEMENTS = 4
-
-
-@dataclass(frozen=True, eq=False)
-class Answers:
-    """Predicted numbers of some rows, dimensionless; arrays of shape (n,).
-
-    Attributes
-    ----------
-    pull_off_force : ndarray
-        [1.5 pi R dg0], positive.
-    work_to_pull_off : ndarray
-        [1.5 pi R dg0 h0], from zero force or from a start in tension.
-    force_spread, work_spread : ndarray
-        Standard deviation of log10 among the networks.
-    way, share : ndarray
-        From the slow limit of the force to the fast one, log10, and the part of it that is covered.
-    """
-
-    pull_off_force: Array
-    work_to_pull_off: Array
-    force_spread: Array
-    work_spread: Array
-    way: Array
-    share: Array
-
-
-@dataclass(frozen=True, eq=False)
-class Intervals:
-    """Between what the simulated numbers are.
-
-    Attributes
-    ----------
-    pull_off_force, work_to_pull_off : ndarray, shape (n, 2)
-        As in :class:`Answers`.
-    curve : ndarray, shape (n,)
-        How far forces in tension are off at worst, over the pull-off force, at the same travel from
-        zero force or from a start in tension.
-    travel : ndarray, shape (n, 2)
-        From a pressed start to zero force, over what a curve has.
-    """
-
-    pull_off_force: Array
-    work_to_pull_off: Array
-    curve: Array
-    travel: Array
-
-
-def intervals_of(trust: Trust, inputs: Array, answers: Answers, confidence: float) -> Intervals:
-    """Return intervals around answers, as wide as a network of the errors says of its inputs."""
-    *halves, curve, travel = trust.widths(inputs, confidence)
-    values = answers.pull_off_force, answers.work_to_pull_off
-    force, work = (
-        np.column_stack([v / 10**half, v * 10**half])
-        for v, half in zip(values, halves, strict=True)
-    )
-    return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,7 +141,7 @@ class Surrogate:
             If the confidence is not one of those that were measured.
         """
         inputs = error_inputs(physics.scaled(_rows(groups)), answers)
-        return intervals_of(self.trust, inputs, answers, confidence)
+        return self.trust.intervals(inputs, answers, confidence)
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the derivatives of log force and log work by the logarithms of the inputs, exact.

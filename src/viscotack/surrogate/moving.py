@@ -19,7 +19,8 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 
 from . import physics
-from .model import Answers, Intervals, Surrogate
+from .answers import Answers, Intervals
+from .model import Surrogate
 from .physics import Array
 from .trust import CONFIDENCES
 

@@ -22,8 +22,9 @@ from viscotack.errors import InputError
 
 from . import physics, sealed
 from . import punch_physics as punch
+from .answers import Answers, Intervals
 from .line import OUTPUTS, Curves, curves
-from .model import Answers, Intervals, Scaled, intervals_of
+from .model import Scaled
 from .network import Networks, from_arrays
 from .punch_physics import Array
 from .trust import CONFIDENCES, INPUTS, OF, Trust, error_inputs
@@ -168,7 +169,7 @@ class PunchSurrogate:
             If the confidence is not one of those that were measured.
         """
         inputs = error_inputs(punch.scaled(np.asarray(groups, dtype=float)), answers)
-        return intervals_of(self.trust, inputs, answers, confidence)
+        return self.trust.intervals(inputs, answers, confidence)
 
     def start_depth(self, size: float, thickness: float, force: float) -> float:
         """Return the depth [h0] of the relaxed start with a mean stress [sigma0].

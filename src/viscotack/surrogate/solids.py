@@ -33,7 +33,9 @@ from viscotack.errors import InputError
 
 from . import physics, sealed, store
 from .alike import DECADES, Alike, alike, climbed
-from .model import Answers, Curves, Intervals, Scaled, Surrogate, intervals_of
+from .answers import Answers, Intervals
+from .line import Curves
+from .model import Scaled, Surrogate
 from .network import Networks, from_arrays
 from .trust import CONFIDENCES, INPUTS, OF, Trust, error_inputs
 
@@ -165,7 +167,7 @@ class Solids:
         ValueError
             If the confidence is not one of those that were measured.
         """
-        return intervals_of(self.trust, self.told(like, answers), answers, confidence)
+        return self.trust.intervals(self.told(like, answers), answers, confidence)
 
 
 def begin_inputs(tests: tuple[Array, Array, Array], creep: Array) -> Array:

@@ -10,7 +10,6 @@ as many times that wide as held the wanted share of cases from which no network 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -18,10 +17,8 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 
 from . import physics
+from .answers import Answers, Intervals
 from .network import Networks
-
-if TYPE_CHECKING:
-    from .model import Answers
 
 Array = npt.NDArray[np.float64]
 
@@ -96,3 +93,13 @@ class Trust:
         usual = 10.0 ** self.reach(inputs).mean(axis=0)
         level = self.levels[:, CONFIDENCES.index(confidence)]
         return tuple(usual[:, i] * level[i] for i in range(len(OF)))
+
+    def intervals(self, inputs: Array, answers: Answers, confidence: float) -> Intervals:
+        """Return intervals around answers, so wide where the network is told these inputs."""
+        *halves, curve, travel = self.widths(inputs, confidence)
+        values = answers.pull_off_force, answers.work_to_pull_off
+        force, work = (
+            np.column_stack([v / 10**half, v * 10**half])
+            for v, half in zip(values, halves, strict=True)
+        )
+        return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))

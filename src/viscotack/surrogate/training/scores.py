@@ -11,7 +11,8 @@ from scipy.interpolate import PchipInterpolator
 from viscotack.result.trajectory import PRESSED
 
 from .. import physics
-from ..model import Answers, Surrogate
+from ..answers import Answers
+from ..model import Surrogate
 from ..network import Networks, together
 from ..physics import Array
 from .fitting import Fit
