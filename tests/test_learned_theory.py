@@ -9,7 +9,7 @@ import viscotack as vt
 from viscotack.campaign.columns import KINDS
 from viscotack.forecast.answer import learned_prediction
 from viscotack.surrogate import physics, short_range
-from viscotack.surrogate.model import INPUTS
+from viscotack.surrogate.physics import INPUTS
 from viscotack.theory import lennard_jones
 
 CASE = {

@@ -12,8 +12,9 @@ from viscotack.campaign.columns import KINDS
 from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import line, physics, store
-from viscotack.surrogate.model import INPUTS, Scaled, Surrogate
+from viscotack.surrogate.model import Scaled, Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
+from viscotack.surrogate.physics import INPUTS
 from viscotack.surrogate.store import shipped
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, error_inputs
 from viscotack.surrogate.trust import INPUTS as TOLD
