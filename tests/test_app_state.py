@@ -212,6 +212,20 @@ def test_an_elastic_pad_comes_off_as_a_crack_or_at_its_strength(work, is_crack):
     assert elastic["force"][0] == pytest.approx(2e3)
 
 
+def test_another_solid_has_what_was_learned_of_solids_and_its_speeds():
+    branches = [["6 MPa", "1 ms"], ["3 MPa", "1 s"]]
+    prony = {"model": "prony", "rubbery_modulus": "1 MPa", "branches": branches}
+    state = State(FIRST | {"material": prony | {"poisson_ratio": 0.5}})
+    found = quick(state)
+    speeds, (learned, *_) = found["speeds"], found["numbers"]
+    assert learned["method"] == "surrogate of solids"
+    here = np.interp(np.log(speeds["here"]), np.log(speeds["speed"]), speeds["force"])
+    assert here == pytest.approx(learned["value"], rel=0.02)
+    low, force, high = (np.array(speeds[name]) for name in ("low", "force", "high"))
+    assert np.all((low < force) & (force < high)) and force[-1] > 1.5 * force[0]
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+
+
 def test_a_pad_has_what_was_learned_of_punches_and_its_speeds():
     state = State(EXAMPLES["A flat punch on a soft layer"])
     found, problem = quick(state), state.problem

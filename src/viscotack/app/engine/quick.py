@@ -5,9 +5,11 @@ simulates, and no theory is asked that may take seconds. Curves are in SI, force
 mean stress) positive in compression, depth positive into the solid.
 """
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy.optimize import brentq
 
 from viscotack.errors import InputError, OutOfRange
@@ -16,6 +18,7 @@ from viscotack.forecast.answer import learned_prediction
 from viscotack.forecast.punches import inputs_of
 from viscotack.forecast.table import predict_table
 from viscotack.geometry import FlatPunch, Layer
+from viscotack.materials import RetardationPowerLaw
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import PLANE, REVOLUTION
 from viscotack.problem.problem import PunchGroups
@@ -28,6 +31,7 @@ from viscotack.theory.punch import Pad, unloading
 from .plain import drawn, plain
 from .state import State
 
+Array = npt.NDArray[np.float64]
 # Speeds of the picture of force against speed, and how many decades around the present one.
 _SPEEDS, _DECADES = 41, 4.0
 _POINTS = 80
@@ -243,30 +247,49 @@ def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
     """Return the pull-off force at other speeds, all at once, as far as it was learned."""
     groups, scales = problem.groups(), problem.scales()
     assert isinstance(groups, Groups) and groups.rate is not None
-    low, high = store.shipped().limits["rate"]
-    least = max(low * 1.0001, groups.rate * 10**-_DECADES)
-    most = min(high / 1.0001, groups.rate * 10**_DECADES)
-    rates = np.geomspace(least, most, _SPEEDS)
-    (field,) = vars(groups.start).values()
-    same = {
-        "tabor": groups.tabor,
-        "modulus_ratio": groups.modulus_ratio,
-        "exponent": groups.material.exponent,  # type: ignore[union-attr]
-        _INPUTS[type(groups.start)]: field,  # type: ignore[index]
-    }
-    columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
-    answers = predict_table(columns, confidence=confidence)
-    unit = scales.length / scales.time
-    forces = ("pull_off_force", "pull_off_force_low", "pull_off_force_high")
-    value, below, above = (drawn(answers[name] * scales.force) for name in forces)
+    least, most = groups.rate * 10**-_DECADES, groups.rate * 10**_DECADES
+    if isinstance(groups.material, RetardationPowerLaw):
+        low, high = store.shipped().limits["rate"]
+        rates = np.geomspace(max(low * 1.0001, least), min(high / 1.0001, most), _SPEEDS)
+        forces = _of_power_law(groups, groups.material.exponent, rates, confidence)
+    else:
+        rates, forces = _of_solid(groups, np.geomspace(least, most, _SPEEDS), confidence)
+    value, below, above = (drawn(each * scales.force) for each in forces)
     return {
-        "speed": drawn(rates * unit),
+        "speed": drawn(rates * scales.length / scales.time),
         "force": value,
         "low": below,
         "high": above,
         "here": problem.protocol.speed,
         "words": "surrogate",
     }
+
+
+def _of_power_law(groups: Groups, exponent: float, rates: Array, confidence: float) -> list[Array]:
+    """Return forces at some rates and the ends of their intervals."""
+    (field,) = vars(groups.start).values()
+    same = {
+        "tabor": groups.tabor,
+        "modulus_ratio": groups.modulus_ratio,
+        "exponent": exponent,
+        _INPUTS[type(groups.start)]: field,  # type: ignore[index]
+    }
+    columns = {name: np.full(_SPEEDS, value) for name, value in same.items()} | {"rate": rates}
+    answers = predict_table(columns, confidence=confidence)
+    return [answers[f"pull_off_force{end}"] for end in ("", "_low", "_high")]
+
+
+def _of_solid(groups: Groups, rates: Array, confidence: float) -> tuple[Array, Array]:
+    """Return the rates at which another solid is like those learned from, and the same forces."""
+    found = []
+    for rate in rates.tolist():
+        try:
+            one = learned_prediction(replace(groups, rate=rate), confidence=confidence)
+        except OutOfRange:
+            continue
+        found.append((rate, one.value, *one.interval))
+    columns = np.array(found).T
+    return columns[0], columns[1:]
 
 
 def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
