@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from viscotack.bem import Settings, march, solve
 from viscotack.bem.frame import Passage, Way, along, farthest, widths
 from viscotack.bem.memory import Memory, step
-from viscotack.materials import Elastic, Modes, StandardSolid
+from viscotack.materials import Elastic, Modes, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
@@ -175,6 +175,17 @@ def test_a_short_range_takes_no_more_steps_than_a_long_one():
 
 
 @pytest.mark.march
+def test_a_contact_whose_edge_is_lost_on_other_nodes_goes_on():
+    solid = RetardationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=1e4, exponent=2.0, tau0=1.0, poisson_ratio=0.0
+    )
+    groups = Groups(tabor=10.0, material=solid, start=AtDepth(52.7058), rate=1329380.0)
+    result = solve(groups, until="pull-off", accuracy=2e-3)
+    # runs of four accuracies are between 65.9 and 66.8, which they state as uncertain
+    assert result.error_estimate["force"] < 0.03
+    assert pull_off_force(result) == pytest.approx(66.3, rel=0.015)
+
+
 def test_an_elastic_contact_of_short_range_is_that_of_jkr():
     elastic = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     result = marched(contact(tabor=30.0, material=elastic))

@@ -173,7 +173,8 @@ def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
     if not grown and not (near and mesh.left_by(there)):
         return at
     moved = around_edge(run.body, at, there if near else at.seen.edge)
-    if not isinstance(moved, Place):
+    # where a contact is about to be lost there may be an edge on the one, and none on the other
+    if not isinstance(moved, Place) or not np.isfinite(moved.seen.edge):
         return at
     work, gone = lost(at, moved)
     books = moved.books
