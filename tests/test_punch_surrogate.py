@@ -257,6 +257,12 @@ def test_rows_kept_apart_are_told_as_well_as_the_page_says():
 # where it ends
 
 
+def test_a_picture_of_a_punch_speaks_of_stress():
+    axes = vt.draw_prediction(vt.predict(punch_of(rate=10.0))).axes[0]
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert "zero stress, interval" in labels and axes.get_ylabel().startswith("mean stress")
+
+
 def test_what_was_not_learned_is_refused_in_words():
     glued = punch_of(base=vt.Bonded(poisson_ratio=0.4))
     power_law = vt.RetardationPowerLaw(

@@ -112,5 +112,6 @@ def _band(axes: Axes, prediction: Prediction, length: float, load: float) -> Non
     axes.fill_between(curve.depth[tense] * length, low * load, high * load, **shade)
     if prediction.zero_force_interval is not None:
         ends = np.array(prediction.zero_force_interval) * length
-        label = "zero force, interval"
+        kind = prediction.problem.groups().outputs
+        label = f"zero {'force' if kind is REVOLUTION else 'stress'}, interval"
         axes.plot(ends, [0.0, 0.0], "|-", color="C1", ms=10, zorder=0.6, label=label)
