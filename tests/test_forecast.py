@@ -10,7 +10,7 @@ import viscotack as vt
 from viscotack.campaign.case import curve
 from viscotack.forecast import advice
 from viscotack.forecast import table as forecast_table
-from viscotack.surrogate import model, store
+from viscotack.surrogate import physics, store
 from viscotack.theory import lennard_jones
 
 CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
@@ -184,7 +184,7 @@ def test_the_summary_has_the_names_of_a_simulation():
 # Outside -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", model.INPUTS)
+@pytest.mark.parametrize("name", physics.INPUTS)
 @pytest.mark.parametrize("end", [0, 1])
 def test_outside_the_range_it_is_no_longer_the_surrogate_that_answers(name, end):
     bound = store.shipped().limits[name][end]
