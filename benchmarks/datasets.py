@@ -34,7 +34,7 @@ BESIDE = {
 
 def inputs_of(row: dict[str, Any]) -> tuple[str, dict[str, float]]:
     """Return kind and inputs of a row."""
-    kind = "punch" if "size" in row else "sphere"
+    kind = "punch" if "size" in row else "solid" if "solid" in row else "sphere"
     names = {*KINDS[kind].columns, "preload"}
     return kind, {name: row[name] for name in names}
 
