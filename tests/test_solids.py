@@ -141,7 +141,8 @@ def test_a_start_by_force_is_one_by_its_depth_with_a_wider_interval():
     depth = store.shipped().start_depth(1.0, force=5.0)
     by_depth = vt.predict(sphere(SOLIDS["prony"], preload=depth))
     assert by_force.value == pytest.approx(by_depth.value, rel=1e-9, abs=0)
-    assert by_force.interval[1] >= by_depth.interval[1]
+    # as wide at least, but for the rounding of the two values
+    assert by_force.interval[1] >= by_depth.interval[1] * (1 - 1e-12)
 
 
 def test_its_curve_ends_at_the_pull_off_and_has_a_band():
