@@ -22,6 +22,7 @@ from viscotack.traction.growing import check_of_gap_alone
 from .beyond import beyond
 from .prediction import MEASURED, Prediction, with_curve
 from .punches import by_learned_punch
+from .refusals import other_test, out_of_range
 from .solids import LEARNED_SOLID, alike_words, like_of, unlike_words
 from .theory import by_crack, by_learned_theory, by_theory
 
@@ -309,16 +310,11 @@ def check_confidence(confidence: float) -> None:
 
 def _out_words(name: str, value: float, limits: tuple[float, float], problem: Case) -> str:
     """Return that an input is out of the range of the surrogate, with its value and the range."""
-    unit, si = _UNITS.get(name, ""), ""
+    unit, si = _UNITS.get(name, ""), None
     if unit and (scales := problem.scales()) is not None:
-        length = scales.length if name == "preload" else scales.length / scales.time
-        si = f" ({value * length:.3g} {'m' if name == 'preload' else 'm/s'})"
-    least, most = limits
-    return (
-        f"{name} is {value:.4g} {unit}".rstrip()
-        + f"{si}, and {least:.4g} to {most:.4g} {unit}".rstrip()
-        + " was learned from"
-    )
+        speed = scales.length / scales.time
+        si = (scales.length, "m") if name == "preload" else (speed, "m/s")
+    return out_of_range(name, value, limits, unit, si)
 
 
 def _learned() -> Surrogate:
@@ -353,19 +349,7 @@ def _unlearned(groups: Groups) -> str:
     """Return in words why neither the surrogate nor the theories of a sphere know a test."""
     if not isinstance(groups.geometry, Sphere):
         return f"what was learned is for spheres, got a {groups.geometry.word}"
-    found = ""
-    if not isinstance(groups.start, Start):
-        found = f"the test begins {groups.start!r}"
-    elif groups.moves:
-        found = f"the machine moves before the retraction: {groups.moves[0]!r}"
-    elif groups.stiffness is not None:
-        found = f"the machine has a stiffness of {groups.stiffness:.4g} x 1.5 pi R dg0/h0"
-    if not found:
-        return ""
-    return (
-        f"{found}; what was learned is for a relaxed contact that a rigid machine pulls off at a "
-        "constant speed"
-    )
+    return other_test(groups, Start, "x 1.5 pi R dg0/h0")
 
 
 def _inputs(groups: Groups, learned: Surrogate, problem: Case) -> _Inputs:

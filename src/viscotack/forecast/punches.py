@@ -15,6 +15,7 @@ from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
 from .prediction import MEASURED, Prediction, with_curve
+from .refusals import other_test, out_of_range
 from .theory import SIMULATE
 
 if TYPE_CHECKING:
@@ -117,19 +118,7 @@ def _unlearned(groups: PunchGroups) -> str:
     if not isinstance(material, Prony | StandardSolid):
         name = type(material).__name__
         return f"the solid is {name}, and of punches standard solids alone were learned from"
-    found = ""
-    if not isinstance(groups.start, AtDepth | AtForce):
-        found = f"the test begins {groups.start!r}"
-    elif groups.moves:
-        found = f"the machine moves before the retraction: {groups.moves[0]!r}"
-    elif groups.stiffness is not None:
-        found = f"the machine has a stiffness of {groups.stiffness:.4g} sigma0/h0"
-    if not found:
-        return ""
-    return (
-        f"{found}; what was learned is for a relaxed contact that a rigid machine pulls off at a "
-        "constant speed"
-    )
+    return other_test(groups, AtDepth | AtForce, "sigma0/h0")
 
 
 def _row(groups: PunchGroups, learned: PunchSurrogate) -> Array:
@@ -164,20 +153,12 @@ def _out(row: Array, problem: Case, groups: PunchGroups, learned: PunchSurrogate
     inside, limits = learned.inside(row[None])[0], learned.limits(row[0], row[1])
     sized, units = inside[0] and inside[1], _si(problem, groups)
     found = []
-    for (name, (low, high)), value, fits in zip(limits.items(), row.tolist(), inside, strict=True):
+    for (name, ends), value, fits in zip(limits.items(), row.tolist(), inside, strict=True):
         # how deep a start may be depends on size and thickness
         if fits or (name == "preload" and not sized):
             continue
-        unit, si = _UNITS.get(name, ""), ""
-        if name in units:
-            scale, of = units[name]
-            si = f" ({value * scale:.3g} {of})"
-        where = " for this size and thickness" if name == "preload" else ""
-        found.append(
-            f"{name} is {value:.4g} {unit}".rstrip()
-            + f"{si}, and {low:.4g} to {high:.4g} {unit}".rstrip()
-            + f" was learned from{where}"
-        )
+        words = out_of_range(name, value, ends, _UNITS.get(name, ""), units.get(name))
+        found.append(f"{words} for this size and thickness" if name == "preload" else words)
     return found
 
 

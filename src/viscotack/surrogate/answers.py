@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from .physics import LEAST_WAY
+
 Array = npt.NDArray[np.float64]
 
 
@@ -30,6 +32,27 @@ class Answers:
     work_spread: Array
     way: Array
     share: Array
+
+
+def answered(forces: Array, works: Array, slow: Array, fast: Array) -> Answers:
+    """Return what several networks answer together.
+
+    Parameters
+    ----------
+    forces, works : ndarray, shape (m, n)
+        log10 of the force and of the work, as each network says it.
+    slow, fast : ndarray, shape (n,)
+        log10 of the limits of the force.
+    """
+    force, way = forces.mean(axis=0), np.maximum(fast - slow, LEAST_WAY)
+    return Answers(
+        pull_off_force=10**force,
+        work_to_pull_off=10 ** works.mean(axis=0),
+        force_spread=forces.std(axis=0),
+        work_spread=works.std(axis=0),
+        way=way,
+        share=(force - slow) / way,
+    )
 
 
 @dataclass(frozen=True, eq=False)

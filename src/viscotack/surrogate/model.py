@@ -14,9 +14,9 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from viscotack.errors import InputError
 
 from . import physics
-from .answers import Answers, Intervals
+from .answers import Answers, Intervals, answered
 from .line import Curves, curves
-from .network import Networks
+from .network import Networks, from_arrays
 from .physics import LIMITS, START, Array
 from .slopes import Sloped, by_logarithms
 from .trust import Trust, error_inputs
@@ -37,6 +37,17 @@ class Scaled:
     def __call__(self, inputs: Array) -> Array:
         """Return outputs in their own units, shape (m, n, outputs)."""
         return self.centre + self.spread * self.networks(inputs)
+
+    def arrays(self, before: str = "") -> dict[str, Array]:
+        """Return all arrays by names for a file, with something before each name."""
+        scale = {f"{before}centre": self.centre, f"{before}spread": self.spread}
+        return scale | self.networks.arrays(before)
+
+    @classmethod
+    def of(cls, arrays: Mapping[str, Array], before: str) -> "Scaled":
+        """Return what :meth:`arrays` was given for."""
+        networks = from_arrays(arrays, before)
+        return cls(networks, arrays[f"{before}centre"], arrays[f"{before}spread"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,18 +111,10 @@ class Surrogate:
             output = output + more
         forces = physics.between(slow, fast, output)
         force = forces.mean(axis=0)
-        way = np.maximum(fast.mean(axis=0) - slow, physics.LEAST_WAY)
         works = force + self.work(self._told(rows, force))[..., 0]
         if further is not None:
             works = works + further
-        return Answers(
-            pull_off_force=10**force,
-            work_to_pull_off=10 ** works.mean(axis=0),
-            force_spread=forces.std(axis=0),
-            work_spread=works.std(axis=0),
-            way=way,
-            share=(force - slow) / way,
-        )
+        return answered(forces, works, slow, fast.mean(axis=0))
 
     def curves(self, groups: npt.ArrayLike, answers: Answers) -> Curves:
         """Return the unloading curves that belong to the answers of the same rows."""

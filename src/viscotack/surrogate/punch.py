@@ -22,7 +22,7 @@ from viscotack.errors import InputError
 
 from . import physics, sealed
 from . import punch_physics as punch
-from .answers import Answers, Intervals
+from .answers import Answers, Intervals, answered
 from .line import OUTPUTS, Curves, curves
 from .model import Scaled
 from .network import Networks, from_arrays
@@ -41,7 +41,7 @@ _SHAPES = {
     "line": (len(punch.INPUTS) + 3, OUTPUTS),
     "trust": (INPUTS, len(OF)),
 }
-_SCALED = ("start", "work", "give", "line")
+_SCALED, _NETWORKS = ("start", "work", "give", "line"), ("slow", "fast", "stress")
 # Steps in which the depth of a start by force is sought, and depths in each.
 _LOOKS, _DEPTHS = 3, 24
 _FORM, _MOST = "viscotack punch 1", 5e6
@@ -122,16 +122,8 @@ class PunchSurrogate:
         slow, fast = self.way(rows)
         stresses = physics.between(slow, fast, self.stress(inputs)[..., 0])
         stress, least = stresses.mean(axis=0), slow.mean(axis=0)
-        way = np.maximum(fast.mean(axis=0) - least, physics.LEAST_WAY)
         works = stress + self.work(told(rows, least, stress))[..., 0]
-        return Answers(
-            pull_off_force=10**stress,
-            work_to_pull_off=10 ** works.mean(axis=0),
-            force_spread=stresses.std(axis=0),
-            work_spread=works.std(axis=0),
-            way=way,
-            share=(stress - least) / way,
-        )
+        return answered(stresses, works, least, fast.mean(axis=0))
 
     def curves(self, groups: npt.ArrayLike, answers: Answers) -> Curves:
         """Return the unloading curves that belong to the answers of the same rows.
@@ -218,12 +210,8 @@ def save(made: PunchSurrogate, path: str | os.PathLike[str], facts: Mapping[str,
     """Write a surrogate, and beside its arrays what is to be known of it."""
     arrays: dict[str, Any] = made.trust.reach.arrays("trust.")
     arrays["trust.levels"] = made.trust.levels
-    for name in (*_SCALED, "slow", "fast", "stress"):
-        part = getattr(made, name)
-        networks = part.networks if isinstance(part, Scaled) else part
-        if isinstance(part, Scaled):
-            arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
-        arrays |= networks.arrays(f"{name}.")
+    for name in (*_SCALED, *_NETWORKS):
+        arrays |= getattr(made, name).arrays(f"{name}.")
     sealed.write(path, arrays, _FORM, facts)
 
 
@@ -237,13 +225,9 @@ def load(path: str | os.PathLike[str]) -> tuple[PunchSurrogate, dict[str, Any]]:
     """
     with sealed.opened(path, _FORM, "the file of a surrogate of punches", _MOST) as (arrays, words):
         _check(arrays)
-        networks = {name: from_arrays(arrays, f"{name}.") for name in _SHAPES}
-        parts: dict[str, Any] = {
-            name: Scaled(networks[name], arrays[f"{name}.centre"], arrays[f"{name}.spread"])
-            for name in _SCALED
-        }
-        trust = Trust(networks["trust"], arrays["trust.levels"])
-        parts |= {name: networks[name] for name in ("slow", "fast", "stress")}
+        parts: dict[str, Any] = {name: Scaled.of(arrays, f"{name}.") for name in _SCALED}
+        parts |= {name: from_arrays(arrays, f"{name}.") for name in _NETWORKS}
+        trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
         return PunchSurrogate(**parts, trust=trust), words
 
 
@@ -276,5 +260,5 @@ def _check(arrays: Mapping[str, npt.NDArray[Any]]) -> None:
                 raise InputError(f"{name}.{part} must have {_SHAPES[name][1]} numbers")
     if arrays["trust.levels"].shape != (len(OF), len(CONFIDENCES)):
         raise InputError(f"trust.levels must have the shape {(len(OF), len(CONFIDENCES))}")
-    if len({len(arrays[f"{name}.weight.0"]) for name in ("slow", "fast", "stress")}) != 1:
+    if len({len(arrays[f"{name}.weight.0"]) for name in _NETWORKS}) != 1:
         raise InputError("each network of the stress must have limits of its own")

@@ -247,10 +247,8 @@ def save(made: Solids, path: str | os.PathLike[str], facts: dict[str, Any]) -> N
 
     The surrogate of power laws is not in the file; the file says which it goes with.
     """
-    arrays: dict[str, Any] = {"begin.centre": made.begin.centre, "begin.spread": made.begin.spread}
-    parts = {"begin": made.begin.networks, "force": made.force, "work": made.work}
-    for name, networks in (parts | {"trust": made.trust.reach}).items():
-        arrays |= networks.arrays(f"{name}.")
+    arrays: dict[str, Any] = made.begin.arrays("begin.") | made.force.arrays("force.")
+    arrays |= made.work.arrays("work.") | made.trust.reach.arrays("trust.")
     arrays |= {"trust.levels": made.trust.levels, "floor": np.array(made.floor)}
     arrays |= {name: getattr(made, name) for name in ("usual", "spread", "farthest")}
     sealed.write(path, arrays, _FORM, {"power law": _power_law(), **facts})
@@ -268,10 +266,9 @@ def load(path: str | os.PathLike[str]) -> tuple[Solids, dict[str, Any]]:
     with sealed.opened(path, _FORM, "what was learned of solids", _MOST) as (arrays, words):
         if words["power law"] != _power_law():
             raise InputError("it corrects another surrogate of power laws; learn it again")
-        begin = from_arrays(arrays, "begin.")
         made = Solids(
             power_law=store.shipped(),
-            begin=Scaled(begin, arrays["begin.centre"], arrays["begin.spread"]),
+            begin=Scaled.of(arrays, "begin."),
             floor=float(arrays["floor"]),
             usual=arrays["usual"],
             force=from_arrays(arrays, "force."),
@@ -316,9 +313,5 @@ def _power_law() -> str:
     """Return the checksum of what the surrogate of power laws says; its own intervals are apart."""
     arrays: dict[str, Any] = {}
     for name in _SAYS:
-        part = getattr(store.shipped(), name)
-        if isinstance(part, Scaled):
-            arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
-            part = part.networks
-        arrays |= part.arrays(f"{name}.")
+        arrays |= getattr(store.shipped(), name).arrays(f"{name}.")
     return sealed.checksum(arrays)

@@ -44,11 +44,7 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
     """
     arrays: dict[str, Any] = {}
     for name in ("start", "fast", "force", "work", "give", "line"):
-        part = getattr(surrogate, name)
-        networks = part.networks if isinstance(part, Scaled) else part
-        if isinstance(part, Scaled):
-            arrays |= {f"{name}.centre": part.centre, f"{name}.spread": part.spread}
-        arrays |= networks.arrays(f"{name}.")
+        arrays |= getattr(surrogate, name).arrays(f"{name}.")
     trust = surrogate.trust
     arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
     sealed.write(path, arrays, _FORM, facts)
@@ -85,12 +81,7 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
     with sealed.opened(path, _FORM, "the file of a surrogate", _MOST) as (arrays, words):
         _check(arrays)
-        scaled = {
-            name: Scaled(
-                from_arrays(arrays, f"{name}."), arrays[f"{name}.centre"], arrays[f"{name}.spread"]
-            )
-            for name in ("start", "work", "give", "line")
-        }
+        scaled = {name: Scaled.of(arrays, f"{name}.") for name in ("start", "work", "give", "line")}
         trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
         fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
         return Surrogate(fast=fast, force=force, trust=trust, **scaled), words

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from .. import physics
+from ..answers import Answers
 from ..model import Surrogate
 from ..network import together
 from ..physics import Array
@@ -63,13 +64,29 @@ class Apart:
 def judged(surrogate: Surrogate, rows: Rows) -> Apart:
     """Return how far a surrogate is off on some rows."""
     said = surrogate.evaluate(rows.groups)
+    inputs = error_inputs(physics.scaled(rows.groups), said)
+    return Apart(inputs, errors_of(surrogate, rows, said))
+
+
+def errors_of(asked: Any, rows: Rows, said: Answers) -> Array:
+    """Return how far answers and the curves that go with them are off, as :class:`Apart` has it.
+
+    Parameters
+    ----------
+    asked : Surrogate or PunchSurrogate
+        Whose curves they are.
+    rows : Rows
+        What was simulated.
+    said : Answers
+        To these rows.
+    """
     errors = (
         np.log10(said.pull_off_force / rows.force),
         np.log10(said.work_to_pull_off / rows.work),
-        np.nanmax(np.abs(curve_errors(surrogate, rows, said)), axis=1),
-        travel_errors(surrogate, rows, said),
+        np.nanmax(np.abs(curve_errors(asked, rows, said)), axis=1),
+        travel_errors(asked, rows, said),
     )
-    return Apart(error_inputs(physics.scaled(rows.groups), said), np.column_stack(errors))
+    return np.column_stack(errors)
 
 
 def trusted(
@@ -101,7 +118,7 @@ def trusted(
     """
     halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
     begun = [
-        [shop.fit(_reach(learned, [*half, hard]), how, seed=seed) for seed in range(_MEMBERS)]
+        [shop.fit(reach_task(learned, [*half, hard]), how, seed=seed) for seed in range(_MEMBERS)]
         for half in halves
     ]
     members = [together([one.result() for one in several]) for several in begun]
@@ -113,15 +130,15 @@ def trusted(
     return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
 
 
-def _reach(learned: Apart, kept: Sequence[Apart]) -> Task:
-    """Return the task to learn how far errors reach."""
+def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = _WEIGHT) -> Task:
+    """Return the task to learn how far errors reach, from rows kept apart by so much more."""
     inputs = np.concatenate([one.told for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
     known = np.isfinite(error)
     target = np.log10(np.maximum(np.where(known, np.abs(error), 1.0), LEAST))
-    weight = known.astype(float)
-    weight[len(learned.told) :] *= _WEIGHT
-    return Task(inputs, target, weight, quantile=REACH)
+    counts = known.astype(float)
+    counts[len(learned.told) :] *= weight
+    return Task(inputs, target, counts, quantile=REACH)
 
 
 def untested() -> Array:

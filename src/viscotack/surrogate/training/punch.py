@@ -36,11 +36,12 @@ from ..network import Networks, added, together
 from ..punch import PunchSurrogate, told, with_work
 from ..punch_physics import Array
 from ..trust import OF, Trust, error_inputs
-from .calibration import HOW, LEAST, REACH, Apart, levels_of, untested
+from .calibration import HOW, Apart, errors_of, levels_of, reach_task, untested
+from .calibration import scored as of_reach
 from .fitting import Fit, Task
+from .recipe import scaled_task
 from .recipe import untested as everywhere_alike
 from .rows import Rows, joined, of_table
-from .scores import curve_errors, travel_errors
 from .shop import Shop
 
 LEARNED, LIMITS, FACES = ("punch", "punch_starts"), "punch_limits", "punch_faces"
@@ -48,10 +49,6 @@ LEARNED, LIMITS, FACES = ("punch", "punch_starts"), "punch_limits", "punch_faces
 _MEASURING, _JUDGING, _SEED = 0.1, 0.1, 2026
 # Networks of each kind but the line.
 _MEMBERS = 3
-# How many times a row that measures counts in learning how far errors reach.
-_WEIGHT = 8.0
-# A value that hardly varies is not worth all of the network's attention.
-_LEAST_SPREAD = 0.03
 
 
 @dataclass(frozen=True)
@@ -92,7 +89,7 @@ def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> 
     elastic = limits.groups[:, physics.MODULUS_RATIO] == 1
     slow, fast = limits.chosen(elastic), limits.chosen(~elastic)
     everything = joined([rows, limits])
-    start = _begin_scaled(
+    starting = _begin_scaled(
         physics.scaled(everything.groups)[:, physics.START],
         np.log10(everything.start_force) - _log(physics.stressed(everything.groups)),
         START,
@@ -101,14 +98,16 @@ def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> 
     )
     slows = _limit(slow, physics.SLOW, physics.least(slow.groups), SLOW, shop)
     fasts = _limit(fast, physics.FAST, physics.least_fast(fast.groups), FAST, shop)
+    start, fast_networks = starting(), fasts()
+    # what is not learned yet has a place holder
     made = PunchSurrogate(
-        start=start(),
+        start=start,
         slow=slows(),
-        fast=fasts(),
-        stress=fasts(),
-        work=start(),
-        give=start(),
-        line=start(),
+        fast=fast_networks,
+        stress=fast_networks,
+        work=start,
+        give=start,
+        line=start,
         trust=everywhere_alike(),
     )
     said("limits")
@@ -123,7 +122,7 @@ def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> 
     stresses = _twice(tasks, STRESS, shop)
     works = _begin_scaled(known, np.log10(rows.work) - log, WORK, shop)
     gives = _begin_scaled(known, give, GIVE, shop)
-    line, *of_line = _scaled(with_work(known, rows.work), rows.line, rows.known)
+    line, *of_line = scaled_task(with_work(known, rows.work), rows.line, rows.known)
     shapes = shop.fit(line, LINE)
     made = replace(
         made,
@@ -170,31 +169,15 @@ def _begin_scaled(
     inputs: Array, target: Array, looks: Looks, shop: Shop, *, members: int = _MEMBERS
 ) -> Callable[[], Scaled]:
     """Begin to learn one output that is scaled by its mean and deviation."""
-    task, centre, spread = _scaled(inputs, target[:, None], np.ones((len(target), 1)))
+    task, centre, spread = scaled_task(inputs, target[:, None])
     begun = _twice([task] * members, looks, shop)
     return lambda: Scaled(begun(), centre, spread)
 
 
-def _scaled(inputs: Array, target: Array, known: Array) -> tuple[Task, Array, Array]:
-    """Return the task to learn scaled targets, and centre and spread of each."""
-    count = known.sum(axis=0)
-    centre = (known * target).sum(axis=0) / count
-    spread = np.sqrt((known * (target - centre) ** 2).sum(axis=0) / count)
-    spread = np.maximum(spread, _LEAST_SPREAD)
-    return Task(inputs, (target - centre) / spread, known), centre, spread
-
-
 def judged(made: PunchSurrogate, rows: Rows) -> Apart:
     """Return how far a surrogate is off on some rows."""
-    said: Any = made.evaluate(rows.groups)
-    duck: Any = made
-    errors = (
-        np.log10(said.pull_off_force / rows.force),
-        np.log10(said.work_to_pull_off / rows.work),
-        np.nanmax(np.abs(curve_errors(duck, rows, said)), axis=1),
-        travel_errors(duck, rows, said),
-    )
-    return Apart(error_inputs(physics.scaled(rows.groups), said), np.column_stack(errors))
+    said = made.evaluate(rows.groups)
+    return Apart(error_inputs(physics.scaled(rows.groups), said), errors_of(made, rows, said))
 
 
 def trusted(made: PunchSurrogate, learned: Apart, kept: Apart, shop: Shop) -> PunchSurrogate:
@@ -204,27 +187,13 @@ def trusted(made: PunchSurrogate, learned: Apart, kept: Apart, shop: Shop) -> Pu
     judged by the other half, as :mod:`.calibration` has it.
     """
     halves = [kept.chosen(np.arange(len(kept.error)) % 2 == half) for half in (0, 1)]
-    begun = [shop.fit(_reach(learned, half), HOW, seed=i) for i, half in enumerate(halves)]
+    begun = [shop.fit(reach_task(learned, [half]), HOW, seed=i) for i, half in enumerate(halves)]
     members = [one.result() for one in begun]
     scores = [
-        _scores(Trust(one, untested()), half)
+        of_reach(Trust(one, untested()), half)
         for one, half in zip(members, halves[::-1], strict=True)
     ]
     return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
-
-
-def _reach(learned: Apart, kept: Apart) -> Task:
-    error = np.concatenate([learned.error, kept.error])
-    target = np.log10(np.maximum(np.abs(error), LEAST))
-    weight = np.ones_like(target)
-    weight[len(learned.error) :] *= _WEIGHT
-    return Task(np.concatenate([learned.told, kept.told]), target, weight, quantile=REACH)
-
-
-def _scores(trust: Trust, errors: Apart, confidence: float = 0.5) -> Array:
-    """Return errors over half widths of intervals, shape (n, 4)."""
-    widths = trust.widths(errors.told, confidence)
-    return np.abs(errors.error) / np.column_stack(widths)
 
 
 def scored(made: PunchSurrogate, rows: Rows) -> dict[str, Any]:
@@ -277,7 +246,8 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
         joined([rows.chosen(mask) for rows, mask in zip(sets, some, strict=True)])
         for some in ([~(m | j) for m, j in masks], [m for m, _ in masks], [j for _, j in masks])
     )
-    measuring = joined([measuring, faces().chosen(slice(0, None, 2))])
+    ends = faces()
+    measuring = joined([measuring, ends.chosen(slice(0, None, 2))])
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         made = learn(learned, read(LIMITS), shop, say)
         made = trusted(made, judged(made, learned), judged(made, measuring), shop)
@@ -286,7 +256,7 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
         name: scored(made, rows.chosen(j))
         for name, rows, (_, j) in zip(LEARNED, sets, masks, strict=True)
     }
-    scores["faces"] = scored(made, faces().chosen(slice(1, None, 2)))
+    scores["faces"] = scored(made, ends.chosen(slice(1, None, 2)))
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),

@@ -66,7 +66,7 @@ def learn_limits(rows: Rows, fast: Rows, recipe: Recipe, shop: Shop) -> Limits:
     target = np.column_stack(
         [physics.start_output(rows.groups, rows.start_force), np.log10(rows.start_radius)]
     )
-    task, centre, spread = _scaled(physics.scaled(rows.groups)[:, physics.START], target)
+    task, centre, spread = scaled_task(physics.scaled(rows.groups)[:, physics.START], target)
     starting, limiting = shop.fit(task, recipe.limits), shop.fit(_fast(fast), recipe.limits)
     return Limits(Scaled(starting.result(), centre, spread), limiting.result())
 
@@ -146,7 +146,9 @@ def _all(futures: list[Future[Networks]]) -> Networks:
     return together([future.result() for future in futures])
 
 
-def _scaled(inputs: Array, target: Array, known: Array | None = None) -> tuple[Task, Array, Array]:
+def scaled_task(
+    inputs: Array, target: Array, known: Array | None = None
+) -> tuple[Task, Array, Array]:
     """Return the task to learn scaled targets, and centre and spread of each."""
     known = np.ones_like(target) if known is None else known
     count = known.sum(axis=0)
@@ -167,17 +169,17 @@ def work_task(rows: Rows) -> tuple[Task, Array, Array]:
     """Return the task to learn work over force, and centre and spread of its target."""
     force = np.log10(rows.force)
     told = physics.with_start(rows.groups, rows.start_force, rows.start_radius, force)
-    return _scaled(told, (np.log10(rows.work) - force)[:, None])
+    return scaled_task(told, (np.log10(rows.work) - force)[:, None])
 
 
 def give_task(rows: Rows) -> tuple[Task, Array, Array]:
     """Return the task to learn the travel to zero force of pressed starts, as `rows` have it."""
-    return _scaled(_told(rows), np.log10(rows.give)[:, None])
+    return scaled_task(_told(rows), np.log10(rows.give)[:, None])
 
 
 def _line(rows: Rows) -> tuple[Task, Array, Array]:
     assert rows.line.shape[1] == line.OUTPUTS
-    return _scaled(_told(rows), rows.line, rows.known)
+    return scaled_task(_told(rows), rows.line, rows.known)
 
 
 def _told(rows: Rows) -> Array:

@@ -31,11 +31,11 @@ from ..network import Networks, together
 from ..solids import BEND_INPUTS, SAMPLES, TRUST_INPUTS, Solids
 from ..trust import OF, Trust
 from . import likeness
-from .calibration import LEAST, REACH, Apart, levels_of
+from .calibration import Apart, errors_of, levels_of, reach_task, scored
+from .calibration import untested as untested_levels
 from .fitting import Fit, Task, fit
 from .recipe import untested
 from .rows import Rows, of_table
-from .scores import curve_errors, travel_errors
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -200,11 +200,7 @@ def judged(made: Solids, tests: Tests) -> Apart:
     like = tests.like(made)
     said = made.evaluate(like)
     rows = replace(tests.rows, groups=like.groups)
-    curve = np.nanmax(np.abs(curve_errors(made.power_law, rows, said)), axis=1)
-    force = np.log10(said.pull_off_force / rows.force)
-    work = np.log10(said.work_to_pull_off / rows.work)
-    travel = travel_errors(made.power_law, rows, said)
-    return Apart(made.told(like, said), np.column_stack([force, work, curve, travel]))
+    return Apart(made.told(like, said), errors_of(made.power_law, rows, said))
 
 
 def across(made: Solids, tests: Tests) -> list[Apart]:
@@ -224,15 +220,8 @@ def trusted(made: Solids, known: Apart, kept: Apart) -> Solids:
     halves = [np.arange(len(kept.told)) % 2 == i for i in (0, 1)]
     members, scores = [], []
     for seed, half in enumerate(halves):
-        some = kept.chosen(half)
-        inputs = np.concatenate([known.told, some.told])
-        error = np.concatenate([known.error, some.error])
-        told = np.isfinite(error)
-        target = np.log10(np.maximum(np.where(told, np.abs(error), 1.0), LEAST))
-        task = Task(inputs, target, told.astype(float), quantile=REACH)
-        members.append(fit(task, HOW, seed=seed))
-        other = kept.chosen(~half)
-        scores.append(np.abs(other.error) / 10 ** members[-1](other.told)[0])
+        members.append(fit(reach_task(known, [kept.chosen(half)], weight=1.0), HOW, seed=seed))
+        scores.append(scored(Trust(members[-1], untested_levels()), kept.chosen(~half)))
     return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
 
 
