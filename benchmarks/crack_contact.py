@@ -19,7 +19,8 @@ from pathlib import Path
 import numpy as np
 
 import viscotack as vt
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast import predict
+from viscotack.forecast.tiers import AT_ONCE
 
 # The problems: Tabor numbers, modulus ratios, and every fifth one a whole history.
 TABOR, RATIO, HISTORY_EVERY = (3.0, 100.0), (0.03, 0.5), 5
@@ -184,7 +185,7 @@ def errors(answer, result, found):
 def learned_errors(case, simulated):
     """Return what the learned theory is off, nothing where it has no answer."""
     try:
-        said = learned_prediction(case)
+        said = predict(case, budget=AT_ONCE)
     except vt.OutOfRange:
         return {}
     band = said.interval[1] / said.value - 1

@@ -28,7 +28,8 @@ from viscotack import (
     Sphere,
     crack_contact,
 )
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast import predict
+from viscotack.forecast.tiers import AT_ONCE
 
 RANGES = {
     "radius": (1e-4, 2e-2),
@@ -83,7 +84,7 @@ def main() -> None:
     for problem in drawn:
         began = perf_counter()
         try:
-            said = learned_prediction(problem)
+            said = predict(problem, budget=AT_ONCE)
         except OutOfRange:
             said = None
         times.append(perf_counter() - began)

@@ -16,7 +16,8 @@ from pathlib import Path
 import numpy as np
 
 from viscotack import AtDepth, Groups, OutOfRange, Prony, solve
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast import predict
+from viscotack.forecast.tiers import AT_ONCE
 from viscotack.lab import fit, read_dma
 from viscotack.materials.conversion import RetardationSeries, relaxation_series
 from viscotack.result.observables import pull_off_force, work_to_pull_off
@@ -102,7 +103,7 @@ def main() -> None:
         ratios, errors = [], []
         for groups in some:
             try:
-                said = learned_prediction(groups)
+                said = predict(groups, budget=AT_ONCE)
             except OutOfRange:
                 continue
             result = solve(groups, until="pull-off", accuracy=2e-3, throw=False)

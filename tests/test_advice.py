@@ -52,9 +52,9 @@ def estimate(advice, tier):
     ("rate", "regime", "use"),
     [
         (1e-4, "quasi-static", "elastic"),
-        (1.0, "rate-dependent", "unloading"),
-        (316.23, "rate-dependent", "simulation"),
-        (1e6, "glassy", "simulation"),
+        (1.0, "rate-dependent", "surrogate"),
+        (316.23, "rate-dependent", "surrogate"),
+        (1e6, "glassy", "surrogate"),
     ],
 )
 def test_the_regime_follows_the_rate(rate, regime, use):
@@ -107,7 +107,7 @@ def test_the_glassy_band_widens_with_the_range_of_the_forces_and_the_lightness_o
         estimate(vt.advise(groups(1e8, tabor=mu, start=vt.AtRadius(x))), "glassy").error
         for mu, x in ((5.0, 6.0), (1.0, 6.0), (1.0, 5.0))
     ]
-    assert 0.05 <= bands[0] < bands[1] < bands[2] <= 0.25
+    assert 0.05 <= bands[0] * (1 + 1e-12) < bands[1] < bands[2] <= 0.25
     far = estimate(vt.advise(groups(1e8, tabor=0.3, start=vt.AtRadius(3.5))), "glassy")
     assert not far.applies and "larger contact at the start" in far.why
 
@@ -240,7 +240,8 @@ def test_a_law_as_strong_as_lennard_jones_gets_its_advice_with_a_band_of_its_own
     first = vt.advise(case)
     second = vt.advise(replace(case, traction=vt.Exponential(1.0, 1.0, decay)))
     steep = vt.advise(replace(case, traction=vt.Dugdale(1.0, 1.0)))
-    assert second.amplification == pytest.approx(first.amplification, rel=1e-9, abs=0)
+    forces = [estimate(x, "unloading").pull_off_force for x in (first, second)]
+    assert forces[1] == pytest.approx(forces[0], rel=1e-9, abs=0)
     bands = [estimate(x, "unloading").error for x in (first, second, steep)]
     assert bands[0] < bands[1] < bands[2]
 
@@ -256,7 +257,7 @@ def test_an_elastic_solid_has_one_answer():
 def test_a_start_that_jkr_does_not_know_still_gets_advice():
     advice = vt.advise(groups(1.0, tabor=0.05, start=vt.AtForce(-1.1)))
     assert advice.start_radius is None
-    assert "JKR has no contact" in estimate(advice, "unloading").why
+    assert "tabor is 0.05, verified from 0.3 to 8" in estimate(advice, "unloading").why
 
 
 def test_in_si_speed_and_strain_are_judged():
@@ -331,11 +332,11 @@ def test_a_threshold_needs_a_slope():
 
 def test_advise_prints_sentences_or_one_object(capsys):
     assert exit_status(["advise", *POWER_LAW, "--rate", "1"]) == 0
-    assert "Use: unloading." in capsys.readouterr().out
+    assert "Use: surrogate." in capsys.readouterr().out
     assert exit_status(["advise", *POWER_LAW, "--rate", "1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
-    assert found["use"] == "unloading" and len(found["estimates"]) == 7
-    assert found["sentences"][-1] == "Use: unloading."
+    assert found["use"] == "surrogate" and len(found["estimates"]) == 10
+    assert found["sentences"][-1] == "Use: surrogate."
 
 
 def test_advise_reads_a_case_and_refuses_flags_beside_it(tmp_path, capsys):

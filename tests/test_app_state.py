@@ -15,10 +15,11 @@ from viscotack.app.engine.quick import quick
 from viscotack.app.engine.state import State, state_of_query, state_of_toml
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
-from viscotack.forecast.advice import edge_curve
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.closed_forms import closed_forms, edge_curve
+from viscotack.forecast.tiers import AT_ONCE
 from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.record import to_dict
+from viscotack.theory import lennard_jones
 
 examples = pytest.mark.parametrize("tables", EXAMPLES.values(), ids=EXAMPLES)
 
@@ -162,11 +163,12 @@ def test_quick_answers_are_those_of_predict_and_advise():
         x for x in found["numbers"] if (x["name"], x["method"]) == ("pull_off", "surrogate")
     )
     assert learned["value"] == pytest.approx(answer.value * scales.force, rel=1e-12)
-    edge = next(x for x in found["numbers"] if x["method"] == "moving edge")
+    # the page has one headline, that of every other interface
+    assert [x["method"] for x in found["numbers"]] == ["surrogate", "surrogate"]
+    assert advise(problem).pull_off_force == answer.pull_off_force
     tiers = {tier.tier: tier for tier in advise(problem).estimates}
-    assert edge["value"] == pytest.approx(
-        tiers["unloading"].pull_off_force * scales.force, rel=1e-6
-    )
+    edge = found["curves"]["edge"]
+    assert (edge["applies"], edge["why"]) == (tiers["unloading"].applies, tiers["unloading"].why)
     # the slow limit is JKR's, from the start that was asked for
     elastic = found["curves"]["elastic"]
     assert elastic["force"][0] == pytest.approx(1.5e-3, rel=1e-6)
@@ -229,7 +231,7 @@ def test_another_solid_has_what_was_learned_of_solids_and_its_speeds():
 def test_a_pad_has_what_was_learned_of_punches_and_its_speeds():
     state = State(EXAMPLES["A flat punch on a soft layer"])
     found, problem = quick(state), state.problem
-    one = learned_prediction(problem)
+    one = predict(problem, budget=AT_ONCE)
     strength = problem.traction.strength
     assert found["numbers"][0]["value"] == pytest.approx(one.value * strength)
     assert found["numbers"][0]["method"] == "surrogate of punches"
@@ -248,20 +250,21 @@ def test_the_surrogate_says_at_once_where_it_has_no_answer():
         del elastic[gone]
     rigid = FIRST | {"material": elastic}
     with pytest.raises(vt.OutOfRange, match="modulus_ratio is 1, and 0.0001 to 0.7 was learned"):
-        learned_prediction(State(rigid).problem)
+        predict(State(rigid).problem, budget=AT_ONCE)
     assert any("surrogate" in note for note in quick(State(rigid))["notes"])
     rubber = FIRST | {"material": EXAMPLES["A flat punch on a soft layer"]["material"]}
     for known in (FIRST, rubber):
-        said = learned_prediction(State(known).problem)
+        said = predict(State(known).problem, budget=AT_ONCE)
         assert said.value == predict(State(known).problem).value
         assert said.inside and said.band == "measured"
 
 
 def test_the_curve_of_a_moving_edge_ends_at_the_force_that_advice_has():
     problem = State(FIRST).problem
-    curve, estimate = edge_curve(problem)
-    (tier,) = (x for x in advise(problem).estimates if x.tier == "unloading")
-    assert estimate == tier
+    curve = edge_curve(problem)
+    (tier,) = (x for x in closed_forms(problem.groups()).estimates if x.tier == "unloading")
+    slow = float(lennard_jones.pull_off_ratio(problem.groups().tabor))
+    assert slow * curve.pull_off_force == pytest.approx(tier.pull_off_force, rel=1e-12)
     assert curve.depth[0] * problem.scales().length == pytest.approx(8.12e-6, rel=0.01)
     elastic = FIRST["material"] | {"model": "elastic"}
     for gone in ("glassy_modulus", "exponent", "tau0"):

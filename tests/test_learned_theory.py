@@ -7,7 +7,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.campaign.columns import KINDS
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.tiers import AT_ONCE
 from viscotack.surrogate import physics, short_range
 from viscotack.surrogate.physics import INPUTS
 from viscotack.theory import lennard_jones
@@ -73,9 +73,8 @@ def test_its_band_is_measured_where_simulations_were_compared():
     assert (far.band, far.confidence) == ("measured", 0.9)
     # a cone was compared from modulus ratios of 0.03 on
     cone = replace(problem(tabor=30.0, rate=30.0, modulus_ratio=0.01), geometry=vt.Cone(1.0))
-    small = vt.predict(cone)
-    assert (small.band, small.confidence) == ("not measured", None)
-    assert "is not known to hold here: for modulus_ratio 0.03 to 1, not 0.01" in small.why
+    with pytest.raises(vt.OutOfRange, match="not measured for modulus_ratio 0.03 to 1, not 0.01"):
+        vt.predict(cone)
 
 
 def test_a_start_by_force_or_radius_is_one_by_depth():
@@ -86,7 +85,7 @@ def test_a_start_by_force_or_radius_is_one_by_depth():
     for start in (vt.AtRadius(float(radius)), vt.AtForce(float(force))):
         assert vt.predict(replace(case, start=start)).value == pytest.approx(wanted, rel=2e-3)
     with pytest.raises(vt.OutOfRange):
-        learned_prediction(replace(case, start=vt.AtForce(-5.0)))
+        vt.predict(replace(case, start=vt.AtForce(-5.0)), budget=AT_ONCE)
 
 
 def test_creep_is_that_of_the_solid():
@@ -105,12 +104,12 @@ def test_creep_is_that_of_the_solid():
 
 
 def test_who_has_no_time_for_theories_gets_what_was_learned():
-    assert learned_prediction(problem()).value == vt.predict(problem()).value
+    assert vt.predict(problem(), budget=AT_ONCE).value == vt.predict(problem()).value
     inside = problem(tabor=3.0, preload=73.0, rate=300.0)
-    assert learned_prediction(inside).method == "surrogate"
+    assert vt.predict(inside, budget=AT_ONCE).method == "surrogate"
     for other in (replace(problem(), stiffness=1.0), problem(modulus_ratio=1e-6)):
         with pytest.raises(vt.OutOfRange):
-            learned_prediction(other)
+            vt.predict(other, budget=AT_ONCE)
 
 
 def test_many_cases_of_a_solid_are_answered_at_once_as_alone():

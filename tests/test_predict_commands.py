@@ -137,16 +137,15 @@ def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simula
 
 
 def test_a_theory_answers_outside_and_is_compared_by_force_alone(capsys):
-    found = answer(capsys, *SPHERE, "--rate", "1e17", "--compare")
+    deep = [*SPHERE, "--rate", "1", "--preload", "600"]
+    found = answer(capsys, *deep, "--compare")
     assert found["method"] != "surrogate" and found["inside"] is False
-    assert found["why"].startswith(
-        "rate is 1e+17 h0/tau0, and 0.01 to 1e+10 h0/tau0 was learned from"
-    )
+    assert found["why"].startswith("preload is 600 h0, and 0.005 to 500 h0 was learned from")
     assert found["work_to_pull_off"] is None and found["difference"]["work_to_pull_off"] is None
     assert abs(found["difference"]["pull_off_force"]) < 0.3
-    assert call(*SPHERE, "--rate", "1e17") == 0
+    assert call(*deep) == 0
     out = capsys.readouterr().out
-    assert out.startswith("outside what was learned: rate is 1e+17") and "work" not in out
+    assert out.startswith("outside of the surrogates: preload is 600 h0") and "work" not in out
     assert f"by the theory {found['method']!r}" in out
 
 
@@ -159,15 +158,15 @@ def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):
     assert float(rows[-1]["force_N"]) == pytest.approx(-found["pull_off_force_N"], rel=1e-9, abs=0)
     assert float(rows[-1]["depth_m"]) == pytest.approx(found["pull_off_depth_m"], rel=1e-9, abs=0)
     assert picture.stat().st_size > 1000
-    words = wrong(capsys, *SPHERE, "--rate", "1e17", "--curve", tmp_path / "none.csv")
-    assert "A theory gives no curve" in words and not (tmp_path / "none.csv").exists()
+    words = wrong(capsys, *SPHERE, "--rate", "1e13", "--curve", tmp_path / "none.csv")
+    assert "The tier 'surrogate' gives no curve" in words and not (tmp_path / "none.csv").exists()
 
 
 def test_a_table_keeps_its_rows_their_order_and_its_other_columns(tmp_path, capsys):
     cases, answers = tmp_path / "cases.csv", tmp_path / "answers.csv"
     rows = [
         ("b", "3.24", "0.1", "0.8", "73", "316.23"),
-        ("a", "3.24", "0.1", "0.8", "73", "1e17"),
+        ("a", "3.24", "0.1", "0.8", "600", "1"),
         ("c", "3.24", "7", "0.8", "73", "10"),
         ("d", "3.24", "soft", "0.8", "73", "10"),
         ("e", "3.24", "0.1", "0.8", "73.00", "1"),

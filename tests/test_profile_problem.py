@@ -261,5 +261,7 @@ def test_an_impossible_profile_is_refused_with_its_file(tmp_path, keys, words):
 def test_a_prediction_for_a_cone_is_by_its_crack_or_out_of_range_and_no_defect():
     assert predict(problem()).method == "crack contact"
     long = replace(problem().groups(), tabor=1.0)
-    with pytest.raises(OutOfRange, match="learned is for spheres, got a cone.*holds from 2 on"):
+    with pytest.raises(
+        OutOfRange, match="the shape is Cone, verified for Sphere only; its band was not"
+    ):
         predict(long)

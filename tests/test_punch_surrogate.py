@@ -7,7 +7,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.tiers import AT_ONCE, SOON
 from viscotack.result.trajectory import PRESSED, TENSILE
 from viscotack.surrogate import punch
 from viscotack.surrogate import punch_physics as physics
@@ -280,21 +280,21 @@ def test_what_was_not_learned_is_refused_in_words():
         ("for this size and thickness", punch_of(start=vt.AtDepth(100.0))),
         ("preload_force is 50 sigma0, and 0.001", punch_of(start=vt.AtForce(50.0))),
         ("preload is -0.1 h0", punch_of(start=vt.AtDepth(-0.1))),
-        ("glued to its base", glued),
+        ("the body is Bonded, verified for Frictionless only", glued),
         ("the solid is RetardationPowerLaw", punch_of(material=power_law)),
         ("the solid has 2 branches", punch_of(material=branches)),
         ("the solid is Elastic", punch_of(material=elastic)),
-        ("the traction is Dugdale", punch_of(traction=dugdale)),
+        ("the traction law is Dugdale", punch_of(traction=dugdale)),
         ("the test begins Apart", punch_of(start=vt.Apart(5.0))),
         ("the machine moves before", punch_of(moves=(vt.Dwell(1.0),))),
         ("a stiffness of 2 sigma0/h0", punch_of(stiffness=2.0)),
         ("h0/tau0 (1e+03 m/s), and", replace(PAD, protocol=replace(PAD.protocol, speed=1e3))),
     ):
-        for ask in (vt.predict, learned_prediction):
+        for budget in (AT_ONCE, SOON):
             with pytest.raises(vt.OutOfRange) as refused:
-                ask(case)
+                vt.predict(case, budget=budget)
             assert words in str(refused.value), words
-            assert "`viscotack simulate` answers it" in str(refused.value)
+        assert "`viscotack simulate`, or `predict` with --exact, answers it" in str(refused.value)
     with pytest.raises(ValueError, match="confidence must be one of"):
         vt.predict(punch_of(), confidence=0.85)
 

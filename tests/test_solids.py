@@ -7,7 +7,7 @@ import pytest
 
 import viscotack as vt
 from viscotack.campaign.random_solids import LAST, STRETCHED, creep_spectrum, random_solid
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast.tiers import AT_ONCE
 from viscotack.materials.conversion import slowed
 from viscotack.surrogate import alike, physics, solids, store
 from viscotack.theory import lennard_jones
@@ -155,11 +155,11 @@ def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
     # a step to either side of the test, of a solid that is hardly stiffer as a glass
     solid = vt.Prony(**UNIT, branches=((0.6776, 0.1623), (0.5848, 329.8)))
     with pytest.raises(vt.OutOfRange, match="is unlike that of all solids which were learned from"):
-        learned_prediction(sphere(solid, 0.06, 0.03, 1.0))
+        vt.predict(sphere(solid, 0.06, 0.03, 1.0), budget=AT_ONCE)
     with pytest.raises(vt.OutOfRange, match="is unlike that of all solids .* no theory applies"):
         vt.predict(sphere(solid, 0.06, 0.03, 1.0))
     # a hundred times slower it is a step like others
-    assert learned_prediction(sphere(solid, 0.06, 0.03, 0.01)).inside
+    assert vt.predict(sphere(solid, 0.06, 0.03, 0.01), budget=AT_ONCE).inside
 
 
 @pytest.mark.parametrize(
@@ -171,7 +171,7 @@ def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
 )
 def test_what_is_out_of_range_is_said(changed, words):
     with pytest.raises(vt.OutOfRange, match=words):
-        learned_prediction(sphere(SOLIDS["prony"], **changed))
+        vt.predict(sphere(SOLIDS["prony"], **changed), budget=AT_ONCE)
 
 
 def test_a_damaged_file_is_refused(tmp_path):

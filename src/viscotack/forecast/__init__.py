@@ -1,8 +1,10 @@
 """Which answer to trust, and the answer at once."""
 
-from .advice import Advice, Estimate, advise, threshold_contact_radius
+from .advice import Advice, advise
 from .answer import predict
+from .closed_forms import Estimate
 from .prediction import Prediction, prediction_summary
+from .preload_threshold import threshold_contact_radius
 from .table import predict_table
 
 __all__ = [

@@ -1,115 +1,29 @@
-"""Which answer may be trusted: the regime of a problem, and what each tier says about it.
-
-Nothing here simulates, but :func:`threshold_contact_radius`. From an effective Tabor number of 5 on
-the contact whose edge is a steady crack is asked first (docs/steady_crack.md). The limits of the
-other tiers and their errors were measured against :func:`viscotack.solve`: power laws and standard
-solids, modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8, rates 0.1 to 1e8.
-A law other than Lennard-Jones is taken for the one of the same work and strength, at its effective
-Tabor number; what that costs was measured with exponential laws of decay 0.25 to 3, Dugdale's with
-falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective Tabor numbers 0.1 to
-10.
-"""
+"""Which answer may be trusted: the regime of a problem, and the reply of every tier."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import dataclass
 
-import numpy as np
-
-from viscotack.bem.by_crack import METHOD, crack_contact
-from viscotack.bem.crack_band import ELSEWHERE, not_measured
 from viscotack.bem.handover import too_short
-from viscotack.errors import InputError
+from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
-from viscotack.theory import (
-    CrackLaw,
-    detachment,
-    jkr,
-    lennard_jones,
-    persson_brener,
-    rate,
-    unloading,
-)
-from viscotack.traction import LennardJones, effective_range, softening
-from viscotack.traction.growing import check_of_gap_alone
 
-# sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
-STRENGTH_RATIO = np.pi / 9
+from .closed_forms import ClosedForms, Estimate, check_retraction
+from .prediction import Prediction
+from .question import Question
+from .simulation import SIMULATION
+from .theories import CLOSED_FORM, closed_form_limits, estimate_of, forms_of
+from .tiers import SOON, THEORIES, TIERS, Tier, best
+
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
-# Parts of the force between slowest and fastest that still count as the end itself.
-_SLOW, _FAST = 0.02, 0.9
-# Retraction over mean retardation, in contact heights, up to which the bulk is relaxed or nearly.
-_RELAXED, _NEARLY = 6.0, 25.0
-# Errors that hold nine of ten cases. `benchmarks/rate_law.py` measures their cover again: of 384
-# cases they were not chosen by (--seed 7) 92 % of 121 (glassy), and 90 % or more of 109 (rate-fit),
-# 263 (detachment) and 101 (unloading) that each applies to.
-_FIT_ERROR = 0.22
-# Of `detachment`: Tabor number, start over the radius at pull-off, error.
-_DETACHMENT = ((2.0, 1.5, 0.07), (2.0, 1.2, 0.15), (1.0, 2.0, 0.12))
-# Of the glassy limit: an error of c (mu k^(1/3))^p s^q and at least the first number, s the start
-# over the smallest contact of the full glassy force; beyond the last number it is of no use.
-_GLASSY_LEAST, _GLASSY_ERROR, _GLASSY_MOST = 0.05, (0.6, -1.3, -3.0), 0.25
-# Force of a start over that of one as heavy as it takes: (1 + c m^p x^q)^-e, m the Tabor number of
-# the edge at its speed, x the start over the radius at pull-off; fitted to 66 cases.
-_LIGHT = (1.4, -1.63, -4.6, 0.36)
-# What a start of twice the radius then brings: least x, and a band that held nine of ten pairs of
-# starts of other cases, Tabor numbers 1 to 8: 192 with Lennard-Jones, 79 with laws with a tail.
-# Below 1 it was 22 %; with Dugdale's law, where a light start lacks less, it held 15 of 19.
-_HEAVIER, _PRESSED_TABOR = 2.0, 1.0
-_PRESSED = ((1.7, 0.03), (1.3, 0.06), (0.8, 0.08), (0.5, 0.12), (0.0, 0.16))
-# What another law of the same work and strength adds to these errors, one whose tension falls no
-# more steeply than this [strength^2/work], and one that falls more steeply, as Dugdale's: then they
-# hold nine of ten of 255 and of 65 estimates.
-_STEEP = 1.5
-_OTHER_LAW = {
-    "elastic": (0.0, 0.04),
-    "unloading": (0.02, 0.14),
-    "detachment": (0.0, 0.07),
-    "rate-fit": (0.02, 0.05),
-    "glassy": (0.02, 0.02),
-}
 # Crack speed beyond which linear theory fell short of silicone experiments [m/s].
 LINEAR_SPEED = 100e-6
 # Up to this effective Tabor number a simulation takes about a second.
-_SOON = 15.0
-# From this one on a contact whose edge is a steady crack is asked: its band is 2 % there.
-_CRACK_TABOR = 5.0
+_FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
-_TIP = np.pi ** (1 / 3)
-# The search for a threshold: its smallest radius, how many simulations it takes,
-_SMALLEST_START, _COARSE, _FINE = 1.2, 13, 9
-# and up to which multiple of its usual end it goes on
-_WIDER = 3.0
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """What one tier says about the pull-off force, and whether it may be trusted.
-
-    Attributes
-    ----------
-    tier : str
-        "crack contact", "elastic", "unloading", "detachment", "rate-fit", "glassy" or "simulation".
-    pull_off_force : float or None
-        In 1.5 pi R dg0; None where the tier has no answer, or is not run here.
-    error : float or None
-        Relative error that holds nine of ten cases where it applies; None where it does not.
-    applies : bool
-        Whether the problem lies in its range.
-    why : str
-        The reason, in a sentence.
-    """
-
-    tier: str
-    pull_off_force: float | None
-    error: float | None
-    applies: bool
-    why: str
 
 
 @dataclass(frozen=True)
@@ -125,10 +39,15 @@ class Advice:
         limit, times k^(1/3).
     adhesion : str
         "jkr" (effective Tabor number above 3), "transition" or "dmt" (below 0.1).
+    pull_off_force : float or None
+        The answer of :func:`viscotack.predict`, within the same budget [1.5 pi R dg0]; None where
+        no tier within it was verified for this problem.
+    interval : tuple of float, or None
+        Between which it lies in nine of ten cases.
     rate_regime : str
-        "quasi-static", "rate-dependent" or "glassy".
-    amplification : float
-        Estimated pull-off force over that of the slowest retraction.
+        "quasi-static", "rate-dependent", "glassy", or "unknown" where no tier answers.
+    amplification : float or None
+        That force over the force of the slowest retraction.
     start_radius : float or None
         Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)]; None without one.
     preload : str
@@ -147,7 +66,7 @@ class Advice:
     small_strain : bool or None
         Whether that is below 0.2.
     use : str
-        The tier to use.
+        The tier of that answer; "simulation" where there is none.
     estimates : tuple of Estimate
         All tiers.
     force_scale : float or None
@@ -158,8 +77,10 @@ class Advice:
     effective_tabor: float
     glassy_tabor: float
     adhesion: str
+    pull_off_force: float | None
+    interval: tuple[float, float] | None
     rate_regime: str
-    amplification: float
+    amplification: float | None
     start_radius: float | None
     preload: str
     preload_change: tuple[float, float] | None
@@ -178,17 +99,18 @@ class Advice:
 
 
 def advise(problem: Problem | Groups) -> Advice:
-    """Return which regime a problem is in, and which tier to ask for its pull-off force.
+    """Report the regime of a problem, the best answer within a second, and every tier's reply.
 
     Parameters
     ----------
     problem : Problem or Groups
-        In SI everything is judged; groups say nothing of strain and of speeds in m/s.
+        In SI everything is judged; groups do not determine strain and speeds in m/s.
 
     Returns
     -------
     Advice
-        Regimes as data, the estimate of each tier with its range, sentences.
+        Regimes as data, the answer of :func:`viscotack.predict`, the estimate of each tier with its
+        range, sentences.
 
     Raises
     ------
@@ -203,520 +125,82 @@ def advise(problem: Problem | Groups) -> Advice:
     ... )
     >>> advice = advise(Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=1))
     >>> f"{advice.use}: {advice.rate_regime}; pressing harder: {advice.preload}"
-    'unloading: rate-dependent; pressing harder: same'
+    'surrogate: rate-dependent; pressing harder: same'
     """
-    asked = problem.groups()
-    _check(asked)
-    groups = lennard_jones_alike(asked)
-    mu, k = groups.tabor, groups.modulus_ratio
-    slowest = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
-    fastest = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
-    depth = _start_depth(groups)
-    start = None
-    if depth is not None:
-        start = float(np.asarray(jkr.contact_radius_at_depth(depth, **_UNIT))) / _TIP
-    # where JKR has no such start the regime is that of a pull from no load
-    free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
-    curve = _unloading(groups, free if depth is None else depth)
-    here, pressed = _with_and_without_pressing(groups, depth, start)
-    state = here if here is not None and here.margin >= 1 else None
-    force, gamma, edge = slowest, 1.0, None
-    if state is not None:
-        force, gamma, edge = slowest * state.amplification, state.amplification, state.crack_speed
-    elif curve is not None:
-        place = int(np.argmin(curve.force))
-        force = slowest * curve.pull_off_force / _JKR_FORCE
-        gamma, edge = float(curve.amplification[place]), float(curve.edge_speed[place])
-    regime = _rate_regime(groups, force / slowest, gamma)
-    change = None
-    if regime != "quasi-static" and not _steep(asked):
-        change = _change(groups, here, pressed)
-    preload = "any" if regime == "quasi-static" else _preload(change)
-    estimates = (
-        _elastic(regime, slowest),
-        _unloaded(groups, slowest, None if depth is None else curve),
-        _detached(groups, slowest, state),
-        _fitted(groups, preload),
-        _glassy(groups, regime, fastest, start, slowest, gamma),
-    )
-    estimates = (
-        _by_crack(problem, asked),
-        *(_of_law(e, asked) for e in estimates),
-        _simulated(asked),
-    )
-    known = [e for e in estimates if e.applies and e.error is not None]
-    good = [e for e in known if _error(e) <= 0.05] or sorted(known, key=_error)
-    if not good:
-        raise InputError(
-            "no theory here holds for this contact, and solve does not take it: its effective "
-            f"Tabor number is {asked.effective_tabor:g}"
-        )
+    asked = Question(problem)
+    groups = asked.groups
+    check_retraction(groups)
+    forms = asked.once(forms_of)
+    try:
+        found = best(asked, SOON)
+    except OutOfRange:
+        found = None
+    verified = not (CLOSED_FORM.refuses(groups) or closed_form_limits(asked))
+    regime, change = _regime(forms, found), forms.preload_change if verified else None
+    preload = "any" if regime == "quasi-static" else forms.preload if change else "unknown"
     scales = problem.scales() if isinstance(problem, Problem) else None
     speed = strain = None
     if scales is not None and isinstance(problem, Problem) and isinstance(problem.geometry, Sphere):
-        if edge is not None:
-            # radii are in beta, times in the unit of the material
-            speed = edge * scales.edge_speed
-        if start is not None:
-            strain = start * scales.radius / problem.geometry.radius
+        if forms.edge_speed is not None:
+            speed = forms.edge_speed * scales.edge_speed
+        if forms.start_radius is not None:
+            strain = forms.start_radius * scales.radius / problem.geometry.radius
+    mu = groups.effective_tabor
     return Advice(
-        tabor=asked.tabor,
+        tabor=groups.tabor,
         effective_tabor=mu,
-        glassy_tabor=mu * k ** (1 / 3),
+        glassy_tabor=mu * groups.modulus_ratio ** (1 / 3),
         adhesion="dmt" if mu < _DMT else "jkr" if mu > _JKR else "transition",
+        pull_off_force=None if found is None else found.pull_off_force,
+        interval=None if found is None else found.interval,
         rate_regime=regime,
-        amplification=force / slowest,
-        start_radius=start,
+        amplification=None if found is None else found.pull_off_force / forms.slowest,
+        start_radius=forms.start_radius,
         preload=preload,
         preload_change=change,
         crack_speed_m_per_s=speed,
         beyond_linear=None if speed is None else speed > LINEAR_SPEED,
         strain=strain,
         small_strain=None if strain is None else strain < _SMALL_STRAIN,
-        use=good[0].tier,
-        estimates=estimates,
+        use=SIMULATION if found is None else found.method,
+        estimates=tuple(estimate_by(tier, asked) for tier in TIERS if tier.name not in _OTHER),
         force_scale=None if scales is None else scales.force,
     )
 
 
-def edge_curve(problem: Problem | Groups) -> tuple[unloading.Unloading, Estimate] | None:
-    """Return the unloading curve of a moving edge on a relaxed bulk, and whether it applies.
-
-    Some milliseconds; what :func:`advise` calls "unloading".
-
-    Parameters
-    ----------
-    problem : Problem or Groups
-        As for :func:`advise`.
-
-    Returns
-    -------
-    (Unloading, Estimate) or None
-        The curve without dimensions: depth [h0], force [1.5 pi R dg0], contact radius
-        [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result, time in the time unit; force and
-        pull-off without the correction for the range of the forces that the estimate has. None for
-        elastic solids and for starts at which JKR has no contact.
-
-    Raises
-    ------
-    ValueError
-        As :func:`advise`.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, StandardSolid
-    >>> material = StandardSolid(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-    ... )
-    >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(20), rate=1)
-    >>> curve, estimate = edge_curve(case)
-    >>> f"{-min(curve.force):.2f}, {estimate.applies}"
-    '1.92, True'
-    """
-    asked = problem.groups()
-    _check(asked)
-    groups = lennard_jones_alike(asked)
-    depth = _start_depth(groups)
-    curve = None if depth is None else _unloading(groups, depth)
-    if curve is None:
-        return None
-    slowest = float(np.asarray(lennard_jones.pull_off_ratio(groups.tabor)))
-    scaled = unloading.Unloading(
-        time=curve.time,
-        depth=curve.depth * asked.tabor,
-        contact_radius=curve.contact_radius / _TIP,
-        force=curve.force / _JKR_FORCE,
-        edge_speed=curve.edge_speed,
-        amplification=curve.amplification,
-    )
-    return scaled, _of_law(_unloaded(groups, slowest, curve), asked)
+# Tiers that a sphere never has an answer of.
+_OTHER = ("surrogate of punches",)
+_CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != "crack contact")
 
 
-def threshold_contact_radius(
-    problem: Problem | Groups, *, slope: float, accuracy: float = 2e-3
-) -> float:
-    """Return the relaxed contact radius from which more preload brings hardly more force.
-
-    Parameters
-    ----------
-    problem : Problem or Groups
-        Its start is not used.
-    slope : float
-        What "hardly" is: the derivative of the pull-off force [pi R dg0] by the radius
-        [(pi R^2 dg0/E0*)^(1/3)] falls below it; the thesis takes 0.1.
-    accuracy : float
-        Of each simulation.
-
-    Returns
-    -------
-    float
-        Contact radius [(pi R^2 dg0/E0*)^(1/3)], from 1.2; that is also the answer where the force
-        does not depend on the preload at all.
-
-    Notes
-    -----
-    Some twenty simulations, 5 to 10 s. Where the bulk creeps on, a heavier preload lowers the force
-    again; this is the last radius at which it raises it by the slope. The fit of
-    :func:`viscotack.theory.sphere.bounds.threshold_contact_radius` asks for more: at mu = 3.24, k =
-    0.1 and a rate of 3.16 it has 2.16 (n = 0.4) and 2.64 (n = 1.6) where this finds 1.47 and 1.95.
-    """
-    from viscotack.bem import solve
-    from viscotack.result.observables import pull_off_force
-
-    if not slope > 0:
-        raise InputError(f"slope must be positive, got {slope}; the thesis takes 0.1")
-    groups = problem.groups()
-
-    def force(radius: float) -> float:
-        case = Groups(
-            tabor=groups.tabor,
-            material=groups.material,
-            start=AtRadius(radius),
-            rate=groups.rate,
-            traction=groups.traction,
-        )
-        result = solve(case, accuracy=accuracy, until="pull-off", estimate_error=False)
-        return 1.5 * pull_off_force(result)
-
-    largest = 2 * (9 / (8 * groups.modulus_ratio)) ** (1 / 3) + 1.0
-    radii = np.linspace(_SMALLEST_START, largest, _COARSE)
-    forces = [force(float(x)) for x in radii]
-    while True:
-        steep = np.diff(forces) / np.diff(radii) >= slope
-        if not steep[-1]:
-            break
-        if radii[-1] > _WIDER * largest:
-            raise InputError(
-                f"the force still grows by more than {slope} at the largest radius tried, "
-                f"{radii[-1]:.3g}; ask for a larger slope"
-            )
-        # near saturation the slope fades slowly
-        radii = np.append(radii, radii[-1] + radii[1] - radii[0])
-        forces.append(force(float(radii[-1])))
-    if not np.any(steep):
-        return _SMALLEST_START
-    # the slope passes the limit between the middles of two neighbouring pieces
-    last = int(np.flatnonzero(steep)[-1])
-    near = np.linspace(radii[last], radii[last + 2], _FINE)
-    middle = near[_FINE // 2]
-    fit = np.polynomial.Polynomial.fit(near - middle, [force(float(x)) for x in near], 4).deriv()
-    fine = np.linspace(near[0], near[-1], 2001)
-    beyond = np.flatnonzero(fit(fine - middle) >= slope)
-    return float(fine[beyond[-1]]) if beyond.size else float(near[0])
+def _regime(forms: ClosedForms, found: Prediction | None) -> str:
+    """Return the regime; by theory, and unknown where no tier has a force to compare with."""
+    if found is None:
+        return "unknown"
+    return forms.regime_of(found.pull_off_force)
 
 
-# R = E0* = dg0 = 1, so that h0 = 1/mu
-_UNIT: dict[str, Any] = dict(radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0)
-_JKR_FORCE = 1.5 * np.pi
-
-
-def _check(groups: Groups) -> None:
-    """Refuse tests for which the theories have no answer."""
-    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
-        shape = groups.geometry.word if isinstance(groups, Groups) else "punch"
-        raise InputError(f"advice is for spheres, got a {shape}; simulate others")
-    check_of_gap_alone(groups.traction, "advice")
-    steady = groups.rate is not None and not groups.moves and groups.stiffness is None
-    if not isinstance(groups.start, Start) or not steady:
-        raise InputError(
-            "advice is for a relaxed contact that a rigid drive pulls off at a constant speed; "
-            "simulate other tests"
-        )
-
-
-def lennard_jones_alike(groups: Groups) -> Groups:
-    """Return the same contact with the Lennard-Jones law of the same work and strength.
-
-    Its Tabor number is the effective one.
-    """
-    if isinstance(groups.traction, LennardJones):
-        return groups
-    length = effective_range(groups.traction)
-    start = groups.start
-    return replace(
-        groups,
-        tabor=groups.tabor / length,
-        traction=LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0),
-        start=AtDepth(start.depth / length) if isinstance(start, AtDepth) else start,
-        rate=_rate(groups) / length,
-    )
-
-
-def _rate(groups: Groups) -> float:
-    assert groups.rate is not None, "checked at the door"
-    return groups.rate
-
-
-def _start_depth(groups: Groups) -> float | None:
-    """Return the depth of the start of JKR, or None where JKR has no contact."""
-    start = groups.start
-    if isinstance(start, AtDepth):
-        depth = start.depth / groups.tabor
-    elif isinstance(start, AtForce):
-        if start.force < -1:
-            return None
-        radius = jkr.contact_radius_at_force(start.force * _JKR_FORCE, **_UNIT)
-        depth = float(np.asarray(jkr.depth(radius, **_UNIT)))
-    else:
-        assert isinstance(start, AtRadius), "checked at the door"
-        depth = float(np.asarray(jkr.depth(start.contact_radius * _TIP, **_UNIT)))
-    return depth if depth > float(np.asarray(jkr.instability(**_UNIT).depth)) else None
-
-
-def _crack(groups: Groups) -> CrackLaw:
-    """Return the law of the edge, R = E0* = dg0 = 1."""
-    length = persson_brener.crack_tip_length(
-        contact_modulus=1.0,
-        work_of_adhesion=1.0,
-        strength=groups.traction.strength * groups.tabor,
-        strength_ratio=STRENGTH_RATIO,
-    )
-    return CrackLaw(
-        theory="persson-brener", material=groups.material, tip_length=float(np.asarray(length))
-    )
-
-
-def _speed(groups: Groups) -> float:
-    """Return the speed of retraction in the same units."""
-    return _rate(groups) / groups.tabor
-
-
-def _unloading(groups: Groups, depth: float) -> unloading.Unloading | None:
-    if groups.modulus_ratio >= 1:
-        return None
-    return unloading.retraction(depth, _crack(groups), speed=_speed(groups), **_UNIT)
-
-
-def _error(estimate: Estimate) -> float:
-    return np.inf if estimate.error is None else estimate.error
+def estimate_by(tier: Tier, asked: Question) -> Estimate:
+    """Return the reply of a tier as a row of the table."""
+    if tier.name == SIMULATION:
+        return _simulated(asked.groups)
+    try:
+        found = tier.ask(asked)
+    except OutOfRange as reason:
+        limit = estimate_of(asked, tier.name).pull_off_force if tier.name in _CLOSED_FORMS else None
+        return Estimate(tier.name, limit, None, False, str(reason))
+    low, high = found.interval
+    error = (high - low) / (2 * found.pull_off_force)
+    return Estimate(tier.name, found.pull_off_force, error, True, found.why)
 
 
 def _simulated(groups: Groups) -> Estimate:
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high or too_short(groups):
         note = f"solve simulates effective Tabor numbers from {low:g} to {high:g}, elastic ones to "
-        return Estimate("simulation", None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
-    soon = "in about a second" if groups.effective_tabor < _SOON else "in seconds"
-    return Estimate("simulation", None, 2e-3, True, f"solve covers all of this, {soon}")
-
-
-def _by_crack(problem: Problem | Groups, groups: Groups) -> Estimate:
-    """Return what a contact says whose edge is a steady crack."""
-    if groups.effective_tabor < _CRACK_TABOR:
-        why = (
-            f"zones are too large beside the contact: effective Tabor number "
-            f"{groups.effective_tabor:.3g}, and it is asked from {_CRACK_TABOR:g} on"
-        )
-        return Estimate(METHOD, None, None, False, why)
-    try:
-        found = crack_contact(problem)
-    except InputError as error:
-        return Estimate(METHOD, None, None, False, str(error))
-    if found.pull_off_force is None:
-        return Estimate(METHOD, None, None, False, "it comes to no pull-off")
-    why = "the edge is a steady crack, the bulk remembers, and no constant is fitted"
-    if not found.inside:
-        why += f"; its band {ELSEWHERE}{not_measured(groups)}"
-    return Estimate(METHOD, found.pull_off_force, found.band, True, why)
-
-
-def _of_law(estimate: Estimate, groups: Groups) -> Estimate:
-    """Return an estimate with what the law of a contact adds to the error of Lennard-Jones."""
-    if isinstance(groups.traction, LennardJones) or estimate.error is None:
-        return estimate
-    return replace(estimate, error=estimate.error + _OTHER_LAW[estimate.tier][_steep(groups)])
-
-
-def _steep(groups: Groups) -> bool:
-    """Return whether the tension falls at once and not along a tail, as Dugdale's does."""
-    return softening(groups.traction) > _STEEP
-
-
-class _State(NamedTuple):
-    """The state at pull-off that a start tends to, whether or not it is large enough for it."""
-
-    amplification: float
-    crack_speed: float
-    margin: float
-    part: float
-
-
-def _with_and_without_pressing(
-    groups: Groups, depth: float | None, start: float | None
-) -> tuple[_State, _State] | tuple[None, None]:
-    """Return the states of the start and of one twice as large, None where there is none."""
-    if groups.modulus_ratio >= 1 or depth is None or start is None:
-        return None, None
-    radii = np.array([start, _HEAVIER * start]) * _TIP
-    depths = np.append(depth, jkr.depth(radii[1], **_UNIT))
-    try:
-        found = detachment.unlimited(_speed(groups), _crack(groups), depth=depths, **_UNIT)
-    except ValueError:
-        # the problem itself is possible: it starts beyond the pull-off of a slow retraction
-        return None, None
-    gamma, margin = np.asarray(found.amplification), radii / np.asarray(found.contact_radius)
-    c, p, q, e = _LIGHT
-    part = (1 + c * (groups.tabor / np.cbrt(gamma)) ** p * margin**q) ** -e
-    speed = np.asarray(found.crack_speed)
-    here, pressed = (
-        _State(*x) for x in zip(*(y.tolist() for y in (gamma, speed, margin, part)), strict=True)
-    )
-    return here, pressed
-
-
-def _change(
-    groups: Groups, here: _State | None, pressed: _State | None
-) -> tuple[float, float] | None:
-    """Return by how much pressing changes the force, least and most, or None.
-
-    Two things do: a start that is hardly larger than the contact at pull-off is short of force, and
-    a larger one takes longer, so that the bulk relaxes more and the edge is slower.
-    """
-    if here is None or pressed is None or groups.tabor < _PRESSED_TABOR:
-        return None
-    factor = pressed.amplification * pressed.part / (here.amplification * here.part)
-    band = next(band for least, band in _PRESSED if here.margin >= least)
-    return factor * (1 - band) - 1, factor * (1 + band) - 1
-
-
-def _preload(change: tuple[float, float] | None) -> str:
-    """Return in a word what pressing does."""
-    if change is None:
-        return "unknown"
-    low, high = change
-    return "raises" if low > 0 else "lowers" if high < 0 else "same"
-
-
-def _mean_time(groups: Groups) -> float:
-    """Return the mean retardation time, by compliance, in the unit of time."""
-    unit = groups.material.time_unit
-    modes = groups.material.retardation_modes(
-        shortest=1e-9 * unit, longest=1e3 * unit, tolerance=1e-6
-    )
-    weights = np.array(modes.weights)
-    return float(weights @ np.array(modes.times) / np.sum(weights)) if weights.size else 0.0
-
-
-def _haste(groups: Groups) -> float:
-    """Return the contact heights retracted in the mean retardation time."""
-    return _rate(groups) * _mean_time(groups) / (np.pi ** (2 / 3) * groups.tabor)
-
-
-def _rate_regime(groups: Groups, amplification: float, gamma: float) -> str:
-    """Return the regime from the force over the slow one and the energy of the edge."""
-    if amplification - 1 < _SLOW:
-        return "quasi-static"
-    return "glassy" if gamma * groups.modulus_ratio > _FAST else "rate-dependent"
-
-
-def _elastic(regime: str, slowest: float) -> Estimate:
-    if regime == "quasi-static":
-        why = "the retraction is slow enough for the solid to stay relaxed"
-        return Estimate("elastic", slowest, _SLOW, True, why)
-    why = "the solid does not relax while the edge moves; the force is a lower limit"
-    return Estimate("elastic", slowest, None, False, why)
-
-
-def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None) -> Estimate:
-    name, haste, mu = "unloading", _haste(groups), groups.tabor
-    if curve is None:
-        why = (
-            "an elastic solid has no rate"
-            if groups.modulus_ratio >= 1
-            else "JKR has no contact at the start"
-        )
-        return Estimate(name, None, None, False, why)
-    force = slowest * curve.pull_off_force / _JKR_FORCE
-    if mu < 1:
-        why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
-        return Estimate(name, force, None, False, why)
-    if haste > _NEARLY:
-        why = (
-            f"the bulk has no time to relax: {haste:.3g} contact heights are retracted in the "
-            f"mean retardation time, and the theory holds to about {_RELAXED:g}"
-        )
-        return Estimate(name, force, None, False, why)
-    error = 0.2 if haste > _RELAXED else 0.05 if mu >= _JKR else 0.12
-    why = "the bulk relaxes while the edge moves as a crack"
-    if haste > _RELAXED:
-        why = "the bulk hardly relaxes while the edge moves; the force is up to 20 % low"
-    return Estimate(name, force, error, True, why)
-
-
-def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
-    name, mu = "detachment", groups.tabor
-    if groups.modulus_ratio >= 1:
-        return Estimate(name, None, None, False, "an elastic solid has no rate")
-    if state is None:
-        why = "the preload is too light for this rate: the start decides, and not the rate alone"
-        return Estimate(name, None, None, False, why)
-    force = slowest * state.amplification
-    for least, needed, error in _DETACHMENT:
-        if mu >= least and state.margin >= needed:
-            why = "the edge moves as a crack, and the bulk answers with the creep up to then"
-            return Estimate(name, force, error, True, why)
-    if mu < 1:
-        why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
-    else:
-        why = (
-            f"the start is only {state.margin:.3g} times the contact radius at pull-off; it needs "
-            f"{1.2 if mu >= 2 else 2:g} times"
-        )
-    return Estimate(name, force, None, False, why)
-
-
-def _fitted(groups: Groups, preload: str) -> Estimate:
-    name, mu, k = "rate-fit", groups.tabor, groups.modulus_ratio
-    if k >= 1:
-        return Estimate(name, None, None, False, "an elastic solid has no rate")
-    r = float(np.asarray(rate.rate_as_published(_rate(groups) * groups.material.time_unit)))
-    speed = rate.COEFFICIENT * r**rate.EXPONENT
-    force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
-    if abs(np.log(mu / rate.FITTED_TABOR)) > np.log(1.25):
-        why = f"Eq. 4.24 was fitted at a Tabor number of 3.24 alone, this one is {mu:.3g}"
-    elif not 0.01 <= k <= 0.1 * (1 + 1e-9):
-        why = f"Eq. 4.24 was fitted for modulus ratios from 0.01 to 0.1, this one is {k:.3g}"
-    elif preload == "raises":
-        why = "Eq. 4.24 was fitted to preloads that were heavy enough"
-    else:
-        return Estimate(
-            name, force, _FIT_ERROR, True, "the fit of crack speed to rate, and Persson-Brener"
-        )
-    return Estimate(name, force, None, False, why)
-
-
-def _glassy(
-    groups: Groups,
-    regime: str,
-    fastest: float,
-    start: float | None,
-    slowest: float,
-    gamma: float,
-) -> Estimate:
-    name, k = "glassy", groups.modulus_ratio
-    if k >= 1:
-        return Estimate(name, slowest, None, False, "an elastic solid has no glassy limit")
-    least = (9 / (8 * k)) ** (1 / 3)
-    if start is None or start < 1.5 * least:
-        why = (
-            "the start is too small a contact for the full glassy force: it takes a radius of "
-            f"{1.5 * least:.3g} or more; this force is an upper limit"
-        )
-        return Estimate(name, fastest, None, False, why)
-    if regime != "glassy":
-        why = "the retraction is not that fast; this force is an upper limit"
-        return Estimate(name, fastest, None, False, why)
-    c, p, q = _GLASSY_ERROR
-    # what the preload leaves out, and what the edge lacks of the glassy energy
-    light = c * (groups.tabor * k ** (1 / 3)) ** p * (start / least) ** q
-    error = max(_GLASSY_LEAST, light + 1 / (gamma * k) - 1)
-    if error > _GLASSY_MOST:
-        why = (
-            "the forces reach so far that the full glassy force takes a larger contact at the "
-            "start; this force is an upper limit"
-        )
-        return Estimate(name, fastest, None, False, why)
-    return Estimate(name, fastest, error, True, "the edge runs at nearly the glassy energy")
+        return Estimate(SIMULATION, None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
+    time = "in about a second" if groups.effective_tabor < _FAST_TABOR else "in seconds"
+    return Estimate(SIMULATION, None, 2e-3, True, f"solve covers all of this, {time}")
 
 
 def _pressing(preload: str, low: float, high: float) -> str:
@@ -732,6 +216,18 @@ def _pressing(preload: str, low: float, high: float) -> str:
     )
 
 
+def _headline(advice: Advice) -> str:
+    """Return the best answer in words."""
+    if advice.pull_off_force is None or advice.interval is None:
+        return ""
+    low, high = advice.interval
+    return (
+        f" Pull-off force {advice.pull_off_force:.4g} x 1.5 pi R dg0 ({low:.4g} to {high:.4g} in "
+        f"nine of ten cases, by the tier {advice.use!r}): {advice.amplification:.3g} times the "
+        "slow force."
+    )
+
+
 def _sentences(advice: Advice) -> list[str]:
     words = {
         "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
@@ -740,13 +236,14 @@ def _sentences(advice: Advice) -> list[str]:
         "quasi-static": "The pull is slow: the solid behaves as its relaxed, rubbery self.",
         "rate-dependent": "The pull is fast enough for the solid to dissipate: speed counts.",
         "glassy": "The pull is so fast that the edge sees a glassy solid: more speed adds little.",
+        "unknown": "No tier that answers within a second was verified for this problem: simulate.",
     }
     effective = ""
     if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
         effective = f", {advice.effective_tabor:.3g} by the range of this law"
     found = [
         f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
-        f"{words[advice.rate_regime]} About {advice.amplification:.3g} times the slow force.",
+        f"{words[advice.rate_regime]}{_headline(advice)}",
     ]
     if advice.preload_change is not None:
         found.append(_pressing(advice.preload, *advice.preload_change))

@@ -20,7 +20,11 @@ if TYPE_CHECKING:
     from viscotack.surrogate.answers import Intervals
     from viscotack.surrogate.line import Curves
 
+    from .question import Question
+
 MEASURED, NOT_MEASURED = "measured", "not measured"
+# Part of the cases that the bands of theories and the stated errors of simulations hold.
+THEORY_CONFIDENCE = 0.9
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,12 +33,11 @@ class Prediction:
 
     Attributes
     ----------
-    value : float
-        Pull-off force [1.5 pi R dg0], positive; of a punch the pull-off stress [sigma0].
+    pull_off_force : float
+        Largest tension of the retraction [1.5 pi R dg0], positive; of a punch the pull-off stress
+        [sigma0].
     interval : tuple of float
-        Between which the simulated force lies with that confidence, same unit. Where a fitted
-        theory answers and its band was not measured: between the slowest and the fastest pull-off
-        of such a contact from any relaxed start.
+        Between which the simulated force lies with that confidence, same unit.
     work_to_pull_off : float or None
         [1.5 pi R dg0 h0], of a punch that of unit area [dg0]; None where a theory answers, which
         has none.
@@ -46,18 +49,17 @@ class Prediction:
     band : str
         "measured" where it was measured how many cases the intervals hold, else "not measured".
     method : str
-        "surrogate", "surrogate of solids", "surrogate of punches", or the theory's name as in
-        :class:`viscotack.Estimate`.
+        Name of the tier: "surrogate", "surrogate of solids", "surrogate of punches", "learned crack
+        contact", the name of a theory as in :class:`viscotack.Estimate`, or "simulation".
     inside : bool
-        Whether the problem lies in the range that the surrogate learned from.
+        Whether the problem lies in the range that the surrogate learned from; of a simulation true.
     why : str
-        A sentence; when not inside, which input is out, its value and the range, and whether the
-        theory's interval was measured elsewhere.
+        A sentence; when not inside, which input is out, its value and the range.
     curve : Curves or None
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
         retraction, shape (24,) each; of a punch, as in a :class:`viscotack.Result`, mean stress
         [sigma0], compression positive, and half length of the contact [a0]. The last point is the
-        pull-off. None where a theory answers.
+        pull-off. None where a theory or a simulation answers.
     curve_band : float or None
         How far the force in tension is off at worst, at the same travel from zero force (or from a
         start in tension), with that confidence [1.5 pi R dg0]; None without a curve.
@@ -70,7 +72,7 @@ class Prediction:
         What was asked.
     """
 
-    value: float
+    pull_off_force: float
     interval: tuple[float, float]
     work_to_pull_off: float | None
     work_interval: tuple[float, float] | None
@@ -85,6 +87,15 @@ class Prediction:
     zero_force_depth: float | None = None
     zero_force_interval: tuple[float, float] | None = None
 
+    @property
+    def value(self) -> float:
+        """The pull-off force, under the name it had before."""
+        return self.pull_off_force
+
+    def because(self, why: str) -> Prediction:
+        """Return the prediction with the reason why no better tier answers, before its own."""
+        return replace(self, why=f"{why}; {self.why}")
+
 
 def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
     """Return a prediction with its curve, the first of several, and how well it is known."""
@@ -92,7 +103,7 @@ def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction
     found = replace(
         found,
         curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
-        curve_band=float(held.curve[0] * found.value),
+        curve_band=float(held.curve[0] * found.pull_off_force),
     )
     if curves.force[0, 0] <= 0:
         return found
@@ -101,6 +112,38 @@ def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction
         found,
         zero_force_depth=float(depth[PRESSED]),
         zero_force_interval=(float(least), float(most)),
+    )
+
+
+def of_theory(
+    asked: Question,
+    force: float,
+    band: float,
+    method: str,
+    why: str,
+    *,
+    inside: bool = False,
+    work: float | None = None,
+) -> Prediction:
+    """Return the prediction of a theory: a force and its relative band, no curve."""
+    if asked.confidence != THEORY_CONFIDENCE:
+        why += (
+            f"; its band is one for {THEORY_CONFIDENCE:.0%} of the cases, "
+            f"not {asked.confidence:.0%}"
+        )
+    return Prediction(
+        pull_off_force=force,
+        interval=(force * (1 - band), force * (1 + band)),
+        work_to_pull_off=work,
+        work_interval=None,
+        confidence=THEORY_CONFIDENCE,
+        band=MEASURED,
+        method=method,
+        inside=inside,
+        why=why,
+        curve=None,
+        curve_band=None,
+        problem=asked.problem,
     )
 
 
@@ -118,7 +161,7 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     pull_off, at_pull_off = f"pull_off_{force}", f"{edge}_at_pull_off"
     ended = None if curve is None else curve.contact_radius[-1] * kind.series[edge].factor(groups)
     values: dict[str, Any] = {
-        pull_off: prediction.value,
+        pull_off: prediction.pull_off_force,
         "work_to_pull_off": prediction.work_to_pull_off,
         "pull_off_depth": None if curve is None else float(curve.depth[-1]),
         f"zero_{force}_depth": prediction.zero_force_depth,

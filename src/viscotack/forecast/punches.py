@@ -1,4 +1,4 @@
-"""The answer at once to a flat punch on a sliding layer, where it was learned."""
+"""The tier of flat punches on a sliding layer: a surrogate."""
 
 from __future__ import annotations
 
@@ -7,73 +7,70 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.errors import InputError, OutOfRange
-from viscotack.geometry import Frictionless
+from viscotack.errors import InputError
+from viscotack.geometry import FlatPunch, Frictionless
 from viscotack.materials import Prony, StandardSolid
 from viscotack.problem import Case, PunchGroups, PunchScales
 from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
+from .allow_list import Verified
 from .prediction import MEASURED, Prediction, with_curve
-from .refusals import other_test, out_of_range
-from .theory import SIMULATE
+from .question import Question
+from .refusals import out_of_range
 
 if TYPE_CHECKING:
     from viscotack.surrogate.punch import PunchSurrogate
 
 Array = npt.NDArray[np.float64]
 
-# How an answer is named that was learned of punches.
 LEARNED_PUNCH = "surrogate of punches"
+PUNCHES = Verified(
+    shapes=(FlatPunch,),
+    bodies=(Frictionless,),
+    laws=(LennardJones,),
+    solids=(StandardSolid, Prony),
+    starts=(AtDepth, AtForce),
+)
 # Units of the inputs that have one.
 _UNITS = {"size": "a0", "thickness": "a0", "preload": "h0", "rate": "h0/tau0"}
 
 
-def by_learned_punch(problem: Case, groups: PunchGroups, confidence: float) -> Prediction:
-    """Return what was learned of a punch on a layer.
-
-    Parameters
-    ----------
-    problem : Problem or PunchGroups
-        As it was asked.
-    groups : PunchGroups
-        Of the problem.
-    confidence : float
-        One of those for which intervals were measured.
-
-    Raises
-    ------
-    OutOfRange
-        If it was not learned: another test, solid, body or traction, or which input is out.
-    """
-    learned = _learned()
-    if unlearned := _unlearned(groups):
-        raise OutOfRange(f"{unlearned}; {SIMULATE}")
+def punch_limits(asked: Question) -> str:
+    """Return which input of a punch was not learned: solid, stress of the start, or a number."""
+    groups, learned = asked.groups, _learned()
+    material = groups.material
+    if isinstance(material, Prony) and len(material.branches) > 1:
+        return f"the solid has {len(material.branches)} branches, verified for one only"
     try:
         row = _row(groups, learned)
     except InputError as error:  # no start in the range has that stress
-        raise OutOfRange(f"{error}; {SIMULATE}") from None
-    if out := _out(row, problem, groups, learned):
-        raise OutOfRange(f"{'; '.join(out)}; {SIMULATE}")
-    rows = row[None]
+        return str(error)
+    return "; ".join(_out(row, asked.problem, groups, learned))
+
+
+def by_punches(asked: Question) -> Prediction:
+    """Evaluate the surrogate of punches on a sliding layer."""
+    learned = _learned()
+    rows = _row(asked.groups, learned)[None]
     answers = learned.evaluate(rows)
-    held = learned.intervals(rows, answers, confidence=confidence)
+    held = learned.intervals(rows, answers, confidence=asked.confidence)
     (low, high), (least, most) = (
         pair[0].tolist() for pair in (held.pull_off_force, held.work_to_pull_off)
     )
     found = Prediction(
-        value=float(answers.pull_off_force[0]),
+        pull_off_force=float(answers.pull_off_force[0]),
         interval=(low, high),
         work_to_pull_off=float(answers.work_to_pull_off[0]),
         work_interval=(least, most),
-        confidence=confidence,
+        confidence=asked.confidence,
         band=MEASURED,
         method=LEARNED_PUNCH,
         inside=True,
         why="every input lies in the range that was learned from",
         curve=None,
         curve_band=None,
-        problem=problem,
+        problem=asked.problem,
     )
     return with_curve(found, learned.curves(rows, answers), held)
 
@@ -100,25 +97,6 @@ def _learned() -> PunchSurrogate:
     from viscotack.surrogate import punch
 
     return punch.shipped()
-
-
-def _unlearned(groups: PunchGroups) -> str:
-    """Return in words why a test was not learned, or nothing."""
-    material = groups.material
-    if not isinstance(groups.traction, LennardJones):
-        name = type(groups.traction).__name__
-        return f"the traction is {name}, and of punches LennardJones alone was learned from"
-    if not isinstance(groups.base, Frictionless):
-        return "the layer is glued to its base, and layers that slide on it alone were learned from"
-    if isinstance(material, Prony) and len(material.branches) > 1:
-        return (
-            f"the solid has {len(material.branches)} branches, and of punches standard solids "
-            "alone, with one, were learned from"
-        )
-    if not isinstance(material, Prony | StandardSolid):
-        name = type(material).__name__
-        return f"the solid is {name}, and of punches standard solids alone were learned from"
-    return other_test(groups, AtDepth | AtForce, "sigma0/h0")
 
 
 def _row(groups: PunchGroups, learned: PunchSurrogate) -> Array:

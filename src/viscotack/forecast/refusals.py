@@ -1,37 +1,6 @@
-"""Words for what was not learned: another test, or an input out of its range."""
+"""Words for an input out of the range of a surrogate."""
 
 from __future__ import annotations
-
-from typing import Any
-
-from viscotack.problem import Groups, PunchGroups
-
-
-def other_test(groups: Groups | PunchGroups, starts: Any, unit: str) -> str:
-    """Return in words what is other than a relaxed contact that is pulled at once, or nothing.
-
-    Parameters
-    ----------
-    groups : Groups or PunchGroups
-        Of the test.
-    starts : type or union of types
-        Of the starts that were learned.
-    unit : str
-        Of a stiffness, with what stands before it.
-    """
-    found = ""
-    if not isinstance(groups.start, starts):
-        found = f"the test begins {groups.start!r}"
-    elif groups.moves:
-        found = f"the machine moves before the retraction: {groups.moves[0]!r}"
-    elif groups.stiffness is not None:
-        found = f"the machine has a stiffness of {groups.stiffness:.4g} {unit}"
-    if not found:
-        return ""
-    return (
-        f"{found}; what was learned is for a relaxed contact that a rigid machine pulls off at a "
-        "constant speed"
-    )
 
 
 def out_of_range(

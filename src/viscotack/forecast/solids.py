@@ -11,9 +11,6 @@ from viscotack.problem import Groups
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
 
-# How an answer is named that was learned of power laws and measured on other solids.
-LEARNED_SOLID = "surrogate of solids"
-
 
 def like_of(groups: Groups, depth: float) -> Alike:
     """Return the power law that stands for the solid of a test from a start at a depth [h0]."""

@@ -130,7 +130,7 @@ def predict_table(
         except (ValueError, OverflowError) as error:
             table["why"][at] = str(error)
         else:
-            _put(table, force, at, found.value, found.interval)
+            _put(table, force, at, found.pull_off_force, found.interval)
             _put(table, WORK, at, found.work_to_pull_off, found.work_interval)
             table["method"][at], table["inside"][at] = found.method, found.inside
             table["band"][at] = found.band

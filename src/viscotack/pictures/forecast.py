@@ -74,8 +74,11 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         low, high = -np.array(prediction.interval)[::-1] * load
         axes.errorbar(
             curve.depth[-1] * length,
-            -prediction.value * load,
-            yerr=[[-prediction.value * load - low], [high + prediction.value * load]],
+            -prediction.pull_off_force * load,
+            yerr=[
+                [-prediction.pull_off_force * load - low],
+                [high + prediction.pull_off_force * load],
+            ],
             fmt="s",
             color="C1",
             capsize=5,

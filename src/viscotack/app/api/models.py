@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, WithJsonSchema
 
+from viscotack.forecast.tiers import SOON
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 
 Case = Annotated[
@@ -79,6 +80,15 @@ class AskedToPredict(Asked):
     """A problem to be predicted."""
 
     confidence: Confidence = 0.9
+    budget: Annotated[
+        float,
+        Field(
+            gt=0,
+            description="Time that the answer may take [s]: surrogates up to 0.01, closed forms "
+            "from 0.02, the steady-crack contact from 0.5, the simulation from 3.",
+        ),
+    ] = SOON
+    exact: Annotated[bool, Field(description="Simulate, whatever it takes.")] = False
 
 
 class AskedToSimulate(Asked):

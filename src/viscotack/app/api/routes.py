@@ -66,7 +66,7 @@ def routes(engine: Engine) -> APIRouter:
 def _questions(router: APIRouter, engine: Engine) -> None:
     @router.post("/api/predict", tags=["answers"])
     async def predict(asked: AskedToPredict) -> Answer:
-        """Say how hard one must pull, with an interval, without simulating."""
+        """Predict the pull-off force with an interval, by the best tier within a budget."""
         return Answer(**await engine.ask("predict", asked.model_dump()))
 
     @router.post("/api/advise", tags=["answers"])

@@ -12,6 +12,7 @@ from viscotack.app.questions import PUNCH, SPHERE, SPHERE_OR_PUNCH, given_of
 from viscotack.errors import InputError
 from viscotack.forecast import predict
 from viscotack.forecast.prediction import Prediction, prediction_summary
+from viscotack.forecast.tiers import SOON
 from viscotack.problem import Case
 from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result
@@ -68,6 +69,16 @@ def _predict(
             "0.95 or 0.98.",
         ),
     ] = 0.9,
+    budget: Annotated[
+        float,
+        Option(
+            "--budget",
+            metavar="SECONDS",
+            help="Time that the answer may take: surrogates up to 0.01, closed forms from 0.02, "
+            "the steady-crack contact from 0.5, the simulation from 3.",
+        ),
+    ] = SOON,
+    exact: Annotated[bool, Option("--exact", help="Simulate, whatever it takes.")] = False,
     compare: Annotated[
         bool, Option("--compare", help="Simulate as well, and say how far off the prediction is.")
     ] = False,
@@ -95,11 +106,11 @@ def _predict(
     own: With = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say at once how hard one must pull, and how sure that is.
+    """Predict the pull-off force, with an interval.
 
-    It has learned from simulations. In their range the answer takes a millisecond, and has force,
-    work and curve. Outside a theory gives the force of a sphere, with its own band, or the command
-    says which input is out and that simulating answers it.
+    Surrogates trained on simulations answer in a millisecond, with force, work and curve. Outside
+    of their range the theory with the narrowest band that was verified for such a problem gives the
+    force. Otherwise the command states which input is out of range; --exact simulates the problem.
 
     One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
     --preload 73 --rate 316.23
@@ -119,6 +130,8 @@ def _predict(
         if is_table:
             others = {
                 "--compare": compare,
+                "--exact": exact,
+                "--budget": None if budget == SOON else budget,
                 "--curve": curve_file,
                 "--plot": plot_file,
                 "the second file": case,
@@ -134,7 +147,8 @@ def _predict(
             problem = _problem(what, case, context, own)
             case = case if what in _DOORS else Path(what)
             deviation = deviation_of_shift(case, context)
-            found = _predicted(problem, confidence, deviation, curve_file or plot_file)
+            wish = {"confidence": confidence, "budget": budget, "exact": exact}
+            found = _predicted(problem, deviation, curve_file or plot_file, wish)
             result = _simulated(problem) if compare else None
             answer = prediction_summary(found)
             if result is not None:
@@ -173,12 +187,13 @@ def _problem(what: str, case: Path | None, context: typer.Context, own: list[Pat
 
 
 def _predicted(
-    problem: Case, confidence: float, deviation: float, curve_wanted: Path | None
+    problem: Case, deviation: float, curve_wanted: Path | None, wish: dict[str, Any]
 ) -> Prediction:
-    found = predict(problem, confidence=confidence, shift_deviation=deviation)
+    found = predict(problem, shift_deviation=deviation, **wish)
     if found.curve is None and curve_wanted:
         raise InputError(
-            f"{found.why}. A theory gives no curve; leave out --curve and --plot, or simulate"
+            f"{found.why}. The tier {found.method!r} gives no curve; leave out --curve and "
+            "--plot, or simulate"
         )
     return found
 
@@ -253,7 +268,7 @@ def _curve(found: Prediction) -> dict[str, Any]:
 
 def _words(found: Prediction, answer: dict[str, Any]) -> str:
     """Return a prediction as lines a person reads."""
-    lines = [found.why if found.inside else f"outside what was learned: {found.why}"]
+    lines = [found.why if found.inside else f"outside of the surrogates: {found.why}"]
     held = (
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )

@@ -21,7 +21,7 @@ from viscotack.problem.record import from_dict
 from .examples import EXAMPLES, FIRST
 from .forms import forms
 from .plain import drawn, plain
-from .quick import quick
+from .quick import numbers_of, quick
 from .state import State, state_of_query, state_of_toml
 
 Tell = Callable[[dict[str, Any]], None]
@@ -92,7 +92,8 @@ def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]
 def ask_predict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return a prediction as ``viscotack predict --json`` prints it."""
     problem = problem_of(asked["problem"], also)
-    return plain(prediction_summary(predict(problem, confidence=asked["confidence"])))
+    options = {name: asked[name] for name in ("confidence", "budget", "exact")}
+    return plain(prediction_summary(predict(problem, **options)))
 
 
 def ask_advise(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
@@ -114,18 +115,26 @@ def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
 
 
 def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the advisor's words on a state, and whether a steady crack at its edge may be asked.
+    """Return the best answer to a state, the advice in words, and whether a crack curve helps.
 
-    The advisor knows spheres that are pulled off at once; other shapes and tests are asked about.
+    Advice is for spheres that are pulled off at once; other shapes and tests get the answer of
+    :func:`viscotack.predict` alone.
     """
     problem = State(asked["tables"], also).problem
+    numbers, refused = [], ""
+    try:
+        numbers = numbers_of(predict(problem))
+    except InputError as error:
+        refused = f"{str(error)[:1].upper()}{str(error)[1:]}."
     try:
         advice = advise(problem)
-    except InputError as error:
-        words = f"{str(error)[:1].upper()}{str(error)[1:]}."
+    except InputError:
         crack = not isinstance(problem.geometry, FlatPunch)
-        return {"words": [words], "use": "simulation", "tiers": [], "crack": crack}
+        use = numbers[0]["method"] if numbers else "simulation"
+        words = [refused] if refused else []
+        return {"numbers": numbers, "words": words, "use": use, "tiers": [], "crack": crack}
     return {
+        "numbers": numbers,
         "words": list(advice.sentences),
         "use": advice.use,
         "tiers": [plain(asdict(estimate)) for estimate in advice.estimates],
@@ -218,7 +227,7 @@ def _speeds(problem: Problem) -> dict[str, Any] | None:
             answer = predict(replace(problem, protocol=replace(protocol, speed=speed)))
         except (InputError, ArithmeticError):
             continue
-        rows.append((speed, answer.value, *answer.interval))
+        rows.append((speed, answer.pull_off_force, *answer.interval))
     if len(rows) < 2:
         return None
     speed, force, low, high = np.array(rows).T

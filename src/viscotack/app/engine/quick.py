@@ -13,13 +13,17 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from viscotack.errors import InputError, OutOfRange
-from viscotack.forecast.advice import edge_curve
-from viscotack.forecast.answer import learned_prediction
+from viscotack.forecast import predict
+from viscotack.forecast.advice import estimate_by
+from viscotack.forecast.closed_forms import edge_curve
+from viscotack.forecast.prediction import Prediction
 from viscotack.forecast.punches import inputs_of
+from viscotack.forecast.question import Question
 from viscotack.forecast.table import predict_table
+from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
-from viscotack.problem import Groups, Problem
+from viscotack.problem import Groups, Problem, PunchScales
 from viscotack.problem.outputs import PLANE, REVOLUTION
 from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
@@ -38,6 +42,7 @@ _POINTS = 80
 # A contact of an indenter of revolution is looked for up to this multiple of the radius (pi R^2
 # dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
 _LARGEST, _USUAL = 300.0, 2.0
+UNLOADING = next(tier for tier in TIERS if tier.name == "unloading")
 _INPUTS = {AtDepth: "preload", AtForce: "preload_force", AtRadius: "preload_radius"}
 
 
@@ -178,12 +183,12 @@ def _radii(problem: Problem, a: Any, along: Any) -> list[float]:
 def _edge(problem: Problem, found: dict[str, Any]) -> None:
     """Put in the curve of a moving edge on a relaxed bulk, and whether it applies."""
     try:
-        answer = edge_curve(problem)
+        curve = edge_curve(problem)
     except InputError:  # of another test or shape, which the advisor says in words
         return
-    if answer is None:
+    if curve is None:
         return
-    curve, estimate = answer
+    estimate = estimate_by(UNLOADING, Question(problem))
     scales = problem.scales()
     keep = np.unique(np.linspace(0, len(curve.depth) - 1, 2 * _POINTS).astype(int))
     found["curves"]["edge"] = _curve(
@@ -194,53 +199,52 @@ def _edge(problem: Problem, found: dict[str, Any]) -> None:
         applies=estimate.applies,
         why=estimate.why,
     )
-    if estimate.applies and estimate.pull_off_force is not None and estimate.error is not None:
-        value = estimate.pull_off_force * scales.force
-        error = estimate.error * value
-        found["numbers"].append(
-            _number("pull_off", value, (value - error, value + error), "moving edge", 0.9)
-        )
 
 
 def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None:
     """Put in what was learned from simulations, where the case lies in their range."""
     try:
-        answer = learned_prediction(problem, confidence=confidence)
+        answer = predict(problem, confidence=confidence, budget=AT_ONCE)
     except OutOfRange as error:
         found["notes"].append(f"surrogate: {error}")
         return
     scales, curve, punch = problem.scales(), answer.curve, isinstance(problem.geometry, FlatPunch)
     load, edge = (scales.stress, scales.width) if punch else (scales.force, scales.radius)
-    low, high = (x * load for x in answer.interval)
     if curve is not None:
         found["curves"]["surrogate"] = _curve(
             f"learned from {'6,000' if punch else '30,000'} simulations",
             curve.depth * scales.length,
             curve.force * load,
             radius=drawn(curve.contact_radius * edge),
-            interval=[low, high],
+            interval=[x * load for x in answer.interval],
             confidence=confidence,
         )
-    told = [_number("pull_off", answer.value * load, (low, high), answer.method, confidence)]
-    if answer.work_to_pull_off is not None and answer.work_interval is not None:
-        work = [x * scales.work for x in answer.work_interval]
-        value = answer.work_to_pull_off * scales.work
-        told.append(_number("work", value, work, answer.method, confidence))
-    found["numbers"] = [*told, *found["numbers"]]
+    found["numbers"] = numbers_of(answer)
     if curve is None:
         found["notes"].append(f"surrogate: {answer.why}")
         return
     found["speeds"] = (_punch_speeds if punch else _speeds)(problem, confidence)
 
 
-def _number(name: str, value: float, pair: Any, method: str, confidence: float) -> dict[str, Any]:
-    return {
-        "name": name,
-        "value": float(value),
-        "interval": [float(x) for x in pair],
-        "method": method,
-        "confidence": confidence,
-    }
+def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
+    """Return force and work of a prediction in SI, each with its interval."""
+    scales: Any = answer.problem.scales()
+    load = scales.stress if isinstance(scales, PunchScales) else scales.force
+    given = (
+        ("pull_off", answer.pull_off_force, answer.interval, load),
+        ("work", answer.work_to_pull_off, answer.work_interval, scales.work),
+    )
+    return [
+        {
+            "name": name,
+            "value": value * unit,
+            "interval": [x * unit for x in interval],
+            "method": answer.method,
+            "confidence": answer.confidence,
+        }
+        for name, value, interval, unit in given
+        if value is not None and interval is not None
+    ]
 
 
 def _speeds(problem: Problem, confidence: float) -> dict[str, Any]:
@@ -284,10 +288,10 @@ def _of_solid(groups: Groups, rates: Array, confidence: float) -> tuple[Array, A
     found = []
     for rate in rates.tolist():
         try:
-            one = learned_prediction(replace(groups, rate=rate), confidence=confidence)
+            one = predict(replace(groups, rate=rate), confidence=confidence, budget=AT_ONCE)
         except OutOfRange:
             continue
-        found.append((rate, one.value, *one.interval))
+        found.append((rate, one.pull_off_force, *one.interval))
     columns = np.array(found).T
     return columns[0], columns[1:]
 
@@ -345,7 +349,6 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
     law = pad.crack_law("persson-brener", material=problem.material)
     forces = np.asarray(unloading.pull_off(speeds, pad, law, thickness=body.thickness).stress)
     # 1 % low to 19 % high of 35 simulations (viscotack.theory.punch.unloading)
-    here = float(np.interp(np.log(speed), np.log(speeds), forces))
     found["speeds"] = {
         "speed": drawn(speeds),
         "force": drawn(forces),
@@ -354,9 +357,6 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
         "here": speed,
         "words": "edges that are viscoelastic cracks",
     }
-    found["numbers"].append(
-        _number("pull_off", here, (here / 1.19, here / 0.99), "moving edges", 0.9)
-    )
 
 
 def _pressed(problem: Problem, stiffness: float) -> float:

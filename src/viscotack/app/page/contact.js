@@ -124,7 +124,8 @@ export class Contact {
     const drawing = setUp(this.store.tables, quick);
     if (drawing !== this.drawing) this.setUp.innerHTML = this.drawing = drawing;
     this.state(run, growing, stale);
-    this.told(quick, done && !stale ? done : null, crack);
+    const judged = verdict && verdict.version === now ? verdict.numbers || [] : [];
+    this.told(quick, done && !stale ? done : null, quick.numbers.length ? quick.numbers : judged);
     this.speed(quick, theory, done && !stale ? done : null);
     this.verdict(quick, verdict, now);
     const curve = done && !stale ? simulated : null;
@@ -156,7 +157,7 @@ export class Contact {
   }
 
   // The numbers, each with its interval and a button that copies it.
-  told(quick, done, crack) {
+  told(quick, done, numbers) {
     const { axes } = quick, rows = [];
     if (done) {
       const { summary } = done;
@@ -166,7 +167,7 @@ export class Contact {
       rows.push([`${axes.pull_off.words}, simulated`, force, axes.pull_off.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
       if (work !== null && work !== undefined) rows.push([`${axes.work.words}, simulated`, work, axes.work.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
     }
-    for (const { name, value, interval, method, confidence } of quick.numbers) {
+    for (const { name, value, interval, method, confidence } of numbers) {
       rows.push([`${axes[name].words}, ${method}`, value, axes[name].unit, `${Math.round(100 * confidence)} % of cases: ${said(interval[0], axes[name].unit).split(" ")[0]} to ${said(interval[1], axes[name].unit)}`]);
     }
     for (const [name, value] of Object.entries(quick.groups)) {

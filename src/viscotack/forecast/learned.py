@@ -1,0 +1,294 @@
+"""Surrogates of spheres as tiers: power laws, other solids, and large Tabor numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from statistics import NormalDist
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.bem.crack_band import band_parts, not_measured
+from viscotack.geometry import HalfSpace, Sphere
+from viscotack.materials import RetardationPowerLaw
+from viscotack.problem import Case, Groups
+from viscotack.protocol import AtDepth, AtForce, AtRadius
+from viscotack.theory import jkr
+from viscotack.traction import LennardJones
+
+from .allow_list import ANY, Verified
+from .beyond import Beyond, beyond
+from .prediction import MEASURED, Prediction, of_theory, with_curve
+from .question import Question
+from .refusals import out_of_range
+from .solids import alike_words, like_of, unlike_words
+from .two_peaks import two_peaks
+
+if TYPE_CHECKING:
+    from viscotack.surrogate.alike import Alike
+    from viscotack.surrogate.model import Surrogate
+    from viscotack.surrogate.short_range import Said
+    from viscotack.surrogate.solids import Solids
+
+Array = npt.NDArray[np.float64]
+
+SURROGATE, SOLIDS, LEARNED_CRACK = "surrogate", "surrogate of solids", "learned crack contact"
+POWER_LAWS = Verified(
+    shapes=(Sphere,),
+    bodies=(HalfSpace,),
+    laws=(LennardJones,),
+    solids=(RetardationPowerLaw,),
+    starts=(AtDepth, AtForce, AtRadius),
+)
+# Any linear solid: the creep itself is compared with what was learned from.
+OTHER_SOLIDS = Verified(
+    shapes=(Sphere,),
+    bodies=(HalfSpace,),
+    laws=(LennardJones,),
+    solids=ANY,
+    starts=(AtDepth, AtForce, AtRadius),
+)
+_INSIDE = "every input lies in the range that was learned from"
+# Units of the inputs that have one.
+_UNITS = {"preload": "h0", "rate": "h0/tau0"}
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The inputs of the surrogates of spheres, and which of them are out of range.
+
+    Attributes
+    ----------
+    rows : ndarray, shape (1, 5)
+        The groups; of another solid those of the power law that it is like.
+    out : tuple of str
+        In words.
+    like : Alike or None
+        Of a solid that is no power law by retardation.
+    """
+
+    rows: Array
+    out: tuple[str, ...]
+    like: Alike | None = None
+
+
+def inputs_of_sphere(asked: Question) -> Inputs:
+    """Return the inputs of the surrogates for a sphere on the allow-list."""
+    groups, learned = asked.groups, _learned()
+    material = groups.material
+    row, known = np.full(len(learned.limits), np.nan), list(learned.limits)
+    row[:2] = groups.tabor, groups.modulus_ratio
+    assert groups.rate is not None, "checked by the allow-list"
+    if isinstance(material, RetardationPowerLaw):
+        row[[2, 4]] = material.exponent, groups.rate * material.tau0
+    else:
+        # the others are those of a power law that the solid is like
+        known = ["tabor", "modulus_ratio", "preload"]
+    no_start = ""
+    # the depth of a start by force or radius is known where the Tabor number is in range
+    if isinstance(groups.start, AtDepth) or learned.inside([row])[0, 0]:
+        try:
+            row[3] = _start_depth(groups, learned)
+        except ValueError as error:
+            no_start = str(error)
+    out = []
+    for (name, limits), value, inside in zip(
+        learned.limits.items(), row.tolist(), learned.inside([row])[0], strict=True
+    ):
+        if name not in known:
+            continue
+        if np.isnan(value):
+            out.append(no_start)
+        elif not inside:
+            out.append(_out_words(name, value, limits, asked.problem))
+    out = tuple(words for words in out if words)
+    if isinstance(material, RetardationPowerLaw) or not np.isfinite(row[[0, 1, 3]]).all() or out:
+        return Inputs(row[None], out)
+    like = like_of(groups, float(row[3]))
+    tabor, k, _, depth, rate = like.groups[0].tolist()
+    doubts = (*unlike_words(like), two_peaks(tabor, k, depth, rate))
+    return Inputs(like.groups, tuple(words for words in doubts if words), like)
+
+
+# Power laws ----------------------------------------------------------------------------------
+
+
+def power_law_limits(asked: Question) -> str:
+    """Return which inputs of a power law are out of the range of the surrogate."""
+    out = asked.once(inputs_of_sphere).out
+    return "" if not out or _further(asked) is not None else "; ".join(out)
+
+
+def by_power_laws(asked: Question) -> Prediction:
+    """Evaluate the surrogate of power laws, also a little beyond its range."""
+    learned, inputs = _learned(), asked.once(inputs_of_sphere)
+    if not inputs.out:
+        answers = learned.evaluate(inputs.rows)
+        held = learned.intervals(inputs.rows, answers, confidence=asked.confidence)
+        return _inside(asked, inputs.rows, answers, held, SURROGATE, _INSIDE)
+    further = _further(asked)
+    assert further is not None, "checked by the limits"
+    why = f"{'; '.join(inputs.out)}; {further.why}"
+    found = _prediction(asked, further.answers, further.intervals, SURROGATE, why)
+    work = {} if further.with_work else {"work_to_pull_off": None, "work_interval": None}
+    return replace(found, inside=False, **work)
+
+
+def _further(asked: Question) -> Beyond | None:
+    """Return the answer a little beyond the range of the surrogate, where there is one."""
+    rows = asked.once(inputs_of_sphere).rows
+    return beyond(_learned(), rows, asked.confidence) if np.isfinite(rows).all() else None
+
+
+# Other solids --------------------------------------------------------------------------------
+
+
+def solid_limits(asked: Question) -> str:
+    """Return which inputs of a solid that is no power law are out of range."""
+    if isinstance(asked.groups.material, RetardationPowerLaw):
+        return f"power laws by retardation have a tier of their own, {SURROGATE!r}"
+    return "; ".join(asked.once(inputs_of_sphere).out)
+
+
+def by_solids(asked: Question) -> Prediction:
+    """Evaluate the surrogate of solids that are no power laws by retardation."""
+    inputs = asked.once(inputs_of_sphere)
+    assert inputs.like is not None, "checked by the limits"
+    answers = _solids().evaluate(inputs.like)
+    held = _solids().intervals(inputs.like, answers, confidence=asked.confidence)
+    why = f"{_INSIDE}; {alike_words(inputs.like)}"
+    return _inside(asked, inputs.rows, answers, held, SOLIDS, why)
+
+
+def _inside(
+    asked: Question, rows: Array, answers: Any, held: Any, method: str, why: str
+) -> Prediction:
+    """Return a prediction in the range, with its curve and the uncertainty of its start."""
+    learned, start = _learned(), asked.groups.start
+    if not isinstance(start, AtDepth):
+        by = "force" if isinstance(start, AtForce) else "contact_radius"
+        half = NormalDist().inv_cdf((1 + asked.confidence) / 2)
+        held = learned.with_start_doubt(rows, answers, held, by=by, quantile=half)
+    found = _prediction(asked, answers, held, method, why)
+    return with_curve(found, learned.curves(rows, answers), held)
+
+
+def _prediction(asked: Question, answers: Any, held: Any, method: str, why: str) -> Prediction:
+    force, work = (
+        (float(pair[0, 0]), float(pair[0, 1]))
+        for pair in (held.pull_off_force, held.work_to_pull_off)
+    )
+    return Prediction(
+        pull_off_force=float(answers.pull_off_force[0]),
+        interval=force,
+        work_to_pull_off=float(answers.work_to_pull_off[0]),
+        work_interval=work,
+        confidence=asked.confidence,
+        band=MEASURED,
+        method=method,
+        inside=True,
+        why=why,
+        curve=None,
+        curve_band=None,
+        problem=asked.problem,
+    )
+
+
+# Large Tabor numbers -------------------------------------------------------------------------
+
+
+def learned_crack_limits(asked: Question) -> str:
+    """Return why the learned theory of a crack at the edge does not hold, if so."""
+    said = asked.once(said_of_crack)
+    return said if isinstance(said, str) else ""
+
+
+def by_learned_crack(asked: Question) -> Prediction:
+    """Evaluate the learned theory of a crack at the edge."""
+    from viscotack.surrogate import short_range
+
+    said, error = asked.once(said_of_crack), float(short_range.shipped().error[0])
+    assert not isinstance(said, str), "checked by the limits"
+    zones, energy = float(said.zones[0]), float(said.amplification[0])
+    effective = float(said.effective[0])
+    band = error + sum(map(float, band_parts(energy, effective, zones)))
+    why = (
+        f"{'; '.join(asked.once(inputs_of_sphere).out)}; learned from the theory 'crack contact', "
+        f"from which it differs by {error:.2%}: effective Tabor number {effective:.3g}, way of "
+        f"{zones:.3g} zones to the pull-off"
+    )
+    return of_theory(asked, float(said.pull_off_force[0]), band, LEARNED_CRACK, why, inside=True)
+
+
+def said_of_crack(asked: Question) -> Said | str:
+    """Return the output of the learned theory of a crack at the edge, or why there is none."""
+    from viscotack.surrogate import physics, short_range
+
+    learned, rows, groups = (
+        short_range.shipped(),
+        asked.once(inputs_of_sphere).rows.copy(),
+        asked.groups,
+    )
+    if np.isnan(rows[0, physics.PRELOAD]) and rows[0, physics.TABOR] >= short_range.LOW[0]:
+        rows[0, physics.PRELOAD] = _short_range_depth(groups)
+    if not np.isfinite(rows).all() or not learned.in_range(rows)[0]:
+        return "out of the range that was learned from the theory of a crack at the edge"
+    said = learned.evaluate(rows)
+    if not learned.holds(said)[0]:
+        return "the theory of a crack at the edge, which was learned, does not hold there"
+    if elsewhere := not_measured(groups):
+        return f"the band of the theory of a crack at the edge was not measured {elsewhere}"
+    return said
+
+
+def _short_range_depth(groups: Groups) -> float:
+    """Return the depth of a relaxed start [h0] by JKR; nan where there is none."""
+    unit = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+    match groups.start:
+        case AtForce(force=force):
+            try:
+                radius = jkr.contact_radius_at_force(1.5 * np.pi * force, **unit)
+            except ValueError:  # no such contact: the theories refuse it in words
+                return np.nan
+        case AtRadius(contact_radius=contact_radius):
+            radius = contact_radius * np.pi ** (1 / 3)
+        case _:
+            return np.nan
+    return float(jkr.depth(radius, **unit)) * groups.tabor
+
+
+# Inputs --------------------------------------------------------------------------------------
+
+
+def _start_depth(groups: Groups, learned: Surrogate) -> float:
+    """Return the depth of the start [h0]; ValueError where the surrogate knows none."""
+    start = groups.start
+    match start:
+        case AtForce():
+            return learned.start_depth(groups.tabor, force=start.force)
+        case AtRadius():
+            return learned.start_depth(groups.tabor, contact_radius=start.contact_radius)
+    assert isinstance(start, AtDepth), "checked by the allow-list"
+    return start.depth
+
+
+def _out_words(name: str, value: float, limits: tuple[float, float], problem: Case) -> str:
+    """Return that an input is out of the range of the surrogate, with its value and the range."""
+    unit, si = _UNITS.get(name, ""), None
+    if unit and (scales := problem.scales()) is not None:
+        speed = scales.length / scales.time
+        si = (scales.length, "m") if name == "preload" else (speed, "m/s")
+    return out_of_range(name, value, limits, unit, si)
+
+
+def _learned() -> Surrogate:
+    from viscotack.surrogate import store
+
+    return store.shipped()
+
+
+def _solids() -> Solids:
+    from viscotack.surrogate import solids
+
+    return solids.shipped()

@@ -1,0 +1,56 @@
+"""A problem as the tiers take it: what several of them need is computed once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.protocol import Start
+
+_T = TypeVar("_T")
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """A problem, and the confidence of the intervals that are wanted.
+
+    Attributes
+    ----------
+    problem : Problem, Groups or PunchGroups
+        As the user stated it.
+    confidence : float
+        Part of the cases that intervals hold.
+    """
+
+    problem: Case
+    confidence: float = 0.9
+    _known: dict[Callable[[Question], Any], Any] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.problem, Problem | Groups | PunchGroups):
+            raise TypeError(
+                f"predict takes a Problem or Groups, got {self.problem!r}; for a file give "
+                "viscotack.read_case(path)"
+            )
+
+    @property
+    def groups(self) -> Any:
+        """The dimensionless problem, Groups or PunchGroups."""
+        return self.once(_groups)
+
+    @property
+    def relaxed_start(self) -> bool:
+        """Whether the test begins in a relaxed contact."""
+        return isinstance(self.groups.start, Start)
+
+    def once(self, compute: Callable[[Question], _T]) -> _T:
+        """Return the result of a function of this question, computed on the first call only."""
+        if compute not in self._known:
+            self._known[compute] = compute(self)
+        return self._known[compute]
+
+
+def _groups(asked: Question) -> Any:
+    return asked.problem.groups()

@@ -1,0 +1,202 @@
+"""Theories as tiers: five closed forms, and the contact whose edge is a steady crack."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from viscotack.bem.by_crack import CrackContact, crack_contact
+from viscotack.bem.crack_band import not_measured
+from viscotack.errors import InputError, OutOfRange
+from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
+from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.problem import Groups, PunchGroups
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
+from viscotack.theory import hertz
+from viscotack.traction import (
+    Dugdale,
+    Exponential,
+    LennardJones,
+    Tabulated,
+    effective_range,
+    softening,
+)
+
+from .allow_list import ANY, Verified, outside
+from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike, start_depth
+from .prediction import Prediction, of_theory
+from .question import Question
+from .two_peaks import two_peaks
+
+_LAWS = (LennardJones, Dugdale, Exponential, Tabulated)
+_RELAXED = (AtDepth, AtForce, AtRadius)
+# Where nine of ten cases lay in the bands of the closed forms (`benchmarks/rate_law.py`); rate in
+# h0/tau0. Other laws by their effective range and the steepest fall of the tension
+# [strength^2/work].
+CLOSED_FORM = Verified(
+    shapes=(Sphere,),
+    bodies=(HalfSpace,),
+    laws=_LAWS,
+    solids=(RetardationPowerLaw, StandardSolid),
+    starts=_RELAXED,
+    ranges={
+        "tabor": (0.3, 8.0),
+        "modulus_ratio": (1e-3, 0.3),
+        "exponent": (0.3, 1.6),
+        "rate": (0.1, 1e8),
+        "effective range": (0.69, 8.4),
+        "steepest fall": (0.76, 6.7),
+    },
+)
+# Elastic solids have one closed form, a table of simulations (tests/test_tiers.py).
+ELASTIC = Verified(
+    shapes=(Sphere,),
+    bodies=(HalfSpace,),
+    laws=(LennardJones,),
+    solids=(Elastic,),
+    starts=_RELAXED,
+    ranges={"tabor": (0.01, 1e6)},
+)
+# The theory takes a solid by its modulus and its creep, and was compared with simulations of
+# several; `not_measured` has the numbers.
+CRACK = Verified(
+    shapes=(Sphere, Cone, PowerLawProfile),
+    bodies=(HalfSpace,),
+    laws=_LAWS,
+    solids=ANY,
+    starts=(*_RELAXED, Apart),
+    moves=True,
+    springs=True,
+)
+CRACK_CONTACT = "crack contact"
+# Of the table of elastic forces; a viscoelastic solid is only nearly relaxed.
+_TABLE_ERROR = 0.005
+# From this effective Tabor number on the contact with a crack at its edge is evaluated.
+_CRACK_TABOR = 5.0
+# Largest start of which the curves of the closed forms are traced, a radius in
+# (pi R^2 dg0/E0*)^(1/3).
+_LARGEST_START = 300.0
+
+
+def forms_of(asked: Question) -> ClosedForms:
+    """Return the estimates of all closed forms."""
+    return closed_forms(asked.groups)
+
+
+def crack_of(asked: Question) -> CrackContact | InputError:
+    """Return the contact whose edge is a steady crack, or the reason why there is none."""
+    assert not isinstance(asked.problem, PunchGroups), "refused by the allow-list"
+    try:
+        return crack_contact(asked.problem)
+    except InputError as error:
+        return error
+
+
+def estimate_of(asked: Question, name: str) -> Estimate:
+    """Return the estimate of a closed form, whether or not it is on the allow-list there."""
+    return next(e for e in asked.once(forms_of).estimates if e.tier == name)
+
+
+def closed_form_limits(asked: Question) -> str:
+    """Return which number of a problem lies outside of the measured range of the closed forms."""
+    groups = asked.groups
+    if (radius := _start_radius(groups)) > _LARGEST_START:
+        return (
+            f"the start is a contact of radius {radius:.4g} (pi R^2 dg0/E0*)^(1/3), and the "
+            f"theories are evaluated up to {_LARGEST_START:g}"
+        )
+    alike, material = lennard_jones_alike(groups), groups.material
+    assert alike.rate is not None, "checked by the allow-list"
+    k = groups.modulus_ratio
+    values = {"tabor": alike.tabor, "modulus_ratio": k}
+    if isinstance(material, RetardationPowerLaw):
+        values["exponent"] = material.exponent
+    values["rate"] = alike.rate * material.time_unit
+    if not isinstance(groups.traction, LennardJones):
+        values["effective range"] = effective_range(groups.traction)
+        values["steepest fall"] = softening(groups.traction)
+    ranges = CLOSED_FORM.ranges
+    if asked.once(forms_of).regime == "quasi-static":
+        # slower retractions are the more so
+        ranges = {**ranges, "rate": (0.0, ranges["rate"][1])}
+    if words := outside(values, ranges):
+        return words
+    depth = start_depth(alike)
+    return "" if depth is None else two_peaks(alike.tabor, k, depth * alike.tabor, values["rate"])
+
+
+def elastic_limits(asked: Question) -> str:
+    """Return why the closed form of elastic solids does not hold, if so."""
+    groups = asked.groups
+    if not isinstance(groups.material, Elastic):
+        return closed_form_limits(asked)
+    match groups.start:
+        case AtDepth(depth=value) | AtForce(force=value) if value < 0:
+            # the retraction may begin beyond the force minimum
+            return "the start is in tension, verified for starts that are not"
+    return outside({"tabor": groups.tabor}, ELASTIC.ranges)
+
+
+def by_closed_form(asked: Question, name: str) -> Prediction:
+    """Evaluate a closed form.
+
+    Raises
+    ------
+    OutOfRange
+        If its own conditions are not met: of speed, start or range of the forces.
+    """
+    try:
+        found = estimate_of(asked, name)
+    except OverflowError:
+        raise OutOfRange("the numbers of the theory have no digits there") from None
+    if not found.applies or found.pull_off_force is None or found.error is None:
+        raise OutOfRange(found.why)
+    error = _TABLE_ERROR if isinstance(asked.groups.material, Elastic) else found.error
+    why = f"by the theory {name!r}: {found.why}"
+    return of_theory(asked, found.pull_off_force, error, name, why)
+
+
+def crack_limits(asked: Question) -> str:
+    """Return why the band of a contact with a crack at its edge does not hold, if so."""
+    groups = asked.groups
+    simple = not groups.moves and groups.stiffness is None and isinstance(groups.geometry, Sphere)
+    if simple and groups.effective_tabor < _CRACK_TABOR:
+        return (
+            f"the cohesive zone is too large for this theory: effective Tabor number "
+            f"{groups.effective_tabor:.3g}, evaluated from {_CRACK_TABOR:g} on"
+        )
+    if elsewhere := not_measured(groups):
+        return f"its band was not measured {elsewhere}"
+    return ""
+
+
+def by_crack_contact(asked: Question) -> Prediction:
+    """Evaluate the contact whose edge is a steady crack.
+
+    Raises
+    ------
+    OutOfRange
+        If the theory does not hold there.
+    """
+    found = asked.once(crack_of)
+    if isinstance(found, InputError):
+        raise OutOfRange(str(found))
+    if found.pull_off_force is None:
+        raise OutOfRange("the test comes to no pull-off")
+    why = f"by the theory {CRACK_CONTACT!r}: {found.why}"
+    work = found.work_to_pull_off
+    return of_theory(asked, found.pull_off_force, found.band, CRACK_CONTACT, why, work=work)
+
+
+def _start_radius(groups: Groups) -> float:
+    """Return the radius of the start without adhesion [(pi R^2 dg0/E0*)^(1/3)]."""
+    start = groups.start
+    match start:
+        case AtRadius():
+            return start.contact_radius
+        case AtForce():
+            load = 1.5 * np.pi * max(start.force, 0.0)
+            radius = hertz.contact_radius_at_force(load, radius=1.0, contact_modulus=1.0)
+        case AtDepth():
+            depth = max(start.depth, 0.0) / groups.tabor  # R = E0* = dg0 = 1, so that h0 = 1/mu
+            radius = hertz.contact_radius_at_depth(depth, radius=1.0)
+    return float(radius / np.pi ** (1 / 3))

@@ -1,0 +1,205 @@
+"""The tiers that answer how hard one must pull, and the one function that chooses among them.
+
+A tier answers only problems on its allow-list: shapes, bodies, laws, solids, tests and ranges for
+which it was compared with simulations. Everything else it refuses with the reason, so that a new
+noun is refused until somebody has compared it. Each answer carries a value, an interval, what the
+interval was measured on, and the name of the tier.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+
+from viscotack.errors import InputError, OutOfRange
+from viscotack.materials import Elastic, RetardationPowerLaw
+from viscotack.problem import Case, PunchGroups
+
+from .allow_list import Verified
+from .learned import (
+    LEARNED_CRACK,
+    OTHER_SOLIDS,
+    POWER_LAWS,
+    SOLIDS,
+    SURROGATE,
+    by_learned_crack,
+    by_power_laws,
+    by_solids,
+    learned_crack_limits,
+    power_law_limits,
+    solid_limits,
+)
+from .prediction import Prediction
+from .punches import LEARNED_PUNCH, PUNCHES, by_punches, punch_limits
+from .question import Question
+from .simulation import SIMULATION, by_simulation
+from .theories import (
+    CLOSED_FORM,
+    CRACK,
+    CRACK_CONTACT,
+    ELASTIC,
+    by_closed_form,
+    by_crack_contact,
+    closed_form_limits,
+    crack_limits,
+    elastic_limits,
+)
+
+# Seconds that a tier may take: surrogates alone; surrogates and theories, the default.
+AT_ONCE, SOON = 0.01, 1.0
+_SIMULATE = "`viscotack simulate`, or `predict` with --exact, answers it"
+
+
+@dataclass(frozen=True, eq=False)
+class Tier:
+    """One way to answer: a surrogate, a theory or the simulation.
+
+    Attributes
+    ----------
+    name : str
+        As in the `method` of its predictions.
+    cost : float
+        Time of an answer [s], about.
+    verified : tuple of Verified
+        Its allow-lists, one of which a problem must be on; empty where it takes every noun.
+    limits : callable
+        Returns which number of a problem on the list is out of its range, or an empty string.
+    reply : callable
+        Returns the prediction.
+    """
+
+    name: str
+    cost: float
+    verified: tuple[Verified, ...]
+    limits: Callable[[Question], str]
+    reply: Callable[[Question], Prediction]
+
+    def covers(self, problem: Case) -> str:
+        """Return the reason why the tier does not answer a problem, or an empty string.
+
+        A theory whose list a problem is on may still find, when it answers, that its own conditions
+        of speed and start are not met; :meth:`answer` then raises.
+        """
+        return self.refuses(Question(problem))
+
+    def answer(self, problem: Case, *, confidence: float = 0.9) -> Prediction:
+        """Return the answer of this tier.
+
+        Raises
+        ------
+        OutOfRange
+            If the tier does not cover the problem, with the reason.
+        """
+        return self.ask(Question(problem, confidence))
+
+    def refuses(self, asked: Question) -> str:
+        """Return :meth:`covers` of a problem of which more is known."""
+        reasons = [each.refuses(asked.groups) for each in self.verified]
+        if reasons and all(reasons):
+            return reasons[0]
+        return self.limits(asked)
+
+    def ask(self, asked: Question) -> Prediction:
+        """Return :meth:`answer` to a problem of which more is known."""
+        if reason := self.refuses(asked):
+            raise OutOfRange(reason)
+        return self.reply(asked)
+
+
+def _no_limits(asked: Question) -> str:
+    return ""
+
+
+LEARNED = (
+    Tier(SURROGATE, 1e-3, (POWER_LAWS,), power_law_limits, by_power_laws),
+    Tier(SOLIDS, 4e-3, (OTHER_SOLIDS,), solid_limits, by_solids),
+    Tier(LEARNED_PUNCH, 2e-3, (PUNCHES,), punch_limits, by_punches),
+    Tier(LEARNED_CRACK, 1e-3, (POWER_LAWS,), learned_crack_limits, by_learned_crack),
+)
+THEORIES = (
+    Tier(CRACK_CONTACT, 0.5, (CRACK,), crack_limits, by_crack_contact),
+    Tier(
+        "elastic",
+        0.02,
+        (CLOSED_FORM, ELASTIC),
+        elastic_limits,
+        partial(by_closed_form, name="elastic"),
+    ),
+    *(
+        Tier(name, 0.02, (CLOSED_FORM,), closed_form_limits, partial(by_closed_form, name=name))
+        for name in ("unloading", "detachment", "rate-fit", "glassy")
+    ),
+)
+EXACT = Tier(SIMULATION, 3.0, (), _no_limits, by_simulation)
+TIERS = (*LEARNED, *THEORIES, EXACT)
+
+
+def best(asked: Question, budget: float) -> Prediction:
+    """Return the answer of the best tier that a budget allows.
+
+    Surrogates come first, because their intervals are the narrowest and cost nothing; then, if the
+    budget allows it, the simulation; then the theory with the narrowest band.
+
+    Parameters
+    ----------
+    asked : Question
+        The problem.
+    budget : float
+        Largest cost of a tier [s].
+
+    Raises
+    ------
+    OutOfRange
+        If no tier within the budget was verified for the problem: the reason of each.
+    ValueError
+        If there is no relaxed contact to pull off.
+    """
+    from viscotack.campaign.columns import has_relaxed_contact
+
+    refused: dict[str, str] = {}
+    for found in _answers(LEARNED, asked, budget, refused):
+        return found
+    out = _reason_of_surrogates(asked, refused)
+    if asked.relaxed_start and budget > AT_ONCE and not has_relaxed_contact(asked.problem):
+        raise InputError(
+            f"there is no contact to pull off: no relaxed one exists at {asked.groups.start}"
+        )
+    for found in _answers((EXACT,), asked, budget, refused):
+        return found.because(out)
+    theories = list(_answers(THEORIES, asked, budget, refused))
+    if theories:
+        return min(theories, key=lambda x: x.interval[1] - x.interval[0]).because(out)
+    raise OutOfRange(_no_tier(out, asked, refused, budget))
+
+
+def _answers(
+    tiers: tuple[Tier, ...], asked: Question, budget: float, refused: dict[str, str]
+) -> Iterator[Prediction]:
+    """Iterate over the answers of the tiers that cover a problem; collect the other reasons."""
+    for tier in tiers:
+        if tier.cost > budget:
+            continue
+        try:
+            yield tier.ask(asked)
+        except OutOfRange as reason:
+            refused[tier.name] = str(reason)
+
+
+def _reason_of_surrogates(asked: Question, refused: dict[str, str]) -> str:
+    """Return why the surrogate that is closest to a problem does not answer it."""
+    if isinstance(asked.groups, PunchGroups):
+        return refused[LEARNED_PUNCH]
+    power_law = isinstance(asked.groups.material, RetardationPowerLaw)
+    return refused[SURROGATE if power_law else SOLIDS]
+
+
+def _no_tier(out: str, asked: Question, refused: dict[str, str], budget: float) -> str:
+    """Return in words why no tier within a budget answers."""
+    if budget <= AT_ONCE:
+        return out
+    # the reasons of the other closed forms are alike
+    form = "elastic" if isinstance(asked.groups.material, Elastic) else "detachment"
+    theories = (refused.get(form, ""), refused.get(CRACK_CONTACT, ""))
+    words = dict.fromkeys(each for each in (out, *theories) if each)
+    return f"{'; '.join(words)}; no theory applies either; {_SIMULATE}"
