@@ -116,7 +116,8 @@ def test_the_row_of_a_case_is_what_the_result_says():
     assert row["pull_off_force"] == pull_off_force(result)
     assert row["error_estimate"] == result.error_estimate["force"]
     assert row["error_estimate_work"] == result.error_estimate["work"]
-    assert row["status"] == result.status and row["steps"] == len(result.time) - 1
+    assert (row["status"], row["method"]) == (result.status, "simulation")
+    assert row["steps"] == len(result.time) - 1
     assert "numpy" in row["versions"]
     kinds = {type(v) for v in row.values() if v is not None}
     assert kinds <= {str, float, int, list}

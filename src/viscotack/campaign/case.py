@@ -38,7 +38,6 @@ _LEFT_OUT = (
     *(
         "accuracy",
         "accuracy_met",
-        "method",
         "shallow_start",
         "cycles",
         "time_to_detachment",
