@@ -290,3 +290,11 @@ def test_thousands_of_cases_at_once_lie_between_slow_and_fast():
     curves = recede(crack, profile, radius=rng.uniform(3.5, 8, 4000), rate=rate, tabor=tabor)
     pulled = -curves.force.min(axis=0) / (1.5 * np.pi)
     assert np.all((pulled > 0.99) & (pulled < 10.01))
+
+
+def test_a_history_that_takes_too_many_steps_is_out_of_range(monkeypatch):
+    monkeypatch.setattr("viscotack.theory.crack.contact.history._MOST_STEPS", 5)
+    press = Approach(100.0, AtDepth(200.0))
+    long = Groups(tabor=100, material=ELASTIC, start=AtDepth(100), rate=100, moves=(press,))
+    with pytest.raises(OutOfRange, match="more than 5 steps"):
+        crack_contact(long)

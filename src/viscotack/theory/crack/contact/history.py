@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.errors import InputError
+from viscotack.errors import OutOfRange
 from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge
@@ -202,7 +202,7 @@ class Contact:
             scale = max(state.radius, 0.05)
             fast = abs(moved) > _TRAVEL * scale and not jumped
             dt *= max(0.3, _TRAVEL * scale / abs(moved)) if fast else _GROWTH
-        raise InputError(
+        raise OutOfRange(
             f"the history needs more than {_MOST_STEPS:,} steps; make it shorter, or simulate it"
         )
 
@@ -366,7 +366,7 @@ class _Step:
             if excess(high) < 0:
                 return _bisected(excess, high, low)
             if high >= largest:
-                raise InputError(
+                raise OutOfRange(
                     "the contact grows beyond the largest radius that was expected; simulate it"
                 )
             grow *= 2
