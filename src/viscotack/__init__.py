@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
     from .result.observables import effective_surface_energy as effective_surface_energy
     from .result.observables import ligament_at_pull_off as ligament_at_pull_off
+    from .result.observables import peaks as peaks
     from .result.observables import pull_off as pull_off
     from .result.observables import pull_off_depth as pull_off_depth
     from .result.observables import pull_off_force as pull_off_force
@@ -153,6 +154,7 @@ _NAMES = {
         "Observable",
         "PullOff",
         "pull_off",
+        "peaks",
         "pull_off_force",
         "pull_off_depth",
         "contact_radius_at_pull_off",

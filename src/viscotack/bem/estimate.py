@@ -8,6 +8,7 @@ settings are made for: hence a margin, and a floor.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,13 +16,21 @@ from viscotack.bem.clock import TimeUp
 from viscotack.bem.preload import Beginning
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
-from viscotack.result.observables import pull_off_force, work_lost, work_to_pull_off
+from viscotack.result.observables import (
+    PullOff,
+    depth_shift,
+    equal_peak,
+    peaks,
+    pull_off,
+    work_lost,
+    work_to,
+)
 from viscotack.result.parts import move_numbers, moves_of, waits
 
 # The companion of a run is less accurate by this factor.
 COARSER = 4.0
 # The estimate is the difference to the companion over COARSER - 1, times these margins ...
-_MARGIN = {"force": 3.4, "work": 5.0, "time": 3.4}
+_MARGIN = {"force": 3.4, "work": 5.0, "time": 3.4, "depth": 5.0}
 # ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 52
 # random problems with every law (`benchmarks/trust.py --finer`) the estimate then covers the error
 # beside a run ten times as accurate in 96 % (force) and 94 % (work), and is in the median 4 and 5
@@ -43,37 +52,72 @@ def estimated(
     travel: float,
     accuracy: float,
 ) -> dict[str, float] | None:
-    """Return the relative errors by name from a coarser companion, None without one.
+    """Return the errors by name from a coarser companion, None without one.
 
-    The depth of the start adds what it might change where the march began at another one.
+    Those of force, work and time are relative, that of the depth of the pull-off is in h0. Where
+    the force has several peaks, that of the companion which is nearest to the pull-off is compared
+    with it. The depth of the start adds what it might change where the march began at another one.
     """
     try:
         coarse = companion() if beginning is None else beginning.light
-        values, others = _measures(result), _measures(coarse)
+        if _holds(result) != _holds(coarse):
+            return None
+        if _holds(result):
+            value, other = time_held(result), time_held(coarse)
+            estimate = {"time": _from_difference("time", abs(value - other) / value, accuracy)}
+        else:
+            found = pull_off(result)
+            alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
+            estimate = _of_pull_off(result, found, coarse, alike, travel, accuracy)
     except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
         return None
-    if values.keys() != others.keys():
-        return None
-    estimate = {}
-    for name, value in values.items():
-        other = others[name]
-        share = abs(value - other) / max(abs(value), np.finfo(float).tiny)
-        estimate[name] = max(_MARGIN[name] * share / (COARSER - 1), _FLOOR[name] * accuracy)
-    if work := values.get("work"):
-        # without a way to the minimum nothing is known of the work on it
-        lost = work_lost(result, estimate["force"] / travel)
-        estimate["work"] = min(max(estimate["work"], _MOVED * lost / abs(work)), _ALL)
-    elif "work" in values:
-        estimate["work"] = _ALL
     if beginning is not None:
         for name in estimate:
-            estimate[name] += getattr(beginning.start, name)
+            estimate[name] += getattr(beginning.start, _OF_START[name])
+    if "force" in estimate:
+        _add_branch(result, estimate)
     return estimate
 
 
-def _measures(result: Result) -> dict[str, float]:
-    """Return what errors are stated of: the pull-off, or the time for which a load was borne."""
-    last = int(move_numbers(result)[-1])
-    if waits(moves_of(result)[last], "force"):
-        return {"time": time_held(result)}
-    return {"force": pull_off_force(result), "work": work_to_pull_off(result)}
+# What a start at another depth may change, by the name of the error.
+_OF_START = {"force": "force", "work": "work", "depth": "shift"}
+
+
+def _of_pull_off(
+    result: Result, found: PullOff, coarse: Result, alike: PullOff, travel: float, accuracy: float
+) -> dict[str, float]:
+    """Return the errors at a pull-off beside the like peak of a companion."""
+    work, other = work_to(result, found), work_to(coarse, alike)
+    tiny = np.finfo(float).tiny
+    force = _from_difference("force", abs(found.force - alike.force) / found.force, accuracy)
+    share = _from_difference("work", abs(work - other) / max(abs(work), tiny), accuracy)
+    # without a way to the minimum nothing is known of the work on it
+    lost = work_lost(result, force / travel)
+    moved = _MOVED * lost / abs(work) if work else _ALL
+    depth = max(
+        _MARGIN["depth"] * abs(found.depth - alike.depth) / (COARSER - 1),
+        _MOVED * depth_shift(result, force / travel),
+    )
+    return {"force": force, "work": min(max(share, moved), _ALL), "depth": depth}
+
+
+def _from_difference(name: str, share: float, accuracy: float) -> float:
+    """Return the error that a relative difference from the companion stands for."""
+    return max(_MARGIN[name] * share / (COARSER - 1), _FLOOR[name] * accuracy)
+
+
+def _add_branch(result: Result, estimate: dict[str, float]) -> None:
+    """Widen the errors of work and depth to the other peak where either may be the larger."""
+    known = replace(result, error_estimate=estimate).posed(result.groups)
+    if (other := equal_peak(known)) is None:
+        return
+    found = pull_off(result)
+    work = work_to(result, found)
+    away = abs(work_to(result, other) - work) / abs(work) if work else _ALL
+    estimate["work"] = min(max(estimate["work"], away), _ALL)
+    estimate["depth"] = max(estimate["depth"], abs(other.depth - found.depth))
+
+
+def _holds(result: Result) -> bool:
+    """Return whether a test ends with a load that is borne, whose error is that of the time."""
+    return waits(moves_of(result)[int(move_numbers(result)[-1])], "force")

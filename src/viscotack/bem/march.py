@@ -21,6 +21,7 @@ from viscotack.bem.books import SMALLEST_ENERGY, Books, History, Lowest, Snapsho
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.jumps import followed, shortest_step
+from viscotack.bem.later import over
 from viscotack.bem.machine import Leg
 from viscotack.bem.memory import step
 from viscotack.bem.mesh import Grading, Mesh
@@ -54,12 +55,12 @@ def march(
 ) -> History:
     """Take a body at rest through the legs and return its history.
 
-    `until` is "pull-off" (a little past the force minimum of the last leg) or "detached" (surfaces
-    apart). The law of the contact is the one at rest; `growing` is it where it grows with the
-    opening speed. The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the
-    bound on steps was met, "time" when that on time was, "shut" when the surfaces were pressed
-    together harder than the law repels, "lost" when no equilibrium was found, or "unheld" where a
-    dead load has no contact that bears it.
+    `until` is "pull-off" (past the largest tension of the last leg, see :mod:`.later`) or
+    "detached" (surfaces apart). The law of the contact is the one at rest; `growing` is it where it
+    grows with the opening speed. The outcome is "pull-off", "detached", "end" (of the last leg),
+    "steps" when the bound on steps was met, "time" when that on time was, "shut" when the surfaces
+    were pressed together harder than the law repels, "lost" when no equilibrium was found, or
+    "unheld" where a dead load has no contact that bears it.
     """
     history = History(least_energy=SMALLEST_ENERGY * contact.span)
     body = Body(contact, modes, np.asarray(modes.weights), growing)
@@ -162,7 +163,7 @@ def _judged(run: Run, at: Place, until: str) -> Place:
     history, last = run.history, at.number == len(run.legs) - 1
     if last and at.leg.opens and separated(at.state.gap, run.body.contact.span):
         history.outcome = "detached"
-    elif last and until == "pull-off" and at.past:
+    elif last and until == "pull-off" and over(run, at):
         history.outcome = "pull-off"
     elif len(history.snapshots) > run.settings.most_steps:
         history.outcome = "steps"

@@ -47,7 +47,7 @@ class Place:
 
     @property
     def past(self) -> bool:
-        """Whether the force minimum of this leg is behind."""
+        """Whether a force minimum of this leg, the lowest so far, is behind."""
         return self.lowest.behind(self.seen.force)
 
     @property

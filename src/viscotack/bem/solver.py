@@ -37,6 +37,7 @@ from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeL
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
+from viscotack.result.observables import peaks
 from viscotack.traction import effective_range, grows
 
 # Is told the done share of the work.
@@ -178,9 +179,11 @@ def solve(
         contact = contact_of(groups)
         check_bounds(problem, groups, contact)
 
-        def light(marched: Groups | PunchGroups, seen: Progress = None) -> Result:
+        def light(
+            marched: Groups | PunchGroups, seen: Progress = None, *, whole: bool = False
+        ) -> Result:
             # after moves the force may have a minimum before the pull-off: one end for both then
-            end = until if groups.moves else "pull-off"
+            end = until if groups.moves else "detached" if whole else "pull-off"
             return _run(problem, marched, chosen.coarser(COARSER), end, False, seen)
 
         try:
@@ -198,7 +201,7 @@ def solve(
         if estimate_error and result.outcome is not Outcome.STOPPED:
             estimate = estimated(
                 result,
-                lambda: light(groups, _part(progress, share, 1.0)),
+                lambda: light(groups, _part(progress, share, 1.0), whole=len(peaks(result)) > 1),
                 beginning,
                 contact.travel,
                 chosen.accuracy,

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from viscotack.bem.body import State, Trial
 from viscotack.bem.books import Books, Snapshot
+from viscotack.bem.later import over
 from viscotack.bem.memory import Step
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.place import Place, Run
@@ -192,7 +193,7 @@ def arrived(at: Place, attempt: Attempt) -> Place:
 
 def force_change(run: Run, at: Place) -> float:
     """Return the largest change of the force in a step."""
-    return _looser(at) * run.settings.force_change * (abs(at.seen.force) + 1)
+    return _looser(run, at) * run.settings.force_change * (abs(at.seen.force) + 1)
 
 
 def travel(run: Run, at: Place) -> float:
@@ -204,7 +205,7 @@ def travel(run: Run, at: Place) -> float:
     apart = max(float(np.min(at.state.gap)) - 1, 0.0)
     pressed = max(at.seen.force, 0.0) ** (2 / 3)
     reach = run.body.contact.travel * (1 + pressed) + apart
-    return _looser(at) * run.settings.travel * reach
+    return _looser(run, at) * run.settings.travel * reach
 
 
 def _farthest(run: Run, at: Place) -> float:
@@ -213,9 +214,9 @@ def _farthest(run: Run, at: Place) -> float:
     return travel(run, at) * (_FOLLOWING if follows else 1.0)
 
 
-def _looser(at: Place) -> float:
+def _looser(run: Run, at: Place) -> float:
     """Return how much longer steps may be."""
-    return _LOOSER if at.past else 1.0
+    return _LOOSER if over(run, at) else 1.0
 
 
 def changed(run: Run, at: Place, after: Snapshot) -> float:
@@ -231,7 +232,7 @@ def _strain(run: Run, at: Place, trial: Trial) -> float:
     """Return by how much a step is too long but for its energy: a ratio of lengths, squared."""
     after = trial.after.seen
     return max(
-        trial.error / (run.settings.step_error * run.body.contact.span * _looser(at) ** 2),
+        trial.error / (run.settings.step_error * run.body.contact.span * _looser(run, at) ** 2),
         changed(run, at, after),
         at.mesh.strain(at.seen.edge, after.edge),
         (trial.bend / (_BEND * run.settings.force_change)) ** 2,

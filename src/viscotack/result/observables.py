@@ -16,7 +16,7 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 from .cycles import cycle_rows
 from .dead_load import time_held
-from .opening import PullOff, lost_beside, pull_off_in, tension_work
+from .opening import PullOff, lost_beside, peaks_in, pull_off_in, tension_work
 from .parts import spans
 
 # A work to pull-off whose stated error is larger than this part of it means nothing.
@@ -40,6 +40,71 @@ def pull_off(result: Result) -> PullOff:
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no observables: {result.status}")
     return pull_off_in(result, spans(result)[-1])
+
+
+def peaks(result: Result) -> tuple[PullOff, ...]:
+    """Return the states at all peaks of the tension in the last retraction, in time.
+
+    A fast pull from a deep start may have two: one while the bulk is glassy, and one after it has
+    relaxed. The largest is the pull-off. Between two of them the tension falls by 3 % of the
+    smaller one, and of the unit of force, at least.
+
+    Raises
+    ------
+    ValueError
+        If the run failed, or the surfaces were never in contact.
+    """
+    if result.outcome is Outcome.STOPPED:
+        raise InputError(f"the run failed and has no observables: {result.status}")
+    return peaks_in(result, spans(result)[-1])
+
+
+def other_peak(result: Result) -> PullOff:
+    """Return the state at the largest peak of the tension beside the pull-off.
+
+    Raises
+    ------
+    ValueError
+        If there is no pull-off, or no other peak.
+    """
+    found = pull_off(result)
+    others = [peak for peak in peaks(result) if peak.time != found.time]
+    if not others:
+        raise InputError("the force has one peak only")
+    return max(others, key=lambda peak: peak.force)
+
+
+def other_peak_force(result: Result) -> float:
+    """Return the tension at the other peak, positive [1.5 pi R Delta-gamma_0]; ValueError if none.
+
+    For a punch it is a stress.
+    """
+    return other_peak(result).force
+
+
+def other_peak_depth(result: Result) -> float:
+    """Return the depth at the other peak [h_0], positive into the solid; ValueError if none."""
+    return other_peak(result).depth
+
+
+def work_to_other_peak(result: Result) -> float:
+    """Return the work of the drive to the other peak, as `work_to_pull_off`; ValueError if none."""
+    return work_to(result, other_peak(result))
+
+
+def work_to(result: Result, peak: PullOff) -> float:
+    """Return the work of the drive from zero force to a peak, in the unit of works."""
+    return _given(result, tension_work(result, spans(result)[-1], peak, until=-peak.depth))
+
+
+def equal_peak(result: Result) -> PullOff | None:
+    """Return the other peak where the stated error of the force leaves open which is larger."""
+    error = (result.error_estimate or {}).get("force", 0.0)
+    try:
+        found, other = pull_off(result), other_peak(result)
+    except InputError:
+        return None
+    return other if found.force - other.force <= error * (found.force + other.force) else None
 
 
 def pull_off_force(result: Result) -> float:
@@ -88,11 +153,16 @@ def work_to_pull_off(result: Result) -> float:
     ValueError
         If there is no pull-off, or the work means nothing: a retraction that begins next to the
         force minimum does next to no work on its way there, and the stated error is half of it or
-        more.
+        more; or two peaks of the force are equal within its stated error, each with its own work.
     """
     found = pull_off(result)
-    last = spans(result)[-1]
-    work = _given(result, tension_work(result, last, found, until=-found.depth))
+    work = work_to(result, found)
+    if other := equal_peak(result):
+        raise InputError(
+            f"two peaks of the force, {found.force:.4g} and {other.force:.4g}, are equal within "
+            f"its error: the work is {work:.4g}, to a depth of {found.depth:.4g} h0, or "
+            f"{work_to(result, other):.4g}, to {other.depth:.4g} h0; ask for a better accuracy"
+        )
     error = (result.error_estimate or {}).get("work", 0.0)
     if error > _MEANINGLESS:
         raise InputError(
@@ -125,6 +195,15 @@ def work_lost(result: Result, force_error: float) -> float:
         Zero where the minimum is no valley: the first step, or the last one before a jump.
     """
     return _given(result, force_error * lost_beside(result, spans(result)[-1]))
+
+
+def depth_shift(result: Result, force_error: float) -> float:
+    """Return by how much that error moves the force minimum [h_0]: its slope over the curvature.
+
+    Zero where the minimum is no valley, as for :func:`work_lost`.
+    """
+    found = pull_off(result)
+    return force_error * lost_beside(result, spans(result)[-1]) / found.force
 
 
 def work_of_separation(result: Result) -> float:
@@ -304,20 +383,27 @@ def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
     }
 
 
-_OBSERVABLES: dict[str, Callable[[Result], float]] = {
-    function.__name__: function
-    for function in (
-        pull_off_force,
-        pull_off_depth,
-        pull_off_stress,
-        contact_radius_at_pull_off,
-        ligament_at_pull_off,
-        crack_speed_at_pull_off,
-        effective_surface_energy,
-        work_to_pull_off,
-        work_of_separation,
-    )
-} | {"time_to_detachment": time_held}
+_OBSERVABLES: dict[str, Callable[[Result], float]] = (
+    {
+        function.__name__: function
+        for function in (
+            pull_off_force,
+            pull_off_depth,
+            pull_off_stress,
+            contact_radius_at_pull_off,
+            ligament_at_pull_off,
+            crack_speed_at_pull_off,
+            effective_surface_energy,
+            work_to_pull_off,
+            work_of_separation,
+            other_peak_force,
+            other_peak_depth,
+            work_to_other_peak,
+        )
+    }
+    | {"other_peak_stress": other_peak_force}
+    | {"time_to_detachment": time_held}
+)
 
 
 def _number(

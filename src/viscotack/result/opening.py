@@ -21,18 +21,20 @@ from .parts import Span, move_numbers, moves_of, touches, waits
 Array = npt.NDArray[np.float64]
 # Steps of equal length are equal but for round-off.
 _EQUAL = 1 + 1e-9
+# A force that has risen by this part of its minimum and of the unit of force has left it.
+_RISEN = 0.03
 # Steps after the pull-off within which an edge that is gone counts as running out.
 _GONE = 3
 
 
 @dataclass(frozen=True)
 class PullOff:
-    """The force minimum of a retraction, located between steps; dimensionless as in `Result`.
+    """A force minimum of a retraction, located between steps; dimensionless as in `Result`.
 
     Attributes
     ----------
     force : float
-        Pull-off force, the positive number -min(force).
+        Tension there, a positive number: the pull-off force at the lowest minimum.
     depth, time : float
         Where and when.
     contact_radius : float
@@ -78,7 +80,25 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
         If there is none: nothing is pulled in it, or the force was lowest where the machine turned
         or stopped, or was itself what the machine set.
     """
-    steps, lowest = _valley_of(result, span)
+    return _located(result, *_valley_of(result, span))
+
+
+def peaks_in(result: Result, span: Span) -> tuple[PullOff, ...]:
+    """Return the states at all peaks of the tension in the opening part of a cycle, in time.
+
+    Between two of them the tension falls by 3 % of the smaller one, and of the unit of force, at
+    least. A jump ends a peak as a smooth maximum does.
+
+    Raises
+    ------
+    ValueError
+        If the surfaces were never in contact.
+    """
+    return tuple(_located(result, *valley) for valley in _valleys(result, span))
+
+
+def _located(result: Result, steps: npt.NDArray[np.intp], lowest: int) -> PullOff:
+    """Return the state at a force minimum, between the steps around the lowest one of a piece."""
     # The motion is a retraction without a break: travel, minus the depth, orders the steps.
     x = -result.depth[steps]
     smooth = _smooth(move_numbers(result)[steps], lowest)
@@ -128,19 +148,84 @@ def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
     return slice(max(first - 1, 0), last + 1)
 
 
-def _valley_of(result: Result, span: Span) -> tuple[npt.NDArray[np.intp], int]:
-    """Return the steps of the piece with the force minimum, and which of them is the lowest."""
-    if not touches(result, span):
-        raise InputError("the surfaces were never in contact, there is no pull-off")
-    found, pieces = None, _pieces(result, span)
+# Steps of a piece, and which of them is the lowest of a valley.
+_Valley = tuple[npt.NDArray[np.intp], int]
+
+
+def _valley_of(result: Result, span: Span) -> _Valley:
+    """Return the lowest valley of the force in the opening part of a cycle.
+
+    A piece that is lowest where it ends without a minimum has none: the force falls further.
+    """
+    found, pieces = None, _opening(result, span)
     for piece in pieces:
         lowest = int(np.argmin(result.force[piece.steps]))
-        least = float(result.force[piece.steps][lowest])
-        if least < 0 and piece.has_minimum(lowest) and (found is None or least < found[0]):
-            found = least, piece.steps, lowest
+        if _is_valley(result, piece, lowest):
+            valley = piece.steps, lowest
+            found = valley if found is None else _lower(result, found, valley)
     if found is None:
         raise InputError(_why_none(result, span, pieces))
-    return found[1:]
+    return found
+
+
+def _valleys(result: Result, span: Span) -> list[_Valley]:
+    """Return all valleys of the force in tension, in time."""
+    found: list[_Valley] = []
+    for piece in _opening(result, span):
+        for lowest in _minima(result.force[piece.steps]):
+            if not _is_valley(result, piece, lowest):
+                continue
+            valley = piece.steps, lowest
+            if found and not _apart(result, found[-1], valley):
+                valley = _lower(result, found.pop(), valley)
+            found.append(valley)
+    return found
+
+
+def _opening(result: Result, span: Span) -> list[_Piece]:
+    if not touches(result, span):
+        raise InputError("the surfaces were never in contact, there is no pull-off")
+    return _pieces(result, span)
+
+
+def _is_valley(result: Result, piece: _Piece, lowest: int) -> bool:
+    return _force_of(result, (piece.steps, lowest)) < 0 and piece.has_minimum(lowest)
+
+
+def _lower(result: Result, one: _Valley, other: _Valley) -> _Valley:
+    return other if _force_of(result, other) < _force_of(result, one) else one
+
+
+def _force_of(result: Result, valley: _Valley) -> float:
+    steps, lowest = valley
+    return float(result.force[steps[lowest]])
+
+
+def _apart(result: Result, one: _Valley, other: _Valley) -> bool:
+    """Return whether the force rises between two valleys, and so much that they are two."""
+    first, last = one[0][one[1]], other[0][other[1]]
+    higher = max(_force_of(result, one), _force_of(result, other))
+    top = min(float(result.force[first : last + 1].max()), 0.0)
+    return top - higher > _RISEN * (abs(higher) + 1)
+
+
+def _minima(force: Array) -> list[int]:
+    """Return the lowest steps before each rise of the force that is not noise, and the last one.
+
+    The lowest of all is among them.
+    """
+    found, low, high, rising = [], 0, 0, False
+    for i, now in enumerate(force):
+        if rising:
+            high = i if now > force[high] else high
+            if min(force[high], 0.0) - now > _RISEN * (abs(force[high]) + 1) or now < force[low]:
+                low, rising = i, False
+        elif now < force[low]:
+            low = i
+        elif min(now, 0.0) - force[low] > _RISEN * (abs(force[low]) + 1):
+            found.append(low)
+            high, rising = i, True
+    return found if rising else [*found, low]
 
 
 def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:

@@ -60,3 +60,4 @@ class Contact(Protocol):
     def grading(self, settings: Settings, depth: float) -> Grading: ...  # noqa: D102
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed: ...  # noqa: D102
     def deepest(self, start: Start) -> float: ...  # noqa: D102
+    def relaxed_pull_off(self, edge: float) -> float: ...  # noqa: D102

@@ -48,6 +48,20 @@ class ProfileContact(SphereContact):
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         return (depth / self._bare_depth()) ** (1 / self.exponent)
 
+    def bare_force(self, radius: float) -> float:
+        """Return the force [R dg] that presses a contact of this radius [beta] by Sneddon."""
+        adhesion = np.sqrt(8 * np.pi * radius**3)
+        return float(profiles.force(radius, **self._units) + adhesion)
+
+    @property
+    def critical_share(self) -> float:
+        """Pull-off force over `bare_force` at its radius, whatever the work of adhesion.
+
+        That grows like a^(q+1), the part of adhesion like a^(3/2): their sum is least where it is
+        this share of the first.
+        """
+        return (2 * self.exponent - 1) / 3
+
     def jkr_depth(self, radius: float) -> float:
         """Return the JKR depth [h0] at a contact radius [beta]."""
         return self.tabor * float(profiles.depth(radius, **self._units))

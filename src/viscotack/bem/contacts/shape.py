@@ -72,6 +72,10 @@ class ShapeContact(SphereContact):
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
         return self.tabor * indenter.gap(nodes, contact_radius=radius, **self._jkr)
 
+    def relaxed_pull_off(self, edge: float) -> float:
+        """Return no bound: a shape may have several contacts, each with a pull-off of its own."""
+        return np.inf
+
     def surface(self, nodes: npt.NDArray) -> Surface:
         """Return the half-space with these nodes [beta].
 

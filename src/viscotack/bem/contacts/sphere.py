@@ -87,6 +87,15 @@ class SphereContact:
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
         return self.tabor * np.asarray(jkr.gap(nodes, contact_radius=radius, **_JKR_UNITS))
 
+    def bare_force(self, radius: float) -> float:
+        """Return the force [R dg] that presses a contact of this radius [beta] by Hertz."""
+        return 4 / 3 * radius**3
+
+    @property
+    def critical_share(self) -> float:
+        """Pull-off force over `bare_force` at its radius: 1 by JKR, whatever the work."""
+        return 1.0
+
     @property
     def span(self) -> float:
         """The range of the law [h0]."""
@@ -157,6 +166,20 @@ class SphereContact:
         if isinstance(start, AtForce):
             return self._jkr_depth(start)
         return self.jkr_depth(start.contact_radius * _RADIUS_UNIT)
+
+    def relaxed_pull_off(self, edge: float) -> float:
+        """Return the force [output unit] with which the relaxed solid pulls off at this edge.
+
+        A JKR contact pulls off where Hertz's force at its radius is the pull-off force, whatever
+        the work of adhesion, so a crack that takes more work does so too. The edge, where the
+        tension is largest, lies outside such a contact by what raises the indenter by half the
+        range of the law; 0 without an edge.
+        """
+        pressed = self.rise(edge) - 0.5 * self.span if edge > 0 else 0.0
+        if not pressed > 0:
+            return 0.0
+        force = self.bare_force(self.radius_of_rise(pressed))
+        return self.critical_share * force / (1.5 * np.pi)
 
     def _jkr_depth(self, start: AtForce) -> float:
         return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))

@@ -1,0 +1,82 @@
+"""Fast pulls from deep starts, whose force may have two peaks: the pull-off is the larger one."""
+
+import numpy as np
+import pytest
+
+from viscotack import (
+    AtDepth,
+    Groups,
+    Outcome,
+    StandardSolid,
+    peaks,
+    pull_off,
+    pull_off_depth,
+    pull_off_force,
+    solve,
+    summary,
+    work_to_pull_off,
+)
+
+
+def case(tabor, modulus_ratio, depth, rate):
+    solid = StandardSolid(
+        rubbery_modulus=1.0, glassy_modulus=1 / modulus_ratio, tau0=1.0, poisson_ratio=0.0
+    )
+    return Groups(tabor=tabor, material=solid, start=AtDepth(depth), rate=rate)
+
+
+DEEP = case(4.22, 0.0033, 235.0, 158.2)
+
+
+def near_equal(rate_over_depth):
+    """Return a pull whose glassy peak is the larger from a rate over depth of about 0.804 on."""
+    return case(2.1, 2.4e-4, 78.9, 78.9 * rate_over_depth)
+
+
+def test_a_run_to_the_pull_off_goes_on_to_the_larger_second_peak():
+    result = solve(DEEP, until="pull-off")
+    assert pull_off_force(result) == pytest.approx(17.90, rel=2e-3)
+    assert work_to_pull_off(result) == pytest.approx(1022, rel=5e-3)
+    first, second = peaks(result)
+    assert first.force == pytest.approx(2.45, rel=0.01)
+    assert first.depth > 0.98 * 235
+    assert second == pull_off(result)
+    # both runs have these peaks, and each is compared with its like
+    assert result.error_estimate["force"] < 0.03
+    assert result.error_estimate["work"] < 0.05
+
+
+def test_both_peaks_are_in_the_summary():
+    answer = summary(solve(DEEP, until="pull-off", accuracy=0.02, estimate_error=False))
+    assert answer["other_peak_force"] == pytest.approx(2.44, rel=0.05)
+    assert answer["other_peak_depth"] == pytest.approx(231.3, rel=1e-3)
+    assert answer["work_to_other_peak"] == pytest.approx(2.9, rel=0.05)
+    assert answer["pull_off_force"] > answer["other_peak_force"]
+
+
+def test_the_larger_peak_is_the_pull_off_on_both_sides_of_where_they_are_equal():
+    slower, faster = (solve(near_equal(x), until="pull-off", accuracy=0.005) for x in (0.78, 0.83))
+    assert work_to_pull_off(slower) == pytest.approx(252.5, rel=0.01)
+    assert work_to_pull_off(faster) == pytest.approx(12.66, rel=0.03)
+    assert pull_off_depth(slower) < 55 < 75 < pull_off_depth(faster)
+
+
+def test_where_two_peaks_are_equal_within_the_error_the_work_is_not_told():
+    result = solve(near_equal(0.804), until="pull-off", accuracy=0.02)
+    assert result.outcome is not Outcome.STOPPED
+    assert result.error_estimate["force"] < 0.1
+    # the stated error of the depth reaches to the other peak
+    first, second = peaks(result)
+    assert result.error_estimate["depth"] == pytest.approx(first.depth - second.depth)
+    with pytest.raises(ValueError, match=r"two peaks .* the work is \S+, .* or \S+, "):
+        work_to_pull_off(result)
+    answer = summary(result)
+    assert answer["work_to_pull_off"] is None
+    assert "two peaks" in answer["work_to_pull_off_note"]
+
+
+def test_an_ordinary_run_still_ends_when_the_force_has_risen_by_some_per_cent():
+    ordinary = case(3.24, 0.1, 73.0, 100.0)
+    result = solve(ordinary, until="pull-off", accuracy=0.01, estimate_error=False)
+    assert len(peaks(result)) == 1
+    assert result.force[-1] < 0.8 * np.min(result.force)
