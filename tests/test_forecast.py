@@ -174,6 +174,8 @@ def test_the_summary_has_the_names_of_a_simulation():
         "zero_force_depth_m",
         "zero_force_interval",
         "zero_force_interval_m",
+        "depth_interval",
+        "depth_interval_m",
     }
     assert set(answer) - set(simulated) == own
     for name in ("problem", "run_id", "tabor", "modulus_ratio", "rate"):
@@ -274,6 +276,29 @@ def test_the_depth_of_zero_force_has_an_interval():
     times = vt.predict(sphere(), shift_deviation=0.5)
     assert np.ptp(times.zero_force_interval) > 2 * (high - low)
     assert times.curve_band > answer.curve_band
+
+
+def test_the_depth_at_pull_off_has_an_interval():
+    answer, wider = vt.predict(sphere()), vt.predict(sphere(), confidence=0.98)
+    low, high = answer.depth_interval
+    assert low < answer.curve.depth[-1] < high
+    # at least what the error of the work moves the end of the tensile part by
+    assert high - low > np.ptp(answer.work_interval) / answer.value
+    assert wider.depth_interval[0] < low and high < wider.depth_interval[1]
+    assert vt.predict(sphere(rate=1e12)).depth_interval is None
+    times = vt.predict(sphere(), shift_deviation=0.5)
+    assert np.ptp(times.depth_interval) > 2 * (high - low)
+
+
+def test_the_depth_of_a_predicted_punch_holds_the_simulated_one():
+    solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+    pad = vt.PunchGroups(
+        size=64.85, thickness=3.24, cohesion=0.05, material=solid, start=vt.AtDepth(1.0), rate=10.0
+    )
+    low, high = vt.predict(pad).depth_interval
+    depth = vt.pull_off_depth(vt.solve(pad, until="pull-off", estimate_error=False))
+    assert low < depth < high
+    assert high - low < 0.06  # of a travel in tension of 1.1
 
 
 @pytest.mark.parametrize("depth", [20.0, 300.0])

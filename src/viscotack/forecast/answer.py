@@ -12,7 +12,7 @@ from viscotack.errors import InputError
 from viscotack.materials.conversion import slowed
 from viscotack.problem import Case
 
-from .prediction import Prediction
+from .prediction import Prediction, depth_between
 from .question import Question
 from .tiers import EXACT, SOON, best
 
@@ -120,7 +120,7 @@ def _widened_by(found: Prediction, others: list[Prediction], deviation: float) -
         known = [each.work_to_pull_off for each in others if each.work_to_pull_off is not None]
         work = _widened(found.work_to_pull_off, found.work_interval, known)
     forces = [each.pull_off_force for each in others]
-    return replace(
+    wider = replace(
         found,
         interval=_widened(found.pull_off_force, found.interval, forces),
         work_interval=work,
@@ -128,6 +128,7 @@ def _widened_by(found: Prediction, others: list[Prediction], deviation: float) -
         why=f"{found.why}; intervals hold times of the material known to {deviation:.2g} decades, "
         "from its shift",
     )
+    return replace(wider, depth_interval=depth_between(wider))
 
 
 def _curve_widened(found: Prediction, others: list[Prediction]) -> dict[str, Any]:

@@ -68,6 +68,8 @@ class Prediction:
         without a curve.
     zero_force_interval : tuple of float, or None
         Between which it lies with that confidence [h0].
+    depth_interval : tuple of float, or None
+        Between which the depth at pull-off, the last of the curve, lies [h0]; None without a curve.
     problem : Problem, Groups or PunchGroups
         What was asked.
     """
@@ -86,6 +88,7 @@ class Prediction:
     problem: Case
     zero_force_depth: float | None = None
     zero_force_interval: tuple[float, float] | None = None
+    depth_interval: tuple[float, float] | None = None
 
     @property
     def value(self) -> float:
@@ -105,14 +108,37 @@ def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction
         curve=type(curves)(depth, curves.force[0], curves.contact_radius[0]),
         curve_band=float(held.curve[0] * found.pull_off_force),
     )
-    if curves.force[0, 0] <= 0:
-        return found
-    least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
-    return replace(
-        found,
-        zero_force_depth=float(depth[PRESSED]),
-        zero_force_interval=(float(least), float(most)),
-    )
+    if curves.force[0, 0] > 0:
+        least, most = depth[0] - held.travel[0, ::-1] * (depth[0] - depth[PRESSED])
+        found = replace(
+            found,
+            zero_force_depth=float(depth[PRESSED]),
+            zero_force_interval=(float(least), float(most)),
+        )
+    return replace(found, depth_interval=depth_between(found))
+
+
+def depth_between(found: Prediction) -> tuple[float, float] | None:
+    r"""Return between which the depth at pull-off lies [h0]; None where there is no curve.
+
+    The force is flat there, so that an error :math:`\Delta W` of the work is one of the place where
+    it ends, :math:`\Delta W/P`. To that come, in quadrature, the error of the depth at zero force,
+    and that of the curve over the travel from there (`benchmarks/depth_interval.py`).
+    """
+    curve, work = found.curve, found.work_to_pull_off
+    if curve is None or found.curve_band is None or work is None or found.work_interval is None:
+        return None
+    depth, begin = float(curve.depth[-1]), float(curve.depth[0])
+    groups = found.problem.groups()
+    force = found.pull_off_force * groups.outputs.energy_factor(groups)
+    down, up = ((end - work) / force for end in reversed(found.work_interval))
+    least = most = 0.0
+    if found.zero_force_interval is not None and found.zero_force_depth is not None:
+        begin = found.zero_force_depth
+        least, most = (end - begin for end in found.zero_force_interval)
+    bent = found.curve_band / found.pull_off_force * (begin - depth)
+    low, high = (float(np.linalg.norm(x)) for x in ((down, least, bent), (up, most, bent)))
+    return depth - low, depth + high
 
 
 def of_theory(
@@ -171,6 +197,7 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
         "interval": (prediction.interval, pull_off),
         "work_interval": (prediction.work_interval, "work_to_pull_off"),
         f"zero_{force}_interval": (prediction.zero_force_interval, "pull_off_depth"),
+        "depth_interval": (prediction.depth_interval, "pull_off_depth"),
     }
     answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
     answer = values | answer
