@@ -162,6 +162,14 @@ def test_a_far_step_does_not_bend_the_minimum():
         assert pull_off_depth(result) == pytest.approx(0, abs=1e-9)
 
 
+def test_a_force_that_breaks_off_is_no_deeper_than_its_steps():
+    # of an elastic punch with Dugdale's law that lets go within a thousandth of h0
+    x = np.array([2.2665, 2.2736, 2.2841, 2.29995, 2.3009, 2.3024])
+    force = np.array([-0.8611, -0.8635, -0.8668, -0.8686, -0.2763, -0.2072])
+    result = plain(-x, force)
+    assert pull_off_force(result) == pytest.approx(0.8686, rel=1e-3)
+
+
 def test_work_of_separation_goes_past_the_jump_to_infinity():
     for far in (5.0, 40.0):
         result = jkr_detachment(far=far, steps=400)

@@ -323,13 +323,16 @@ def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
     """Return where the curve is lowest, near the lowest of its points i, and its value there."""
     if 0 < i < len(x) - 1:
         scale = x[i + 1] - x[i - 1]
+        # where the force breaks off, a curve would go far below the steps
+        least = 2 * y[i] - max(y[i - 1], y[i + 1])
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
             u = (x[points] - x[i]) / scale
             taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
             at = _valley(*taylor[1:])
             if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
                 value = float(np.polynomial.polynomial.polyval(at, taylor))
-                return float(x[i] + scale * at), value
+                if value >= least:
+                    return float(x[i] + scale * at), value
     return float(x[i]), float(y[i])
 
 
