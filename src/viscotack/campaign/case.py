@@ -187,6 +187,7 @@ def measure(problem: Any, settings: CaseSettings) -> dict[str, Any]:
     errors, cost = answer["error_estimate"] or {}, answer["statistics"]
     row = {name: value for name, value in answer.items() if name not in _LEFT_OUT}
     row |= {"error_estimate": errors.get("force"), "error_estimate_work": errors.get("work")}
+    row |= {"error_estimate_depth": errors.get("depth")}
     row |= {name: cost.get(name) for name in _COST} | {"jumps": len(result.events)}
     row |= {"versions": ", ".join(f"{k} {v}" for k, v in answer["versions"].items())}
     return row | curve(result, found)

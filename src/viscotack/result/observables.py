@@ -287,7 +287,8 @@ def effective_surface_energy(result: Result) -> float:
 
 # What summaries and rows of campaigns say beside the observables.
 _TAKEN = frozenset(
-    "status outcome cycles accuracy_met error_estimate error_estimate_work energy_residual "
+    "status outcome cycles accuracy_met error_estimate error_estimate_work "
+    "error_estimate_depth energy_residual "
     "shallow_start events wall_time_s "
     "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
     "size thickness cohesion preload preload_force preload_radius steps nodes modes "

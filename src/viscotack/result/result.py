@@ -153,8 +153,8 @@ class Result:
     accuracy : float or None
         Relative error of the pull-off force that was asked for; None in results of version 0.1.
     error_estimate : dict or None
-        Relative error of ``force`` and ``work`` at pull-off, or of the ``time`` for which a load
-        was borne; None while there is no estimate.
+        Relative error of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
+        relative error of the ``time`` for which a load was borne. None while there is no estimate.
     energy : Energies or None
         Where the work of the drive has gone, at every step.
     energy_residual : float or None

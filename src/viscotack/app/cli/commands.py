@@ -408,9 +408,10 @@ def _words(result: Result, answer: dict[str, Any], also: Iterable[Observable]) -
         ]
     if answer["error_estimate"] is None:
         lines.append("  numerical error      not known: no coarser run to compare with")
-    for name, share in (answer["error_estimate"] or {}).items():
-        if share is not None:
-            lines.append(f"  {'error of the ' + name:<21}{share:>12.1e}  estimated, relative")
+    for name, error in (answer["error_estimate"] or {}).items():
+        if error is not None:
+            unit = "h0, estimated" if name == "depth" else "estimated, relative"
+            lines.append(f"  {'error of the ' + name:<21}{error:>12.1e}  {unit}")
     cost = answer["statistics"]
     if cost.get("steps") is not None and answer["wall_time_s"] is not None:
         lines.append(f"  {cost['steps']:.0f} steps in {answer['wall_time_s']:.2f} s")

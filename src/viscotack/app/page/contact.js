@@ -165,6 +165,8 @@ export class Contact {
       const work = summary.work_to_pull_off_J ?? summary["work_to_pull_off_J_per_m2"];
       const error = summary.error_estimate || {};
       rows.push([`${axes.pull_off.words}, simulated`, force, axes.pull_off.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
+      const other = summary.other_peak_force_N ?? summary.other_peak_stress_Pa;
+      if (other !== null && other !== undefined) rows.push(["other peak, simulated", other, axes.pull_off.unit, ""]);
       if (work !== null && work !== undefined) rows.push([`${axes.work.words}, simulated`, work, axes.work.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
     }
     for (const { name, value, interval, method, confidence } of numbers) {
