@@ -96,13 +96,15 @@ def solve(
         Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
         end is a flat minimum, has up to five times this error.
     until : {"detached", "pull-off"}
-        Run until the surfaces are apart, or only until the force minimum is passed (faster; the
-        work of separation is then not known).
+        Run until the surfaces are apart, or only until no later tension can exceed the largest one
+        so far, mostly just past the first force minimum (faster; the work of separation is then not
+        known).
     settings : Settings, optional
         Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
     estimate_error : bool
-        Also run a coarser companion and state the errors of force and work from the difference. A
-        run whose force is known ten times worse than asked for is stopped as unresolved.
+        Also run a coarser companion and state the errors of force, work and depth at pull-off from
+        the difference. A run whose force is known ten times worse than asked for is stopped as
+        unresolved.
     whole : bool
         March the whole retraction from the start that is asked for, however deep. Else one from
         more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins

@@ -55,7 +55,7 @@ Accuracy = Annotated[
 ]
 Until = Annotated[
     Literal["pull-off", "detached"],
-    Field(description="Stop just past the force minimum, or when the surfaces are apart."),
+    Field(description="Stop past the largest tension, or when the surfaces are apart."),
 ]
 Confidence = Annotated[
     float, Field(description="0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98: for these it was measured.")

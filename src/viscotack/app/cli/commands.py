@@ -115,7 +115,7 @@ SaveFile = Annotated[
 ]
 HowFar = Annotated[
     Until,
-    Option("--until", help="Stop just past the force minimum, or when the surfaces are apart."),
+    Option("--until", help="Stop past the largest tension, or when the surfaces are apart."),
 ]
 _ACCURACY = question_of(card_of(AccuracyCard))
 Accuracy = Annotated[float, Option("--accuracy", metavar="RELATIVE", help=_ACCURACY)]
