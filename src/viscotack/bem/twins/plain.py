@@ -141,8 +141,8 @@ def plain_solve(
     Returns
     -------
     Result
-        Ends early just past the first minimum of the force, where a jump may follow, so that a larger
-        second peak of a fast deep pull is not seen; or with a status "stopped" where Newton fails.
+        Ends early just past the first minimum of the force, where a jump may follow: a larger
+        second peak of a fast deep pull is not seen. A status "stopped" says that Newton failed.
     """
     began, groups = perf_counter(), problem.groups()
     mu, depth = groups.tabor, relaxed_depth(groups)
