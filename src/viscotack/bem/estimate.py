@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-
-import numpy as np
+from math import hypot
 
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.preload import Beginning
@@ -29,18 +28,14 @@ from viscotack.result.parts import move_numbers, moves_of, waits
 
 # The companion of a run is less accurate by this factor.
 COARSER = 4.0
-# The estimate is the difference to the companion over COARSER - 1, times these margins ...
-_MARGIN = {"force": 3.4, "work": 5.0, "time": 3.4, "depth": 5.0}
-# ... but no less than these parts of the accuracy: errors may cancel in the difference. Of 52
-# random problems with every law (`benchmarks/trust.py --finer`) the estimate then covers the error
-# beside a run ten times as accurate in 96 % (force) and 94 % (work), and is in the median 4 and 5
-# times as large. Of 11 dead loads (Tabor numbers 0.1 to 8, two solids) it covers that of the time.
-_FLOOR = {"force": 0.4, "work": 0.7, "time": 1.0}
-# An error of the force moves its minimum, and what the drive does beside it is lost or won: where
-# the work is small, that is its error. Of 80 cases of Tabor numbers up to 1, elastic and
-# viscoelastic, that start around the minimum, the estimate with this margin covers 79, and is in
-# the median 2.1 times the error.
-_MOVED = 2.5
+# The difference to the companion over COARSER - 1 counts so many times ...
+_MARGIN = {"force": 3.4, "work": 3.0, "time": 3.4, "depth": 3.6}
+# ... and these parts of the accuracy count at least, as errors may cancel in the difference: of the
+# number, and of the travel in tension for the depth.
+_FLOOR = {"force": 0.2, "work": 0.4, "time": 1.0, "depth": 0.4}
+# An error of the force moves its minimum, and what the drive does beside it is lost or won. So many
+# times the accuracy is taken for that error where it changes over the depths of the contact.
+_MOVED = {"work": 1.0, "depth": 0.5}
 # An error as large as the number: nothing is known of it.
 _ALL = 1.0
 
@@ -88,17 +83,25 @@ def _of_pull_off(
 ) -> dict[str, float]:
     """Return the errors at a pull-off beside the like peak of a companion."""
     work, other = work_to(result, found), work_to(coarse, alike)
-    tiny = np.finfo(float).tiny
-    force = _from_difference("force", abs(found.force - alike.force) / found.force, accuracy)
-    share = _from_difference("work", abs(work - other) / max(abs(work), tiny), accuracy)
-    # without a way to the minimum nothing is known of the work on it
-    lost = work_lost(result, force / travel)
-    moved = _MOVED * lost / abs(work) if work else _ALL
-    depth = max(
-        _MARGIN["depth"] * abs(found.depth - alike.depth) / (COARSER - 1),
-        _MOVED * depth_shift(result, force / travel),
-    )
-    return {"force": force, "work": min(max(share, moved), _ALL), "depth": depth}
+    energy = found.force * result.problem.outputs.energy_factor(result.groups)
+    off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
+    size = {"work": abs(work), "depth": abs(work) / energy}
+    slope = accuracy / travel
+    shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
+    error = {
+        name: hypot(
+            _MARGIN[name] * off[name] / (COARSER - 1),
+            _FLOOR[name] * accuracy * size[name],
+            _MOVED[name] * shift[name],
+        )
+        for name in off
+    }
+    return {
+        "force": _from_difference("force", abs(found.force - alike.force) / found.force, accuracy),
+        # without a way to the minimum nothing is known of the work on it
+        "work": min(error["work"] / abs(work), _ALL) if work else _ALL,
+        "depth": error["depth"],
+    }
 
 
 def _from_difference(name: str, share: float, accuracy: float) -> float:
