@@ -65,7 +65,7 @@ def looked_at(groups: Groups | PunchGroups) -> dict[str, Any] | None:
     for step, force in enumerate(ended.force):
         lowest = lowest.after(force)
         if lowest.behind(force):
-            first = step
+            first = step + 1
             break
     later = len(forces) > 1 and forces[0] < max(forces)
     return row | {"larger": later, "steps": len(ended.force), "first": first}

@@ -10,7 +10,12 @@ from viscotack.bem.twins.plain import plain_solve
 from viscotack.materials import Elastic, Material, StandardSolid
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
-from viscotack.result.observables import pull_off_force, summary, work_to_pull_off
+from viscotack.result.observables import (
+    pull_off_depth,
+    pull_off_force,
+    summary,
+    work_to_pull_off,
+)
 from viscotack.traction import Exponential
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
@@ -243,3 +248,25 @@ def test_plain_twin_starts_by_depth_only_and_says_when_newton_fails():
         plain_solve(case(AtForce(1.0)), nodes=50, outer_radius=10.0, steps=10, last_depth=0.0)
     stopped = plain_solve(case(), nodes=60, outer_radius=12.0, steps=3, last_depth=-40.0)
     assert stopped.status.startswith("stopped because") or stopped.outcome == "still in contact"
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        case(AtDepth(20.0), tabor=3.0, rate=30.0),
+        case(AtDepth(3.0), tabor=0.5, rate=300.0),
+        PunchGroups(
+            size=64.85, thickness=3.24, cohesion=0.05, material=SOLID, start=AtDepth(1), rate=10
+        ),
+    ],
+    ids=["sphere", "small Tabor number", "punch"],
+)
+def test_the_stated_errors_hold_the_errors_at_the_pull_off(problem):
+    result = solve(problem, accuracy=0.01, until="pull-off")
+    finer = solve(problem, accuracy=0.001, until="pull-off", estimate_error=False)
+    stated = result.error_estimate
+    assert abs(pull_off_force(result) / pull_off_force(finer) - 1) < stated["force"] < 0.05
+    assert abs(work_to_pull_off(result) / work_to_pull_off(finer) - 1) < stated["work"] < 0.1
+    # of the travel in tension, about the work over the force
+    off = abs(pull_off_depth(result) - pull_off_depth(finer))
+    assert off < stated["depth"] < 0.1 * work_to_pull_off(finer) / pull_off_force(finer)
