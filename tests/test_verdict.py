@@ -91,7 +91,7 @@ def test_a_force_that_theory_rules_out_is_not_given(problem, factor, stopped):
     ids=["met", "missed", "not resolved"],
 )
 def test_the_command_line_says_that_an_accuracy_was_missed(floor, code, said, capsys, monkeypatch):
-    monkeypatch.setattr(estimate, "_FLOOR", {"force": floor, "work": 1.0})
+    monkeypatch.setattr(estimate, "_FLOOR", {"force": floor, "work": 1.0, "depth": 1.0})
     status = exit_status([*CASE, "--json"])
     out, err = capsys.readouterr()
     answer = json.loads(out)

@@ -32,10 +32,13 @@ COARSER = 4.0
 _MARGIN = {"force": 3.0, "work": 3.0, "time": 3.4, "depth": 3.0}
 # ... and these parts of the accuracy count at least, as errors may cancel in the difference: of the
 # number, and of the travel in tension for the depth.
-_FLOOR = {"force": 0.17, "work": 0.3, "time": 1.0, "depth": 0.3}
+_FLOOR = {"force": 0.2, "work": 0.4, "time": 1.0, "depth": 0.4}
 # An error of the force moves its minimum, and what the drive does beside it is lost or won. So many
 # times the accuracy is taken for that error where it changes over the depths of the contact.
-_MOVED = {"work": 0.5, "depth": 0.5}
+_MOVED = {"work": 0.3, "depth": 0.3}
+# Of an elastic solid all of that counts so many times: nothing but the nodes holds its edge, whose
+# places on them have errors that do not fall with the second order.
+_ELASTIC = 1.6
 # An error as large as the number: nothing is known of it.
 _ALL = 1.0
 
@@ -86,18 +89,20 @@ def _of_pull_off(
     energy = found.force * result.problem.outputs.energy_factor(result.groups)
     off = {"work": abs(work - other), "depth": abs(found.depth - alike.depth)}
     size = {"work": abs(work), "depth": abs(work) / energy}
-    slope = accuracy / travel
+    slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
     shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
     error = {
-        name: hypot(
+        name: more
+        * hypot(
             _MARGIN[name] * off[name] / (COARSER - 1),
             _FLOOR[name] * accuracy * size[name],
             _MOVED[name] * shift[name],
         )
         for name in off
     }
+    share = abs(found.force - alike.force) / found.force
     return {
-        "force": _from_difference("force", abs(found.force - alike.force) / found.force, accuracy),
+        "force": more * _from_difference("force", share, accuracy),
         # without a way to the minimum nothing is known of the work on it
         "work": min(error["work"] / abs(work), _ALL) if work else _ALL,
         "depth": error["depth"],
