@@ -8,7 +8,7 @@ an edge at which that force is F or more. The edge only recedes in a retraction,
 peak exceeds one of F that is behind once the edge is inside this radius.
 
 The work that the crack takes grows with its speed, so half of F is asked for. `benchmarks/peaks.py`
-looks at random pulls: see :data:`_SAFE`.
+compares runs that end by this rule with whole ones.
 """
 
 from __future__ import annotations

@@ -164,7 +164,8 @@ class PunchContact:
         """Return 0: a punch has no second peak.
 
         Its contact does not grow with the depth, so that the tension grows at a constant rate until
-        the crack runs, which then runs on: of 480 random punches none had a second peak.
+        the crack runs, which then runs on: of 150 random punches (`benchmarks/peaks.py`) none had a
+        second peak.
         """
         return 0.0
 
