@@ -23,7 +23,7 @@ from viscotack.bem.crack_problem import largest_radius
 from viscotack.bem.estimate import COARSER, estimated
 from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.bem.machine import Leg
+from viscotack.bem.machine import Leg, spring_energy
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
@@ -368,6 +368,8 @@ def _result(
     fields: bool,
 ) -> Result:
     states, books = history.snapshots, history.books
+    force = np.array([s.force for s in states])
+    spring = spring_energy(force, groups.stiffness)
     time = np.array([s.time for s in states])
     edge = np.array([s.edge for s in states])
     heat = np.array([b.heat for b in books])
@@ -376,7 +378,7 @@ def _result(
         problem=problem,
         time=time,
         depth=np.array([s.depth for s in states]),
-        force=np.array([s.force for s in states]),
+        force=force,
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
         status=status_of(history, residual, contact.law),
@@ -390,10 +392,10 @@ def _result(
             "modes": len(modes.weights),
         },
         energy=Energies(
-            drive=np.array([b.drive for b in books]),
+            drive=np.array([b.work for b in books]) + (spring - spring[0]),
             elastic=np.array([s.elastic for s in states]),
             interface=np.array([s.interface for s in states]),
-            spring=np.array([s.spring for s in states]),
+            spring=spring,
             heat=heat.sum(axis=1),
             jumps=np.array([b.jumps for b in books]),
             transfer=np.array([b.transfer for b in books]),
