@@ -8,10 +8,12 @@ settings are made for: hence a margin, and a floor.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from viscotack.bem.clock import TimeUp
+from viscotack.bem.loop_error import hysteresis_errors
 from viscotack.bem.preload import Beginning
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
@@ -42,15 +44,33 @@ def estimated(
     beginning: Beginning | None,
     travel: float,
     accuracy: float,
-) -> dict[str, float] | None:
-    """Return the relative errors by name from a coarser companion, None without one.
+) -> Result:
+    """Return the result with its relative errors, from a coarser companion, none without one.
 
     The depth of the start adds what it might change where the march began at another one.
     """
     try:
         coarse = companion() if beginning is None else beginning.light
+    except (ValueError, TimeUp):  # it has no start, no time: nothing is known
+        return result
+    errors = _of_pull_off(result, coarse, beginning, travel, accuracy) or {}
+    loops = hysteresis_errors(result, coarse, accuracy, COARSER)
+    if loops is not None:
+        errors["hysteresis"] = float(np.nanmax(loops))
+    return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
+
+
+def _of_pull_off(
+    result: Result,
+    coarse: Result,
+    beginning: Beginning | None,
+    travel: float,
+    accuracy: float,
+) -> dict[str, float] | None:
+    """Return the relative errors of pull-off or time held by name, None where one has none."""
+    try:
         values, others = _measures(result), _measures(coarse)
-    except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
+    except ValueError:
         return None
     if values.keys() != others.keys():
         return None

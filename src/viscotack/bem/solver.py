@@ -194,22 +194,19 @@ def solve(
                 f"{limit} before the relaxed start was found; give more time, or ask for less "
                 "accuracy"
             ) from None
-        estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = estimated(
+            result = estimated(
                 result,
                 lambda: light(groups, _part(progress, share, 1.0)),
                 beginning,
                 contact.travel,
                 chosen.accuracy,
             )
-            if estimate is None and (limit := met()):
+            if result.error_estimate is None and (limit := met()):
                 status = out_of_time(limit, "while the error was estimated")
                 result = replace(result, status=status)
     result = replace(
         result,
-        accuracy=chosen.accuracy,
-        error_estimate=estimate,
         shallow_start=None if beginning is None else beginning.start,
         statistics=dict(result.statistics) | {"wall_time_s": perf_counter() - began},
     ).posed(groups)
@@ -293,12 +290,14 @@ def _run(
         grading,
         settings,
         until=until,
+        stiffness=groups.stiffness,
         growing=groups.traction if grows(groups.traction) else None,
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
     )
-    return _result(problem, groups, contact, history, modes, fields)
+    result = _result(problem, groups, contact, history, modes, fields)
+    return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
 def _begun(
@@ -406,7 +405,7 @@ def _result(
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
-    ).posed(groups)
+    )
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:
