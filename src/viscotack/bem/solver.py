@@ -401,6 +401,7 @@ def _result(
             interface_heat=np.array([b.interface for b in books]),
             mode_time=np.array(modes.times),
             mode_heat=heat[-1],
+            mode_weight=np.array(modes.weights),
         ),
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
