@@ -416,7 +416,7 @@ def table(rows: list[dict[str, Any]]) -> None:
         print(f"   missing{tail}   of the work at the indenter alone")
         bad = [row for row in good if row["missing"] > LIMIT or row["drive"] > LIMIT]
         for row in bad:
-            print({k: v if isinstance(v, str) else float(f"{v:.2g}") for k, v in row.items()})
+            print({k: v if isinstance(v, int) else float(f"{v:.2g}") for k, v in row.items()})
     if made := [loop for row in rows for loop in row.get("loops", [])]:
         known = [loop for loop in made if np.isfinite(loop["stated"])]
         print(f"{len(made) - len(known)} loops of a run whose coarser companion stopped")
