@@ -87,6 +87,7 @@ if TYPE_CHECKING:
     from .result.dead_load import time_to_detachment as time_to_detachment
     from .result.edge_energy import EdgeEnergy as EdgeEnergy
     from .result.edge_energy import edge_energy as edge_energy
+    from .result.loops import Loop as Loop
     from .result.observables import Observable as Observable
     from .result.observables import PullOff as PullOff
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
@@ -169,6 +170,7 @@ _NAMES = {
     "result.cycles": ("Cycle", "cycles", "write_cycles"),
     "result.dead_load": ("time_to_detachment",),
     "result.edge_energy": ("EdgeEnergy", "edge_energy"),
+    "result.loops": ("Loop",),
     "forecast": (
         "advise",
         "Advice",

@@ -133,10 +133,9 @@ class Body:
         nodal = surface.nodal(self.contact.law, gap)
         many = (len(self.weights), 1)
         memory = Memory(np.tile(e, many), np.tile(nodal, many))
-        hold = Hold(np.inf, start.depth)
         opening = None if self.growing is None else Opening.none(gap)
         rates = _at_rest(gap)
-        return self.state(0.0, gap, start.depth, hold, surface, e, memory, rates, opening)
+        return self.state(0.0, gap, start.depth, surface, e, memory, rates, opening)
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
         """Return what a step leads to."""
@@ -182,7 +181,7 @@ class Body:
             opening = stepped.opening(state.gap, speed, s.length)
             bent = bend(stepped, gap, opening, surface.area)
         after = self.trailing(
-            state, self.state(time, gap, balance.depth, hold, surface, e, memory, rates, opening)
+            state, self.state(time, gap, balance.depth, surface, e, memory, rates, opening)
         )
         error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released, bent)
@@ -221,19 +220,13 @@ class Body:
             followed=None if rates.followed is None else carried(rates.followed),
         )
         gap, depth = balance.gap, balance.depth
-        return self.state(state.seen.time, gap, depth, hold, surface, e, memory, rates, opening)
+        return self.state(state.seen.time, gap, depth, surface, e, memory, rates, opening)
 
     def law(self, opening: Opening | None) -> Any:
         """Return the law at opening speeds, frozen; None for the law at rest."""
         if opening is None:
             return self.contact.law
         return Frozen(self.contact.law, 1 + self.growing.growth(opening.speed))
-
-    def stopped(self, state: State, hold: Hold) -> State:
-        """Return the state in the hold of another machine, nothing being in motion."""
-        seen = state.seen
-        drive, spring = _machine(hold, state.surface.unit, seen.depth, seen.force)
-        return self.at_rest(replace(state, seen=replace(seen, drive=drive, spring=spring)))
 
     @staticmethod
     def at_rest(state: State) -> State:
@@ -268,7 +261,6 @@ class Body:
         time: float,
         gap: npt.NDArray,
         depth: float,
-        hold: Hold,
         surface: Surface,
         relaxed: npt.NDArray,
         memory: Memory,
@@ -279,31 +271,19 @@ class Body:
         law, at_rest = self.law(opening), self.contact.law
         nodal = surface.nodal(law, gap)
         instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
-        force = surface.force(law, gap)
-        drive, spring = _machine(hold, surface.unit, depth, force)
         seen = Snapshot(
             time=time,
             depth=depth,
-            drive=drive,
             edge=surface.edge(gap, at_rest.edge_gap),
-            force=force,
+            force=surface.force(law, gap),
             elastic=surface.unit * (instant + memory.stored(self.weights)),
             interface=surface.interface_energy(at_rest, gap),
-            spring=spring,
         )
         extra = None
         if opening is not None:
             flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
             extra = Extra(opening, surface.nodal(at_rest, gap) - nodal, flank)
         return State(seen, surface, gap, relaxed, nodal, memory, rates, extra)
-
-
-def _machine(hold: Hold, unit: float, depth: float, force: float) -> tuple[float, float]:
-    """Return the depth of the drive [h0] and the energy of the spring [force times h0]."""
-    if hold.rigid or hold.stiffness == 0:
-        return depth, 0.0
-    k = hold.stiffness * unit
-    return depth + force / k, force * force / (2 * k)
 
 
 def _at_rest(gap: npt.NDArray) -> Rates:

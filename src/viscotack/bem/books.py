@@ -1,4 +1,9 @@
-"""What a march keeps of each step: where it was, and where the work of the drive went."""
+"""What a march keeps of each step: where it was, and where the work at the indenter went.
+
+The spring of the machine is not booked here: what it stores is :math:`F^2/(2K)` at every instant,
+the work of the drive is that at the indenter and the change of that energy, and both add the same
+to either side of the balance.
+"""
 
 from __future__ import annotations
 
@@ -23,53 +28,52 @@ class Snapshot:
 
     time: float
     depth: float  # [h0]
-    drive: float  # [h0], the depth where there is no spring
     edge: float  # [unit of the mesh], nan without one
     force: float  # [output unit]
     elastic: float
     interface: float
-    spring: float
 
     @property
     def stored(self) -> float:
-        """All energy that is not lost."""
-        return self.elastic + self.interface + self.spring
+        """All energy of the contact that is not lost."""
+        return self.elastic + self.interface
+
+    @property
+    def held(self) -> float:
+        """Return what there is of energy in the contact, whatever its sign."""
+        return abs(self.elastic) + abs(self.interface)
 
 
 @dataclass(frozen=True, eq=False)
 class Books:
-    """Where the drive's work went so far; heat in the solid by mode, and that in the interface."""
+    """Where the work at the indenter went so far; heat by mode, and that in the interface."""
 
-    drive: float
+    work: float
     heat: npt.NDArray
     jumps: float = 0.0
     transfer: float = 0.0
     interface: float = 0.0
 
     def entered(self, work: float, heat: npt.NDArray, interface: float = 0.0) -> Books:
-        """Return the books after a step in which the drive did work, and heat was left."""
+        """Return the books after a step in which the indenter did work, and heat was left."""
         return replace(
             self,
-            drive=self.drive + work,
+            work=self.work + work,
             heat=self.heat + heat,
             interface=self.interface + interface,
         )
 
     def imbalance(self, start: Snapshot, now: Snapshot) -> float:
-        """Return the drive work that is nowhere to be found."""
+        """Return the work that is nowhere to be found."""
         stored = now.stored - start.stored
         heat = float(self.heat.sum()) + self.interface
-        return self.drive - stored - heat - self.jumps - self.transfer
+        return self.work - stored - heat - self.jumps - self.transfer
 
     def largest(self, start: Snapshot, now: Snapshot) -> float:
         """Return the largest term, the measure of the imbalance."""
-        stored = (
-            now.elastic - start.elastic,
-            now.interface - start.interface,
-            now.spring - start.spring,
-        )
+        stored = now.elastic - start.elastic, now.interface - start.interface
         heat = float(self.heat.sum())
-        terms = (self.drive, *stored, heat, self.interface, self.jumps, self.transfer)
+        terms = (self.work, *stored, heat, self.interface, self.jumps, self.transfer)
         return max(abs(term) for term in terms)
 
 
@@ -103,13 +107,15 @@ class Profile:
 class History:
     """What the march passed through: a snapshot and the books after each step.
 
-    `legs` has the number of the leg that led to each snapshot, `least_energy` what the imbalance of
-    the energies is measured by at least [output force times h0], `pressed` the pressure [dg/h0]
-    that no law withstood, where the outcome is "shut", `reason` what the time limit says,
-    `left` how many legs a dead load that has let go left.
+    `least_energy` is what the imbalance of the energies is measured by at least [output force times
+    h0], `stiffness` that of the spring of the machine [output force/h0], None without one. `legs`
+    has the number of the leg that led to each snapshot, `pressed` the pressure [dg/h0] that no law
+    withstood, where the outcome is "shut", `reason` what the time limit says, `left` how many legs
+    a dead load that has let go left.
     """
 
     least_energy: float
+    stiffness: float | None = None
     snapshots: list[Snapshot] = field(default_factory=list)
     books: list[Books] = field(default_factory=list)
     legs: list[int] = field(default_factory=list)
@@ -124,10 +130,23 @@ class History:
     meshes: int = 1
     nodes: int = 0
 
+    def measure(self, books: Books, now: Snapshot) -> float:
+        """Return what an imbalance at an instant is measured by: the largest energy.
+
+        Behind a soft spring the edge snaps from node to node, and loses a little each time: there
+        it is no less than what the contact holds, as far as the spring has given or taken that.
+        """
+        first = self.snapshots[0]
+        largest = max(books.largest(first, now), self.least_energy)
+        if self.stiffness is None:
+            return largest
+        spring = abs(now.force**2 - first.force**2) / (2 * self.stiffness)
+        return max(largest, min(now.held, spring))
+
     def imbalances(self) -> npt.NDArray:
-        """Return the missing energy at each snapshot over the largest term until then."""
+        """Return the missing energy at each snapshot over what it is measured by until then."""
         first = self.snapshots[0]
         pairs = list(zip(self.books, self.snapshots, strict=True))
         missing = np.array([b.imbalance(first, s) for b, s in pairs])
-        largest = np.array([b.largest(first, s) for b, s in pairs])
-        return missing / np.maximum(np.maximum.accumulate(largest), self.least_energy)
+        largest = np.array([self.measure(b, s) for b, s in pairs])
+        return missing / np.maximum.accumulate(largest)

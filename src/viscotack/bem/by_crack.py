@@ -25,6 +25,7 @@ from viscotack.problem import Groups, Problem
 from viscotack.protocol import (
     Apart,
 )
+from viscotack.result.loops import Loop, returned, work_at_indenter
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
@@ -77,7 +78,10 @@ class CrackContact:
     work_to_pull_off : float or None
         From the last zero crossing of the force to the largest tension.
     hysteresis : float or None
-        Work of the whole history at the indenter, where it begins and ends apart.
+        Work of the whole history at the indenter, from apart to apart or around a closed loop.
+    loop : Loop
+        In which state that loop closed. The energy stored in the contact is not known, so that of
+        a viscoelastic solid closes in depth only.
     zones : float
         Way of the edge until the pull-off, in zones of the crack there: a crack that has gone few
         of them is not steady yet.
@@ -108,6 +112,7 @@ class CrackContact:
     amplification_at_pull_off: float | None
     work_to_pull_off: float | None
     hysteresis: float | None
+    loop: Loop
     zones: float
     band: float
     inside: bool
@@ -303,12 +308,14 @@ def _answer(
             "pull more slowly, or simulate it"
         )
     band, inside, why = band_of(groups, energy / interface, effective, zones)
+    hysteresis, loop = _hysteresis(groups, series, detached)
     return CrackContact(
         problem=problem,
         **series,
         status=status,
         **at,
-        hysteresis=_hysteresis(groups, series, detached),
+        hysteresis=hysteresis,
+        loop=loop,
         zones=zones,
         band=band,
         inside=inside,
@@ -402,12 +409,22 @@ def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
     return dict(zip(_AT_PULL_OFF, values, strict=True))
 
 
-def _hysteresis(groups: Groups, series: dict[str, Any], detached: bool) -> float | None:
-    """Return the work of a history that begins and ends apart."""
-    if not (isinstance(groups.start, Apart) and detached):
-        return None
+def _hysteresis(
+    groups: Groups, series: dict[str, Any], detached: bool
+) -> tuple[float | None, Loop]:
+    """Return the work at the indenter of a history that closes, and in which state it does.
+
+    Surfaces apart do not attract each other here, so that no energy is left across the gap.
+    """
     force, depth = series["force"], series["depth"]
-    return float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(depth)))
+    if isinstance(groups.start, Apart) and detached:
+        loop = Loop.APART
+    elif groups.moves and returned(depth):
+        elastic = groups.modulus_ratio >= 1
+        loop = Loop.CLOSED if elastic and returned(force) else Loop.DEPTH
+    else:
+        return None, Loop.OPEN
+    return work_at_indenter(depth, force), loop
 
 
 _IN_SI = {
@@ -424,7 +441,7 @@ _IN_SI = {
 def summary(found: CrackContact) -> dict[str, Any]:
     """Return the numbers of an answer by name: dimensionless, and in SI where the problem is."""
     scales = found.problem.scales()
-    numbers: dict[str, Any] = {"status": found.status}
+    numbers: dict[str, Any] = {"status": found.status, "loop": str(found.loop)}
     for name in (*_AT_PULL_OFF, "hysteresis"):
         value = getattr(found, name)
         numbers[name] = value

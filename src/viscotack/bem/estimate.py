@@ -11,7 +11,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import hypot
 
+import numpy as np
+
 from viscotack.bem.clock import TimeUp
+from viscotack.bem.loop_error import hysteresis_errors
 from viscotack.bem.preload import Beginning
 from viscotack.result import Result
 from viscotack.result.dead_load import time_held
@@ -49,17 +52,36 @@ def estimated(
     beginning: Beginning | None,
     travel: float,
     accuracy: float,
-) -> dict[str, float] | None:
-    """Return the errors by name from a coarser companion, None without one.
+) -> Result:
+    """Return the result with its errors by name from a coarser companion, none without one.
 
-    Those of force, work and time are relative, that of the depth of the pull-off is in h0. Where
-    the force has several peaks, that of the companion which is nearest to the pull-off is compared
-    with it. The depth of the start adds what it might change where the march began at another one.
+    Those of force, work, hysteresis and time are relative, that of the depth of the pull-off is in
+    h0. Where the force has several peaks, that of the companion which is nearest to the pull-off is
+    compared with it. The depth of the start adds what it might change where the march began at
+    another one.
     """
     try:
         coarse = companion() if beginning is None else beginning.light
-        if _holds(result) != _holds(coarse):
-            return None
+    except (ValueError, TimeUp):  # it has no start, no time: nothing is known
+        return result
+    errors = _of_end(result, coarse, beginning, travel, accuracy) or {}
+    loops = hysteresis_errors(result, coarse, accuracy, COARSER)
+    if loops is not None:
+        errors["hysteresis"] = float(np.nanmax(loops))
+    return replace(result, error_estimate=errors or None, hysteresis_errors=loops)
+
+
+def _of_end(
+    result: Result,
+    coarse: Result,
+    beginning: Beginning | None,
+    travel: float,
+    accuracy: float,
+) -> dict[str, float] | None:
+    """Return the errors of the pull-off, or of the time held, by name; None where one has none."""
+    if _holds(result) != _holds(coarse):
+        return None
+    try:
         if _holds(result):
             value, other = time_held(result), time_held(coarse)
             estimate = {"time": _from_difference("time", abs(value - other) / value, accuracy)}
@@ -67,7 +89,7 @@ def estimated(
             found = pull_off(result)
             alike = min(peaks(coarse), key=lambda peak: abs(peak.depth - found.depth))
             estimate = _of_pull_off(result, found, coarse, alike, travel, accuracy)
-    except (ValueError, TimeUp):  # it has no start, no pull-off, no time: nothing is known
+    except ValueError:  # no pull-off, no time held
         return None
     if beginning is not None:
         for name in estimate:

@@ -104,6 +104,8 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
     # A jump loses energy. Where the step itself has lost none, and only went far, what new
     # nodes cost must not look like one.
     least = tolerated if missing > tolerated else _CLEARLY * tolerated
+    if run.history.stiffness is not None:  # a snap from node to node is none to speak of
+        least = max(least, run.settings.imbalance * at.seen.held)
     after = replace(
         arrived(at, attempt),
         state=run.body.at_rest(attempt.after),
@@ -121,7 +123,7 @@ def _jumped(run: Run, at: Place, attempt: Attempt) -> Place:
 def _chased(run: Run, at: Place) -> tuple[Place, float]:
     """Return the march with fine nodes where its edge comes to rest, and what is lost on the way.
 
-    The work of the drive, which falls with a dead load, is booked; what is lost is not.
+    The work at the indenter, which a spring or a dead load moves, is booked; what is lost is not.
     """
     left: list[Mesh] = []
     missing = 0.0
@@ -135,7 +137,7 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
         if at.seen is before.seen:
             break
         work, gone = lost(before, at)
-        at = replace(at, books=replace(at.books, drive=at.books.drive + work))
+        at = replace(at, books=replace(at.books, work=at.books.work + work))
         missing += gone
     return at, missing
 

@@ -10,6 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import inf, isinf, isnan, nan
 
+import numpy as np
+import numpy.typing as npt
+
 from viscotack.bem.books import Snapshot
 
 
@@ -83,7 +86,7 @@ class Leg:
         if self.rigid:
             return Hold(inf, depth=began.depth + self.rate * elapsed)
         k = self.stiffness / unit
-        return Hold(k, load=k * (began.drive + self.rate * elapsed))
+        return Hold(k, load=began.force / unit + k * (began.depth + self.rate * elapsed))
 
     @property
     def rigid(self) -> bool:
@@ -111,3 +114,20 @@ class Leg:
         edge = 0.0 if isnan(now.edge) else now.edge
         ends = (self.depth - now.depth, self.force - now.force, self.edge - edge)
         return min((way * x for x in ends if not isnan(x)), default=inf)
+
+
+def spring_energy(force: npt.NDArray, stiffness: float | None) -> npt.NDArray:
+    r"""Return the energy in the spring of the machine, whatever is imposed.
+
+    .. math:: U = F^2 / (2 K)
+
+    Where a force or a depth is held, the drive follows and the spring stays.
+
+    Parameters
+    ----------
+    force : ndarray
+        Force of the contact [output unit].
+    stiffness : float or None
+        K [output force/h0]; None without a spring.
+    """
+    return np.zeros_like(force) if stiffness is None else force**2 / (2 * stiffness)

@@ -48,6 +48,7 @@ def march(
     settings: Settings,
     *,
     until: str,
+    stiffness: float | None = None,
     growing: Any = None,
     profiles: bool = False,
     progress: Callable[[float], None] | None = None,
@@ -56,13 +57,16 @@ def march(
     """Take a body at rest through the legs and return its history.
 
     `until` is "pull-off" (past the largest tension of the last leg, see :mod:`.later`) or
-    "detached" (surfaces apart). The law of the contact is the one at rest; `growing` is it where it
-    grows with the opening speed. The outcome is "pull-off", "detached", "end" (of the last leg),
-    "steps" when the bound on steps was met, "time" when that on time was, "shut" when the surfaces
-    were pressed together harder than the law repels, "lost" when no equilibrium was found, or
-    "unheld" where a dead load has no contact that bears it.
+    "detached" (surfaces apart). `stiffness` is that of the spring of the machine [output force/h0].
+    The law of the contact is the one at rest; `growing` is it where it grows with the opening
+    speed.
+
+    The outcome is "pull-off", "detached", "end" (of the last leg), "steps" when the bound on steps
+    was met, "time" when that on time was, "shut" when the surfaces were pressed together harder
+    than the law repels, "lost" when no equilibrium was found, or "unheld" where a dead load has no
+    contact that bears it.
     """
-    history = History(least_energy=SMALLEST_ENERGY * contact.span)
+    history = History(SMALLEST_ENERGY * contact.span, stiffness)
     body = Body(contact, modes, np.asarray(modes.weights), growing)
     run = Run(body, settings, legs, profiles, history)
     at = _first(run, start, grading)
@@ -101,16 +105,12 @@ def _begun(run: Run, at: Place, number: int) -> Place:
     """Begin a leg: the machine takes hold of the contact as it is."""
     before = at.seen
     leg = _noticed(run.legs[number].beginning(before), before)
-    state = run.body.stopped(at.state, leg.hold(before, 0.0, at.state.surface.unit))
-    # The drive does the work that tightens the spring where another machine held the contact.
-    drive = at.books.drive + (state.seen.spring - before.spring)
     begun = replace(
         at,
-        state=state,
-        books=replace(at.books, drive=drive),
+        state=run.body.at_rest(at.state),
         leg=leg,
         number=number,
-        began=state.seen,
+        began=before,
         dt=leg.least_step,
         lowest=Lowest(),
     )

@@ -28,12 +28,12 @@ def around_edge(body: Body, at: Place, edge: float | None = None) -> Place | Bal
 
 
 def lost(before: Place, after: Place) -> tuple[float, float]:
-    """Return the drive's work between two states of one instant, and the energy that it lacks.
+    """Return the work at the indenter between two states of one instant, and what it lacks.
 
-    The drive falls with a dead load.
+    A spring or a dead load moves the indenter; a rigid machine does not.
     """
     now, then = before.seen, after.seen
-    work = 0.5 * (now.force + then.force) * (then.drive - now.drive)
+    work = 0.5 * (now.force + then.force) * (then.depth - now.depth)
     return work, work + now.stored - then.stored
 
 

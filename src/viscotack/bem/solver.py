@@ -23,7 +23,7 @@ from viscotack.bem.crack_problem import largest_radius
 from viscotack.bem.estimate import COARSER, estimated
 from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
-from viscotack.bem.machine import Leg
+from viscotack.bem.machine import Leg, spring_energy
 from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
@@ -199,22 +199,19 @@ def solve(
                 f"{limit} before the relaxed start was found; give more time, or ask for less "
                 "accuracy"
             ) from None
-        estimate = None
         if estimate_error and result.outcome is not Outcome.STOPPED:
-            estimate = estimated(
+            result = estimated(
                 result,
                 lambda: light(groups, _part(progress, share, 1.0), whole=len(peaks(result)) > 1),
                 beginning,
                 contact.travel,
                 chosen.accuracy,
             )
-            if estimate is None and (limit := met()):
+            if result.error_estimate is None and (limit := met()):
                 status = out_of_time(limit, "while the error was estimated")
                 result = replace(result, status=status)
     result = replace(
         result,
-        accuracy=chosen.accuracy,
-        error_estimate=estimate,
         shallow_start=None if beginning is None else beginning.start,
         statistics=dict(result.statistics) | {"wall_time_s": perf_counter() - began},
     ).posed(groups)
@@ -298,12 +295,14 @@ def _run(
         grading,
         settings,
         until=until,
+        stiffness=groups.stiffness,
         growing=groups.traction if grows(groups.traction) else None,
         profiles=fields,
         progress=progress,
         watch=None if watch is None else seen,
     )
-    return _result(problem, groups, contact, history, modes, fields)
+    result = _result(problem, groups, contact, history, modes, fields)
+    return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
 def _begun(
@@ -373,6 +372,8 @@ def _result(
     fields: bool,
 ) -> Result:
     states, books = history.snapshots, history.books
+    force = np.array([s.force for s in states])
+    spring = spring_energy(force, groups.stiffness)
     time = np.array([s.time for s in states])
     edge = np.array([s.edge for s in states])
     heat = np.array([b.heat for b in books])
@@ -381,7 +382,7 @@ def _result(
         problem=problem,
         time=time,
         depth=np.array([s.depth for s in states]),
-        force=np.array([s.force for s in states]),
+        force=force,
         contact_radius=edge / contact.edge_unit,
         edge_speed=receding_speed(time, edge),
         status=status_of(history, residual, contact.law),
@@ -395,21 +396,22 @@ def _result(
             "modes": len(modes.weights),
         },
         energy=Energies(
-            drive=np.array([b.drive for b in books]),
+            drive=np.array([b.work for b in books]) + (spring - spring[0]),
             elastic=np.array([s.elastic for s in states]),
             interface=np.array([s.interface for s in states]),
-            spring=np.array([s.spring for s in states]),
+            spring=spring,
             heat=heat.sum(axis=1),
             jumps=np.array([b.jumps for b in books]),
             transfer=np.array([b.transfer for b in books]),
             interface_heat=np.array([b.interface for b in books]),
             mode_time=np.array(modes.times),
             mode_heat=heat[-1],
+            mode_weight=np.array(modes.weights),
         ),
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
-    ).posed(groups)
+    )
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:

@@ -63,7 +63,7 @@ class Attempt:
     after, entry, mesh : State, Books, Mesh
         The state after it, the books if nothing was lost in a jump, and the nodes.
     missing, tolerated : float
-        Drive work that is nowhere to be found after it, and how much of that there may be.
+        Work that is nowhere to be found after it, and how much of that there may be.
     strain : float
         By how much it is too long: a ratio of lengths, squared.
     """
@@ -140,9 +140,8 @@ def entered(
     first, entry = run.history.snapshots[0], at.books.entered(work, heat, interface)
     so_far = at.books.imbalance(first, before.seen)
     missing = entry.imbalance(first, after.seen) - so_far
-    largest = max(entry.largest(first, after.seen), run.history.least_energy)
-    stored = abs(after.seen.elastic) + abs(after.seen.interface) + abs(after.seen.spring)
-    tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * stored)
+    largest = run.history.measure(entry, after.seen)
+    tolerated = max(run.settings.imbalance * largest, _ROUND_OFF * after.seen.held)
     # what is missing adds up: the more there is, the less is left for this step
     left = max(1 - abs(so_far) / (_MOST_MISSING * tolerated), _LEAST_LEFT)
     strain = max(strain, abs(missing) / (least * left * tolerated))
@@ -150,8 +149,8 @@ def entered(
 
 
 def work_of(before: Snapshot, after: Snapshot) -> float:
-    """Return the work of the drive in a step in which force and drive changed linearly."""
-    return 0.5 * (before.force + after.force) * (after.drive - before.drive)
+    """Return the work at the indenter in a step in which force and depth changed linearly."""
+    return 0.5 * (before.force + after.force) * (after.depth - before.depth)
 
 
 def _interface_heat(before: State, after: State) -> float:

@@ -178,7 +178,7 @@ def _on_better_nodes(run: Run, at: Place, goal: Ahead) -> Place:
         return at
     work, gone = lost(at, moved)
     books = moved.books
-    books = replace(books, drive=books.drive + work, transfer=books.transfer + gone)
+    books = replace(books, work=books.work + work, transfer=books.transfer + gone)
     return replace(moved, books=books)
 
 
@@ -285,8 +285,8 @@ def _after(
         followed=rate,
     )
     memory = Memory(d, d @ surface.stiffness)
-    time, hold = at.seen.time + dt, at.hold(dt)
-    after = run.body.state(time, found.gap, found.depth, hold, surface, e, memory, rates, None)
+    time = at.seen.time + dt
+    after = run.body.state(time, found.gap, found.depth, surface, e, memory, rates, None)
     return run.body.trailing(at.state, after), bend
 
 
@@ -307,15 +307,20 @@ def _strain(
 
 
 def _work(leg: Leg, after: State, dt: float) -> float:
-    """Return the work of the drive over the last step."""
+    """Return the work at the indenter over the last step."""
     passed = after.rates.trail
     last, now = passed[-2].seen, passed[-1].seen
     if leg.dead_load:  # linear in time, while the depth is not
-        fallen = now.force * now.drive - last.force * last.drive
-        depth = _integral(passed, np.array([p.seen.drive for p in passed]), dt)
+        fallen = now.force * now.depth - last.force * last.depth
+        depth = _integral(passed, np.array([p.seen.depth for p in passed]), dt)
         return fallen - (now.force - last.force) / dt * float(depth)
-    force = _integral(passed, np.array([p.seen.force for p in passed]), dt)
-    return (now.drive - last.drive) / dt * float(force)
+    force = float(_integral(passed, np.array([p.seen.force for p in passed]), dt))
+    travel, more = now.depth - last.depth, now.force - last.force
+    if leg.rigid:
+        return travel / dt * force
+    # the drive is linear in time, and what it does beyond the work at the indenter is in the spring
+    k = leg.stiffness
+    return (travel + more / k) / dt * force - more * (now.force + last.force) / (2 * k)
 
 
 def _heat(after: State, dt: float) -> npt.NDArray:

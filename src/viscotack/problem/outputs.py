@@ -127,6 +127,7 @@ def _cycles(force: str, unit: Unit, work: Unit, factor: Factor = _as_it_is) -> d
         "pull_off_depth": Series("pull_off_depth", "at depth", _LENGTH),
         "work_to_pull_off": Series("work_to_pull_off", "work", work, factor),
         "hysteresis": Series("hysteresis", "hysteresis", work, factor),
+        "hysteresis_error": Series("hysteresis_error", "its error", _PURE),
         "time_to_detachment": Series("time_to_detachment", "time to detachment", _TIME),
     }
 

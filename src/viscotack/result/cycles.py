@@ -11,11 +11,9 @@ from viscotack.files.whole import Target, write_whole
 
 from . import Outcome, Result
 from .dead_load import time_held
+from .loops import Loop, loop_of, lost_in
 from .opening import PullOff, pull_off_in, tension_work
-from .parts import Span, spans, touches
-
-# A cycle is closed where its ends differ by no more than this part of the way between them.
-_CLOSED = 1e-3
+from .parts import Span, spans
 
 
 @dataclass(frozen=True)
@@ -40,8 +38,12 @@ class Cycle:
     work_to_pull_off : float
         Integral of -force from the last zero crossing of the opening part to that minimum.
     hysteresis : float
-        Net work of the drive, where the cycle is a closed loop: it ends where it begins, or
-        begins and ends out of contact.
+        Loop integral of F d(indenter depth); from apart to apart without the change of the
+        interface energy across the gap. nan where the loop is open.
+    hysteresis_error : float
+        Its estimated error, relative; nan where it is not known.
+    loop : Loop
+        In which state the loop closed.
     time_to_detachment : float
         How long the contact bore a held force before it let go, :mod:`.dead_load`.
     """
@@ -55,6 +57,8 @@ class Cycle:
     pull_off_depth: float
     work_to_pull_off: float
     hysteresis: float
+    hysteresis_error: float
+    loop: Loop
     time_to_detachment: float
 
 
@@ -85,8 +89,10 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no cycles: {result.status}")
-    ends = zip(spans(result), pull_offs(result), strict=True)
-    return tuple(_cycle(result, span, found) for span, found in ends)
+    found = spans(result)
+    errors = result.hysteresis_errors or (float("nan"),) * len(found)
+    ends = zip(found, pull_offs(result), errors, strict=True)
+    return tuple(_cycle(result, span, at, error) for span, at, error in ends)
 
 
 def pull_offs(result: Result) -> list[PullOff | None]:
@@ -100,21 +106,25 @@ def pull_offs(result: Result) -> list[PullOff | None]:
     return found
 
 
-def cycle_rows(result: Result) -> list[dict[str, float | None]]:
+def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
     """Return the cycles with names and units of the geometry, in SI as well where the problem is.
 
     Names and signs are those of :mod:`viscotack.problem.outputs`; None is what a cycle has not.
+    `loop` is one of the words of :class:`.loops.Loop`.
     """
     outputs, scales = result.problem.outputs.cycles, result.scales
     rows = []
     for number, cycle in enumerate(cycles(result), 1):
-        row: dict[str, float | None] = {"cycle": number}
-        for name, output in outputs.items():
-            row[name] = _known(getattr(cycle, output.source) * output.factor(result.groups))
+        values = {
+            name: _known(getattr(cycle, output.source) * output.factor(result.groups))
+            for name, output in outputs.items()
+        }
+        row: dict[str, float | str | None] = {"cycle": number, **values, "loop": str(cycle.loop)}
         if scales is not None:
             for name, output in outputs.items():
-                value, scale = row[name], getattr(scales, output.unit.scale)
-                row[f"{name}_{output.unit.tail}"] = None if value is None else value * scale
+                if output.unit.scale:
+                    value, scale = values[name], getattr(scales, output.unit.scale)
+                    row[f"{name}_{output.unit.tail}"] = None if value is None else value * scale
         rows.append(row)
     return rows
 
@@ -132,9 +142,9 @@ def _known(value: float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _cycle(result: Result, span: Span, found: PullOff | None) -> Cycle:
+def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> Cycle:
     depth, tension = _snap_in(result, span)
-    none = float("nan")
+    none, loop = float("nan"), loop_of(result, span)
     return Cycle(
         begin=float(result.time[span.first]),
         end=float(result.time[span.last]),
@@ -146,7 +156,9 @@ def _cycle(result: Result, span: Span, found: PullOff | None) -> Cycle:
         work_to_pull_off=(
             none if found is None else tension_work(result, span, found, until=-found.depth)
         ),
-        hysteresis=_hysteresis(result, span),
+        hysteresis=lost_in(result, span, loop),
+        hysteresis_error=error,
+        loop=loop,
         time_to_detachment=_time_held(result, span),
     )
 
@@ -169,15 +181,3 @@ def _time_held(result: Result, span: Span) -> float:
         return time_held(result)
     except ValueError:
         return float("nan")
-
-
-def _hysteresis(result: Result, span: Span) -> float:
-    """Return the net work of the drive over a closed loop, else nan."""
-    ends = [span.first, span.last]
-    depth = result.depth[span.first : span.last + 1]
-    apart = touches(result, span) and not np.isfinite(result.contact_radius[ends]).any()
-    back = abs(depth[-1] - depth[0]) <= _CLOSED * np.ptp(depth)
-    if result.energy is None or not (span.closes and span.opens and (apart or back)):
-        return float("nan")
-    first, last = result.energy.drive[ends]
-    return float(last - first)

@@ -29,6 +29,9 @@ class Energies:
         Retardation time of each mode [time unit], and the heat it made in all.
     interface_heat : ndarray, shape (n,)
         Made so far in an interface that grows with the opening speed, summed from its tensions.
+    mode_weight : ndarray, shape (m,)
+        Compliance of each mode over that of the relaxed solid; nan in older results. The rest to 1
+        is that of the instantaneous response.
     """
 
     drive: Array
@@ -41,10 +44,13 @@ class Energies:
     mode_time: Array
     mode_heat: Array
     interface_heat: Array = field(default_factory=lambda: np.empty(0))  # of older results
+    mode_weight: Array = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:
         if np.size(self.interface_heat) == 0:
             object.__setattr__(self, "interface_heat", np.zeros(np.shape(self.drive)))
+        if np.size(self.mode_weight) != np.size(self.mode_time):
+            object.__setattr__(self, "mode_weight", np.full(np.shape(self.mode_time), np.nan))
         for one in fields(self):
             values = np.array(getattr(self, one.name), dtype=float)
             values.setflags(write=False)

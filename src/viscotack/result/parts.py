@@ -34,6 +34,11 @@ class Span:
     opens: bool
 
     @property
+    def states(self) -> slice:
+        """The states of the cycle, with those at both ends."""
+        return slice(self.first, self.last + 1)
+
+    @property
     def closing(self) -> slice:
         """The states of the closing part, with those at both ends."""
         return slice(self.first, self.turn + 1)

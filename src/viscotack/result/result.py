@@ -154,7 +154,11 @@ class Result:
         Relative error of the pull-off force that was asked for; None in results of version 0.1.
     error_estimate : dict or None
         Relative error of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
-        relative error of the ``time`` for which a load was borne. None while there is no estimate.
+        relative error of the ``time`` for which a load was borne; relative error of ``hysteresis``,
+        the largest of the cycles. None while there is no estimate.
+    hysteresis_errors : tuple of float, or None
+        Estimated relative error of the hysteresis of each cycle, nan where its loop is open; the
+        largest is ``error_estimate["hysteresis"]``. None while there is no estimate.
     energy : Energies or None
         Where the work of the drive has gone, at every step.
     energy_residual : float or None
@@ -185,6 +189,7 @@ class Result:
     events: tuple[Event, ...] = ()
     statistics: Mapping[str, float] = field(default_factory=dict)
     error_estimate: Mapping[str, float] | None = None
+    hysteresis_errors: tuple[float, ...] | None = None
     energy: Energies | None = None
     energy_residual: float | None = None
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
@@ -337,6 +342,7 @@ def save(result: Result, path: Target) -> None:
         "accuracy": result.accuracy,
         "method": result.method,
         "error_estimate": result.error_estimate and dict(result.error_estimate),
+        "hysteresis_errors": result.hysteresis_errors,
         "energy_residual": result.energy_residual,
         "shallow_start": result.shallow_start and asdict(result.shallow_start),
         "energy": result.energy is not None,
@@ -409,6 +415,7 @@ def _from_parts(
         return found if header[name] else None
 
     began = header.get("shallow_start")  # results of 0.1 have none
+    errors = header.get("hysteresis_errors")
     return Result(
         problem=from_dict(header["problem"], also),
         **{name: arrays[name] for name in _SERIES},
@@ -416,6 +423,7 @@ def _from_parts(
         events=tuple(Event(**event) for event in header["events"]),
         statistics=header["statistics"],
         error_estimate=header["error_estimate"],
+        hysteresis_errors=None if errors is None else tuple(errors),
         energy=None if (found := group("energy")) is None else Energies(**found),
         energy_residual=header["energy_residual"],
         fields=group("fields"),

@@ -5,7 +5,7 @@ from typing import Any
 from viscotack.result import Result
 
 # Columns that the words leave out.
-_LEFT_OUT = ("begin", "end", "time_to_detachment")
+_LEFT_OUT = ("begin", "end", "hysteresis_error", "time_to_detachment")
 
 
 def table_of_cycles(result: Result, rows: list[dict[str, Any]]) -> list[str]:
@@ -19,10 +19,11 @@ def table_of_cycles(result: Result, rows: list[dict[str, Any]]) -> list[str]:
     columns, units = _columns(result), {}
     for words, (_, unit) in columns.items():
         units.setdefault(unit, []).append(words)
-    lines = [_line("cycle", list(columns))]
+    lines = [_line("cycle", list(columns)) + "  loop"]
     for row in rows:
         values = [row[name] for name, _ in columns.values()]
-        lines.append(_line(row["cycle"], ["-" if v is None else f"{v:.4g}" for v in values]))
+        cells = ["-" if v is None else f"{v:.4g}" for v in values]
+        lines.append(f"{_line(row['cycle'], cells)}  {row['loop']}")
     return [*lines, "  " + "; ".join(f"{', '.join(w)} in {u}" for u, w in units.items())]
 
 

@@ -1,0 +1,132 @@
+"""Hysteresis on the ladder: what a loop has lost, in which state it closed, and its error."""
+
+import numpy as np
+import pytest
+
+from viscotack.bem import crack_contact, solve
+from viscotack.materials import Elastic, StandardSolid
+from viscotack.problem import Groups, PunchGroups
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
+from viscotack.result import load, save
+from viscotack.result.cycles import cycle_rows, cycles
+from viscotack.result.loops import Loop
+
+pytestmark = pytest.mark.march
+
+ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+
+
+def sphere(start, *moves, rate=None, tabor=0.5, material=ELASTIC, stiffness=None):
+    return Groups(
+        tabor=tabor, material=material, start=start, rate=rate, moves=moves, stiffness=stiffness
+    )
+
+
+def only_cycle(groups, accuracy=0.01):
+    (cycle,) = cycles(solve(groups, accuracy=accuracy))
+    return cycle
+
+
+LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
+PUNCH = PunchGroups(
+    size=64.85,
+    thickness=3.24,
+    cohesion=0.05,
+    material=ELASTIC,
+    start=AtForce(0.5),
+    rate=None,
+    moves=(Approach(1.0, AtForce(1.0)), Retract(1.0, AtForce(0.5))),
+    stiffness=0.1,
+)
+
+
+@pytest.mark.parametrize(
+    ("groups", "taken"),
+    [
+        (sphere(AtForce(2.0), *LOOP, stiffness=0.1), 4.0),
+        (sphere(AtForce(2.0), *LOOP, stiffness=1.0), 4.0),
+        (PUNCH, 0.5),
+    ],
+    ids=["soft", "stiffer", "punch"],
+)
+def test_an_elastic_loop_behind_a_spring_loses_nothing(groups, taken):
+    cycle = only_cycle(groups)
+    assert cycle.loop is Loop.CLOSED
+    assert abs(cycle.hysteresis) < 1e-3 * taken
+    assert abs(cycle.hysteresis) <= cycle.hysteresis_error * abs(cycle.hysteresis)
+
+
+@pytest.mark.parametrize("gap", [5.0, 10.0, 40.0])
+def test_an_elastic_tap_loses_nothing_wherever_it_begins_apart(gap):
+    cycle = only_cycle(sphere(Apart(gap), Approach(1.0, AtDepth(1.0)), rate=1.0, tabor=0.3), 2e-3)
+    assert cycle.loop is Loop.APART
+    assert abs(cycle.hysteresis) < 3e-3  # of an interface energy of 1.5 to 0.13 at these gaps
+    assert cycle.hysteresis_error > 1  # which is no more than its error
+
+
+def test_the_hysteresis_is_the_integral_of_the_force_over_the_depth():
+    loop = (Approach(5.0, AtDepth(4.0)), Retract(5.0, AtDepth(2.0)))
+    result = solve(sphere(AtDepth(2.0), *loop, material=SOLID, stiffness=0.3), accuracy=0.01)
+    (cycle,) = cycles(result)
+    force, depth = result.force, result.depth
+    loop_integral = np.sum((force[1:] + force[:-1]) / 2 * np.diff(depth))
+    assert cycle.hysteresis == pytest.approx(loop_integral, rel=2e-3, abs=0)
+
+
+def test_a_loop_says_what_returned():
+    there = Approach(5.0, AtDepth(4.0))
+    back = Retract(5.0, AtDepth(2.0))
+
+    def loop(*moves, **more):
+        return only_cycle(sphere(AtDepth(2.0), *moves, material=SOLID, **more), 0.02)
+
+    fresh, rested = loop(there, back), loop(there, back, Dwell(50.0, hold="depth"))
+    assert fresh.loop is Loop.DEPTH and fresh.hysteresis > 0
+    assert rested.loop is Loop.CLOSED
+    # what was left in the modes has become heat, and no work was done
+    assert rested.hysteresis == pytest.approx(fresh.hysteresis, rel=1e-2, abs=0)
+    away = loop(there, Retract(5.0, AtDepth(1.0)))
+    assert away.loop is Loop.OPEN and np.isnan(away.hysteresis)
+
+
+def test_energy_left_in_the_modes_counts_as_lost():
+    tap = (Approach(50.0, AtDepth(20.0)), Dwell(1.0), Retract(1000.0, AtDepth(-25.0)))
+    left = solve(sphere(Apart(25.0), *tap, material=SOLID), accuracy=0.01)
+    (cycle,), energy = cycles(left), left.energy
+    lost = energy.heat[-1] + energy.jumps[-1] + energy.transfer[-1]
+    kept = energy.elastic[-1] - energy.elastic[0]
+    assert kept > 0.05 * lost
+    assert cycle.hysteresis == pytest.approx(lost + kept, rel=5e-3, abs=0)
+
+
+def test_cycles_have_errors_that_cover_the_truth_and_come_back_from_a_file(tmp_path):
+    tap = (Approach(5.0, AtDepth(2.0)), Retract(5.0, AtDepth(-9.0)), Dwell(30.0))
+    groups = sphere(Apart(9.0), *2 * tap, material=SOLID, tabor=1.0)
+    result = solve(groups, accuracy=0.02)
+    found, truth = cycles(result), cycles(solve(groups, accuracy=1e-3, estimate_error=False))
+    for cycle, true in zip(found, truth, strict=True):
+        off = abs(cycle.hysteresis - true.hysteresis)
+        assert off <= cycle.hysteresis_error * cycle.hysteresis < 0.2 * cycle.hysteresis
+    assert result.error_estimate["hysteresis"] == max(c.hysteresis_error for c in found)
+    save(result, tmp_path / "run.npz")
+    rows = cycle_rows(result)
+    assert cycle_rows(load(tmp_path / "run.npz")) == rows
+    first = rows[0]
+    assert first["loop"] == "apart" and first["hysteresis_error"] == found[0].hysteresis_error
+
+
+def test_a_contact_with_a_steady_crack_has_the_same_hysteresis():
+    tap = (Approach(50.0, AtDepth(100.0)), Retract(50.0, AtDepth(-9000.0)))
+    groups = sphere(Apart(30.0), *tap, material=SOLID, tabor=300.0)
+    answer = crack_contact(groups)
+    (cycle,) = cycles(solve(groups))
+    assert answer.loop is cycle.loop is Loop.APART
+    assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
+    rub = (Approach(50.0, AtDepth(150.0)), Retract(50.0, AtDepth(100.0)))
+    rubbed = sphere(AtDepth(100.0), *rub, material=SOLID, tabor=300.0)
+    answer = crack_contact(rubbed)
+    (cycle,) = cycles(solve(rubbed))
+    assert answer.loop is cycle.loop is Loop.DEPTH
+    assert cycle.hysteresis == pytest.approx(answer.hysteresis, rel=1e-12, abs=0)
+    assert cycle.hysteresis > 0
