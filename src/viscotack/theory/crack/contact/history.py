@@ -40,6 +40,9 @@ _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
 # Radius [beta] below which nothing is left of a contact; and in the last retraction, where one that
 # snaps off behind a spring would close and open again without end, and without inertia.
 _GONE, _LEFT = 0.02, 0.1
+# An energy is that of an edge at rest within round-off. An edge that could open as well as close
+# turns with the drive where it is slower than so many times what the drive asks of it.
+_EQUAL, _AGAINST = 1e-10, 3.0
 
 
 @dataclass(frozen=True)
@@ -93,7 +96,15 @@ class Curve(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Time, given value, depth, force, radius, elastic parts and memories of the annuli."""
+    """Time, given value, depth, force, radius, and what the annuli remember.
+
+    `memory` is that of the inside for annuli of less than the radius, of the outside for the
+    others. The two annuli beside the edge have the other one too, to interpolate up to the edge
+    from either side: `beside` is that of the inside at the first annulus beyond, and that of the
+    outside at the last one before. `elastic` goes one annulus beyond the edge. `travel` is the mean
+    rate of the radius over the last step and `step` its length, infinite where it was a jump or
+    there was none; `rate` is that of the radius at the end of it.
+    """
 
     time: float
     drive: float
@@ -102,6 +113,10 @@ class _State(NamedTuple):
     radius: float
     elastic: Array
     memory: Array
+    beside: Array
+    travel: float = 0.0
+    step: float = np.inf
+    rate: float = 0.0
 
 
 class Contact:
@@ -141,21 +156,39 @@ class Contact:
         self._ds, self._dg = np.diff(self._s), np.diff(self._g)
         self._whole = np.asarray(profile.total(self._s))
         self._total = np.diff(self._whole)
+        self._ahead = max(crack.zone_length / self._mu2, self._apart)
 
     def relaxed(self, radius: float) -> _State:
         """Return a relaxed contact of a radius."""
         depth = float(self._profile.relaxed_depth(radius))
-        elastic = depth - self._g
-        # the annulus behind the edge goes on like those before it, for what lies between them
-        inside = self._s < radius + np.append(self._ds, 0.0)
-        memory = np.where(inside, elastic, 0.0)[:, None] * np.ones(self._chain.times.size)
+        elastic, modes = depth - self._g, self._chain.times.size
+        last = self.last_inside(radius)
+        elastic[last + 2 :] = 0.0
+        memory = np.repeat(elastic[:, None], modes, axis=1)
+        memory[last + 1] = 0.0
+        beside = np.zeros((2, modes))
+        beside[0] = elastic[last + 1]
         force = float(self._profile.relaxed_force(radius))
-        return _State(0.0, self._drive(depth, force), depth, force, radius, elastic, memory)
+        drive = self._drive(depth, force)
+        return _State(0.0, drive, depth, force, radius, elastic, memory, beside)
 
     def apart(self, depth: float) -> _State:
         """Return surfaces that do not touch, at a depth below zero."""
         memory = np.zeros((self._s.size, self._chain.times.size))
-        return _State(0.0, depth, depth, 0.0, 0.0, np.zeros(self._s.size), memory)
+        elastic = np.zeros(self._s.size)
+        return _State(0.0, depth, depth, 0.0, 0.0, elastic, memory, np.zeros_like(memory[:2]))
+
+    def last_inside(self, radius: float) -> int:
+        """Return the number of the last annulus of less than a radius, -1 if there is none."""
+        if radius <= 0:
+            return -1
+        i = self.interval(radius)
+        return i if self._s[i] < radius else i - 1
+
+    def interval(self, radius: float) -> int:
+        """Return the number of the annulus from which on a radius lies."""
+        i = int(max(radius - self._inner, 0.0) / self._apart) + (radius > self._inner)
+        return min(i, self._s.size - 2)
 
     def run(self, start: _State, drives: tuple[Drive, ...]) -> Curve:
         """Return the history of a start, until the contact lets go in the last drive or it ends."""
@@ -193,7 +226,7 @@ class Contact:
             moved = found.radius - state.radius
             if last and found.radius < min(_LEFT, state.radius) and drive.speed < 0:
                 found = found._replace(radius=0.0, force=0.0)
-            self._note(rows, state, found, number)
+            self._note(rows, found, number)
             gone = state.radius > 0 and found.radius == 0
             met = drive.end is not None and dt > 0 and _reached(found, drive)
             state = found
@@ -217,9 +250,8 @@ class Contact:
     def _slowest(self, drive: Drive) -> float:
         return drive.duration if drive.speed == 0 else 1.0 / abs(drive.speed)
 
-    def _note(self, rows: list[Any], before: _State, now: _State, number: int) -> None:
-        dt, moved = now.time - before.time, before.radius - now.radius
-        speed = self._mu2 * moved / dt if dt > 0 else 0.0
+    def _note(self, rows: list[Any], now: _State, number: int) -> None:
+        speed = -self._mu2 * now.rate
         edge = self._opening if speed >= 0 else self._closing
         rows.append((now, speed, edge.one(abs(speed)), number))
 
@@ -253,7 +285,8 @@ class Contact:
         far = abs(radius - state.radius) > 4 * _TRAVEL * scale
         if far and dt > least:
             return None, False
-        return step.state(radius, time), far
+        found = step.state(radius, time)
+        return (found._replace(step=np.inf) if far else found), far
 
 
 class _Step:
@@ -265,12 +298,18 @@ class _Step:
         self._of, self._before, self._control, self._value = contact, state, control, value
         self._dt = dt
         chain = contact._chain
-        self._decay, old, self._new, self._c = chain.step(dt)
-        kept = state.memory @ (chain.weights * self._decay)
-        self._old = old
-        self._out = kept
-        self._in = kept + float(chain.weights @ old) * state.elastic
+        self._decay, self._old, self._new, self._c = chain.step(dt)
+        self._last = last = contact.last_inside(state.radius)
+        kept = chain.weights * self._decay
+        lag = state.memory @ kept + float(chain.weights @ self._old) * state.elastic
+        self._in, self._out = lag, lag.copy()
+        if last >= 0:
+            beyond = last + 1
+            self._out[beyond] -= float(chain.weights @ self._old) * state.elastic[beyond]
+            self._in[beyond] += float(kept @ (state.beside[0] - state.memory[beyond]))
+            self._out[last] = float(kept @ state.beside[1])
         self._sum_in, self._sum_out = (self._cumulated(m) for m in (self._in, self._out))
+        self._until = self._outside(state.radius)[1]
 
     def _cumulated(self, memory: Array) -> Array:
         """Return the integral of a memory, straight in g, up to each annulus."""
@@ -279,26 +318,33 @@ class _Step:
         parts = memory[:-1] * of._ds + rise * (of._total - of._g[:-1] * of._ds)
         return np.append(0.0, np.cumsum(parts))
 
-    def _memory_at(self, a: float, memory: Array, total: Array) -> tuple[float, float]:
-        """Return a memory at a radius, and its integral up to there."""
-        a = float(a)
+    def _memory_at(self, a: float, memory: Array, total: Array, i: int) -> tuple[float, float]:
+        """Return a memory at a radius beyond annulus i, and its integral up to there."""
         of = self._of
-        i = min(int(max(a - of._inner, 0.0) / of._apart) + (a > of._inner), of._s.size - 2)
         rise = (memory[i + 1] - memory[i]) / of._dg[i]
         g, s = float(of._profile.depth(a)), float(of._s[i])
         whole = float(of._profile.total(a)) - of._whole[i]
         part = memory[i] * (a - s) + rise * (whole - of._g[i] * (a - s))
         return float(memory[i] + rise * (g - of._g[i])), float(total[i] + part)
 
+    def _inside(self, a: float) -> tuple[float, float]:
+        """Return the memory of the inside at a radius, and its integral."""
+        i = min(self._of.interval(a), max(self._last, 0))
+        return self._memory_at(a, self._in, self._sum_in, i)
+
+    def _outside(self, a: float) -> tuple[float, float]:
+        """Return the memory of the outside at a radius, and its integral."""
+        i = max(self._of.interval(a), self._last)
+        return self._memory_at(a, self._out, self._sum_out, i)
+
     def at(self, a: float) -> tuple[float, float, float]:
         """Return depth, force and memory in front of the edge for a radius at the end."""
         before = self._before.radius
         a = float(a)
-        lag, whole = self._memory_at(min(a, before), self._in, self._sum_in)
+        lag, whole = self._inside(min(a, before))
         if a > before:
-            _, until = self._memory_at(before, self._out, self._sum_out)
-            lag, beyond = self._memory_at(a, self._out, self._sum_out)
-            whole += beyond - until
+            lag, beyond = self._outside(a)
+            whole += beyond - self._until
         whole += float(self._of._profile.total(a))
         c, value, stiffness = self._c, self._value, self._of._stiffness
         if self._control == "force":
@@ -317,14 +363,50 @@ class _Step:
         if before == 0:
             return self._closed(0.0) if self._touches() else 0.0
         depth, _, lag = self.at(before)
-        g, around = float(of._profile.depth(before)), 2 * np.pi * before
-        lift = min((depth - g - lag) / self._c, 0.0)
-        out, _ = self._memory_at(before, self._out, self._sum_out)
-        jump = min(depth - g - out, 0.0)
-        opens, closes = lift**2 / around > 1, jump**2 / around < 1
-        if closes and depth >= self._before.depth:
+        opens = self._lift(before, depth, lag) > 1 + _EQUAL
+        closes = self._jump(before, depth) < 1 - _EQUAL
+        if opens and closes:
+            opens = self._goes_on_opening((depth - self._before.depth) / self._dt)
+            closes = not opens
+        if closes:
             return self._closed(before)
         return self._opened(before) if opens else before
+
+    def _lift(self, a: float, depth: float, lag: float) -> float:
+        """Return the energy of an edge that opens."""
+        lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
+        return lift**2 / (2 * np.pi * a)
+
+    def _jump(self, a: float, depth: float) -> float:
+        """Return the energy of an edge that closes."""
+        of = self._of
+        out, _ = self._outside(min(a + of._ahead, float(of._s[-1])))
+        jump = min(depth - float(of._profile.depth(a)) - out, 0.0)
+        return jump**2 / (2 * np.pi * a)
+
+    def _goes_on_opening(self, drive: float) -> bool:
+        """Return whether an edge opens that could as well close, from the rate of the depth."""
+        travel = self._before.travel
+        if travel == 0:
+            return drive < 0
+        if travel * drive < 0:
+            # the drive moves against it
+            rise = float(self._of._profile.depth(1.001 * self._before.radius))
+            rise -= float(self._of._profile.depth(0.999 * self._before.radius))
+            slope = rise / (0.002 * self._before.radius)
+            if abs(travel) * slope < _AGAINST * abs(drive):
+                return drive < 0
+        return travel < 0
+
+    def rate(self, a: float) -> float:
+        """Return the rate of the radius at the end, of second order where it goes on as before."""
+        mean, before = (a - self._before.radius) / self._dt, self._before
+        if mean * before.travel <= 0:
+            return mean
+        ratio = self._dt / before.step
+        rate = ((1 + 2 * ratio) * mean - ratio * before.travel) / (1 + ratio)
+        # a crack that slows down does not turn
+        return rate if rate * mean > 0 else 0.0
 
     def _touches(self) -> bool:
         if self._control == "force":
@@ -336,10 +418,8 @@ class _Step:
 
         def excess(a: float) -> float:
             depth, _, lag = self.at(a)
-            lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
-            speed = self._of._mu2 * (before - a) / self._dt
-            asked = self._of._opening.one(speed)
-            return lift**2 / (2 * np.pi * a) - asked
+            speed = -self._of._mu2 * self.rate(a)
+            return self._lift(a, depth, lag) - self._of._opening.one(speed)
 
         low, shrink = before, 1e-7
         while low > _GONE and shrink < 1:
@@ -354,11 +434,8 @@ class _Step:
         largest = float(self._of._s[-1])
 
         def excess(a: float) -> float:
-            depth, _, _ = self.at(a)
-            out = self._memory_at(a, self._out, self._sum_out)[0]
-            jump = min(depth - float(self._of._profile.depth(a)) - out, 0.0)
-            speed = self._of._mu2 * (a - before) / self._dt
-            return self._of._closing.one(speed) - jump**2 / (2 * np.pi * a)
+            speed = self._of._mu2 * self.rate(a)
+            return self._of._closing.one(speed) - self._jump(a, self.at(a)[0])
 
         grow, low, high = 1e-7, before, before
         while True:
@@ -379,18 +456,39 @@ class _Step:
         else:
             depth = before.depth if self._control == "force" else self._value
             force = 0.0
-        inside = of._s < before.radius
-        memory = np.where(inside, self._in, self._out)
-        # behind the edge too, for what lies between two annuli
-        reach = np.append(of._ds, 0.0)
-        lagging = np.where(of._s < before.radius + reach, self._in, memory)
-        elastic = (depth - of._g - lagging) / self._c
-        then = np.where(of._s < before.radius + reach, before.elastic, 0.0)
-        now = np.where(of._s < radius + reach, elastic, 0.0) if radius > 0 else 0.0 * elastic
-        memories = before.memory * self._decay
-        memories = memories + then[:, None] * self._old + now[:, None] * self._new
+        b, was, now = before.radius, self._last, of.last_inside(radius)
+        lag = self._out.copy()
+        lag[: was + 1] = self._in[: was + 1]
+        # of the inside, at the first annulus beyond the edge; of the outside, at the last before
+        memory, then = before.memory * self._decay, before.elastic.copy()
+        beyond, behind = before.beside * self._decay
+        if was >= 0:
+            beyond = beyond + then[was + 1] * self._old
+            then[was + 1] = 0.0
+        memory += then[:, None] * self._old
+        left = memory[max(now, 0)].copy()
+        if now == was:
+            # what the edge passed of the way between two annuli, it passed of their memories
+            closed = max(radius - b, 0.0) / (of._s[was + 1] - b) if radius > 0 else 0.0
+            beyond = beyond + closed * (memory[now + 1] - beyond)
+            lag[now + 1] = (1 - closed) * self._in[now + 1] + closed * self._out[now + 1]
+        else:
+            beyond = memory[now + 1]
+        elastic = np.zeros_like(before.elastic)
+        if now >= 0:
+            elastic[: now + 2] = (depth - of._g[: now + 2] - lag[: now + 2]) / self._c
+            beyond = beyond + elastic[now + 1] * self._new
+            memory[: now + 1] += elastic[: now + 1, None] * self._new
+        if now == was >= 0:
+            opened = max(b - radius, 0.0) / (b - of._s[was])
+            behind = behind + opened * (memory[now] - behind)
+        else:
+            behind = left if now > was else memory[now]
+        beside = np.array([beyond, behind])
+        travel, rate = (radius - b) / self._dt, self.rate(radius)
         drive = self._value if self._control == "drive" else of._drive(depth, force)
-        return _State(time, drive, depth, force, radius, elastic, memories)
+        edge = (travel, self._dt, rate)
+        return _State(time, drive, depth, force, radius, elastic, memory, beside, *edge)
 
 
 def _bisected(excess: Callable[[float], float], negative: float, positive: float) -> float:
