@@ -22,9 +22,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
-from viscotack.protocol import (
-    Apart,
-)
+from viscotack.protocol import Apart, Dwell
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
@@ -163,8 +161,8 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     law, unit = groups.traction, groups.material.time_unit
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
     start, largest = start_of(groups, profile)
-    if not groups.moves and groups.stiffness is None and start > 0:
-        assert groups.rate is not None, "a problem without moves has a rate"
+    series: dict[str, Any]
+    if start > 0 and groups.stiffness is None and groups.rate is not None and _rests(groups):
         found = recede(
             crack,
             profile,
@@ -172,24 +170,24 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             rate=np.array([groups.rate * unit / groups.tabor]),
             tabor=np.array([groups.tabor]),
         )
-        time, radius, depth, force, speed, energy = (column[:, 0] for column in found)
-        move, detached = np.zeros(time.size, dtype=np.intp), True
+        columns = tuple(column[:, 0] for column in found)
+        series, detached = _receded(groups, crack, *columns), True
     else:
+        spring = groups.stiffness
         contact = Contact(
             crack,
             profile,
             tabor=groups.tabor,
             largest=_MARGIN * largest,
-            stiffness=None if groups.stiffness is None else groups.stiffness * LOAD * groups.tabor,
+            stiffness=None if spring is None else spring * LOAD * groups.tabor,
+            tension=lambda speed: _tension(groups, crack, crack.amplification(speed), speed),
         )
         if isinstance(groups.start, Apart):
             state = contact.apart(-groups.start.gap / groups.tabor)
         else:
             state = contact.relaxed(start)
-        run = contact.run(state, drives_of(groups))
-        time, depth, force, radius = run.time, run.depth, run.force, run.radius
-        speed, energy, move, detached = run.speed, run.amplification, run.move, run.detached
-    series = _series(groups, crack, time, radius, depth, force, speed, energy, move)
+        *columns, detached = contact.run(state, drives_of(groups))
+        series = _series(groups, *columns)
     return _answer(problem, groups, crack, series, detached)
 
 
@@ -231,11 +229,9 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
         rate=rates * unit / tabor,
         tabor=tabor,
     )
-    still = np.zeros(len(found.time), dtype=np.intp)
     answers: list[CrackContact | InputError] = []
     for i, groups in enumerate(several):
-        time, radius, depth, force, speed, energy = (column[:, i] for column in found)
-        series = _series(groups, crack, time, radius, depth, force, speed, energy, still)
+        series = _receded(groups, crack, *(column[:, i] for column in found))
         try:
             answers.append(_answer(groups, groups, crack, series, True))
         except InputError as error:
@@ -243,7 +239,12 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     return answers
 
 
-def _series(
+def _rests(groups: Groups) -> bool:
+    """Return whether all that a relaxed contact does before the retraction is to wait."""
+    return all(isinstance(move, Dwell) for move in groups.moves)
+
+
+def _receded(
     groups: Groups,
     crack: SteadyCrack,
     time: Array,
@@ -252,21 +253,47 @@ def _series(
     force: Array,
     speed: Array,
     energy: Array,
+) -> dict[str, Any]:
+    """Return a retraction from rest as a result has it, after the dwells that change nothing."""
+    force = np.where(force < 0, _tension(groups, crack, energy, speed), 1.0) * force
+    waits = [move.duration for move in groups.moves if isinstance(move, Dwell)]
+    columns = (time, depth, force, radius, speed, energy)
+    if waits:
+        ends = np.cumsum(waits) / groups.material.time_unit
+        columns = tuple(np.append(np.full(len(waits), c[0]), c) for c in columns)
+        columns[0][len(waits) :] += ends[-1]
+        columns[0][1 : len(waits)] = ends[:-1]
+    move = np.maximum(np.arange(columns[0].size) - 1, 0)
+    return _series(groups, *columns, np.minimum(move, len(waits)))
+
+
+def _series(
+    groups: Groups,
+    time: Array,
+    depth: Array,
+    force: Array,
+    radius: Array,
+    speed: Array,
+    energy: Array,
     move: npt.NDArray[np.intp],
 ) -> dict[str, Any]:
-    """Return a history as a result has it; the force with the correction for the range."""
-    effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
-    ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
+    """Return a history as a result has it."""
     unit = groups.material.time_unit
     return {
         "time": time * unit,
         "depth": depth * groups.tabor,
-        "force": np.where(force < 0, ratio, 1.0) * force / LOAD,
+        "force": force / LOAD,
         "contact_radius": radius / ROOT,
         "edge_speed": speed / groups.tabor**2 / unit,
         "amplification": energy,
         "move": move,
     }
+
+
+def _tension(groups: Groups, crack: SteadyCrack, energy: Any, speed: Any) -> Array:
+    """Return the part of a tension of short range that the range of the law leaves."""
+    effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
+    return np.asarray(lennard_jones.pull_off_ratio(effective))
 
 
 def _answer(
@@ -351,17 +378,28 @@ def _zones(
 
     The zone is as many times longer as the solid makes of the energy.
     """
-    radius, energy = series["contact_radius"], at["amplification_at_pull_off"]
+    energy, radius = at["amplification_at_pull_off"], series["contact_radius"]
     if energy is None:
         return 0.0
-    way = float(np.max(radius)) - at["contact_radius_at_pull_off"]
-    if not groups.moves and energy > _SLOW:
+    # since the edge last rested or closed
+    rows = np.flatnonzero(series["time"] <= at["pull_off_time"])
+    slow = np.flatnonzero(series["amplification"][rows] <= 1)
+    last = int(slow[-1]) if slow.size else 0
+    way = radius[last] - at["contact_radius_at_pull_off"]
+    if energy > _SLOW:
         # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
         # the square of the way of the drive: it is above the half for a quarter of the time.
-        loading = 0.25 * at["pull_off_time"] / groups.material.time_unit
+        begun = max(series["time"][last], _begun(series))
+        loading = 0.25 * (at["pull_off_time"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
     return max(way, 0.0) / zone
+
+
+def _begun(series: dict[str, Any]) -> float:
+    """Return when the last move began."""
+    before = np.flatnonzero(series["move"] < series["move"][-1])
+    return float(series["time"][before[-1]]) if before.size else 0.0
 
 
 def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import log
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ Array = npt.NDArray[np.float64]
 _ANNULI, _SMALLEST = 360, 0.01
 # Bounds of a step: change of the radius over it, of the drive over the height of JKR's pull-off,
 # of its length over the one before; and the first one over the time of a move.
-_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.006, 0.05, 1.6, 1e-5
+_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.008, 0.07, 1.6, 1e-5
 # Rounds of a root and its tolerance; steps of a history at most.
 _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
 # Radius [beta] below which nothing is left of a contact; and in the last retraction, where one that
@@ -76,7 +77,7 @@ class Curve(NamedTuple):
     Attributes
     ----------
     time, depth, force, radius : ndarray
-        Depth [beta^2/R], force of short range [R dg], contact radius [beta].
+        Depth [beta^2/R], force that the machine feels [R dg], contact radius [beta].
     speed, amplification : ndarray
         Of the edge, positive where it opens [E0* h0^2/(dg tau)], and its energy [dg].
     move : ndarray
@@ -103,7 +104,8 @@ class _State(NamedTuple):
     from either side: `beside` is that of the inside at the first annulus beyond, and that of the
     outside at the last one before. `elastic` goes one annulus beyond the edge. `travel` is the mean
     rate of the radius over the last step and `step` its length, infinite where it was a jump or
-    there was none; `rate` is that of the radius at the end of it.
+    there was none; `rate` is that of the radius at the end of it. `left` is the part of a tension
+    of short range that is left at this speed of the edge.
     """
 
     time: float
@@ -114,6 +116,7 @@ class _State(NamedTuple):
     elastic: Array
     memory: Array
     beside: Array
+    left: float
     travel: float = 0.0
     step: float = np.inf
     rate: float = 0.0
@@ -134,6 +137,9 @@ class Contact:
         Largest radius of the history [beta].
     stiffness : float or None
         Of the machine [R dg over beta^2/R]; None for a rigid one.
+    tension : callable, optional
+        Part of a tension of short range that the range of the law leaves, at opening speeds: what
+        the machine feels, holds and is sprung by. None where the range is no length at all.
     """
 
     def __init__(
@@ -144,6 +150,7 @@ class Contact:
         tabor: float,
         largest: float,
         stiffness: float | None = None,
+        tension: Callable[[Array], Array] | None = None,
     ) -> None:
         self._profile, self._mu2, self._stiffness = profile, tabor**2, stiffness
         self._chain: Chain = chain_of(crack.modes)
@@ -156,6 +163,10 @@ class Contact:
         self._ds, self._dg = np.diff(self._s), np.diff(self._g)
         self._whole = np.asarray(profile.total(self._s))
         self._total = np.diff(self._whole)
+        self._at_rest, self._tension = 1.0, None
+        if tension is not None:
+            self._at_rest = float(tension(np.zeros(1))[0])
+            self._tension = self._opening.table(tension)
         self._ahead = max(crack.zone_length / self._mu2, self._apart)
 
     def relaxed(self, radius: float) -> _State:
@@ -169,14 +180,16 @@ class Contact:
         beside = np.zeros((2, modes))
         beside[0] = elastic[last + 1]
         force = float(self._profile.relaxed_force(radius))
-        drive = self._drive(depth, force)
-        return _State(0.0, drive, depth, force, radius, elastic, memory, beside)
+        force *= self._at_rest if force < 0 else 1.0
+        drive, left = self._drive(depth, force), self._at_rest
+        return _State(0.0, drive, depth, force, radius, elastic, memory, beside, left)
 
     def apart(self, depth: float) -> _State:
         """Return surfaces that do not touch, at a depth below zero."""
         memory = np.zeros((self._s.size, self._chain.times.size))
         elastic = np.zeros(self._s.size)
-        return _State(0.0, depth, depth, 0.0, 0.0, elastic, memory, np.zeros_like(memory[:2]))
+        beside, left = np.zeros_like(memory[:2]), self._at_rest
+        return _State(0.0, depth, depth, 0.0, 0.0, elastic, memory, beside, left)
 
     def last_inside(self, radius: float) -> int:
         """Return the number of the last annulus of less than a radius, -1 if there is none."""
@@ -241,6 +254,12 @@ class Contact:
 
     def _drive(self, depth: float, force: float) -> float:
         return depth if self._stiffness is None else depth + force / self._stiffness
+
+    def _left(self, rate: float) -> float:
+        """Return the part of a tension that is left while the radius changes at a rate."""
+        if self._tension is None or rate >= 0:
+            return self._at_rest
+        return self._tension.one(log(-self._mu2 * rate))
 
     def _longest(self, drive: Drive) -> float:
         if drive.speed == 0:
@@ -347,14 +366,18 @@ class _Step:
             whole += beyond - self._until
         whole += float(self._of._profile.total(a))
         c, value, stiffness = self._c, self._value, self._of._stiffness
+        left = self._before.left
         if self._control == "force":
-            depth = (value * c / 2 + whole) / max(a, 1e-12)
+            short = value / left if value < 0 else value
+            depth = (short * c / 2 + whole) / max(a, 1e-12)
         elif self._control == "depth" or stiffness is None:
             depth = value
         else:
-            soft = 2 / (c * stiffness)
+            # without force the depth is the drive
+            soft = 2 / (c * stiffness) * (left if value * a < whole else 1.0)
             depth = (value + soft * whole) / (1 + soft * a)
-        return depth, 2 / c * (depth * a - whole), lag
+        force = 2 / c * (depth * a - whole)
+        return depth, force * left if force < 0 else force, lag
 
     def edge(self) -> float:
         """Return the radius at the end of the step."""
@@ -466,7 +489,7 @@ class _Step:
             beyond = beyond + then[was + 1] * self._old
             then[was + 1] = 0.0
         memory += then[:, None] * self._old
-        left = memory[max(now, 0)].copy()
+        outside = memory[max(now, 0)].copy()
         if now == was:
             # what the edge passed of the way between two annuli, it passed of their memories
             closed = max(radius - b, 0.0) / (of._s[was + 1] - b) if radius > 0 else 0.0
@@ -483,11 +506,12 @@ class _Step:
             opened = max(b - radius, 0.0) / (b - of._s[was])
             behind = behind + opened * (memory[now] - behind)
         else:
-            behind = left if now > was else memory[now]
+            behind = outside if now > was else memory[now]
         beside = np.array([beyond, behind])
         travel, rate = (radius - b) / self._dt, self.rate(radius)
         drive = self._value if self._control == "drive" else of._drive(depth, force)
-        edge = (travel, self._dt, rate)
+        left = of._left(rate)
+        edge = (left, travel, self._dt, rate)
         return _State(time, drive, depth, force, radius, elastic, memory, beside, *edge)
 
 
