@@ -26,6 +26,8 @@ from viscotack.protocol import Apart, Dwell
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
+    Curve,
+    Curves,
     profile_of,
     recede,
 )
@@ -43,6 +45,9 @@ LEAST_TABOR = 2.0
 LARGEST_TABOR = 1e9
 # Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
+# A contact that lets go where it starts has its zone yet to grow: while the tension has hardly
+# fallen the edge goes so many zones, or it is refused.
+_FLAT, _FAR = 5e-3, 10.0
 # How much larger than the largest relaxed state a contact may become.
 _MARGIN = 1.15
 # Instants nearer to each other than this part of a parabola's tell the same of it.
@@ -170,8 +175,7 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             rate=np.array([groups.rate * unit / groups.tabor]),
             tabor=np.array([groups.tabor]),
         )
-        columns = tuple(column[:, 0] for column in found)
-        series, detached = _receded(groups, crack, *columns), True
+        series, detached = _receded(groups, crack, found, 0), True
     else:
         spring = groups.stiffness
         contact = Contact(
@@ -186,8 +190,8 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             state = contact.apart(-groups.start.gap / groups.tabor)
         else:
             state = contact.relaxed(start)
-        *columns, detached = contact.run(state, drives_of(groups))
-        series = _series(groups, *columns)
+        run = contact.run(state, drives_of(groups))
+        series, detached = _series(groups, run), run.detached
     return _answer(problem, groups, crack, series, detached)
 
 
@@ -231,7 +235,7 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     )
     answers: list[CrackContact | InputError] = []
     for i, groups in enumerate(several):
-        series = _receded(groups, crack, *(column[:, i] for column in found))
+        series = _receded(groups, crack, found, i)
         try:
             answers.append(_answer(groups, groups, crack, series, True))
         except InputError as error:
@@ -244,49 +248,34 @@ def _rests(groups: Groups) -> bool:
     return all(isinstance(move, Dwell) for move in groups.moves)
 
 
-def _receded(
-    groups: Groups,
-    crack: SteadyCrack,
-    time: Array,
-    radius: Array,
-    depth: Array,
-    force: Array,
-    speed: Array,
-    energy: Array,
-) -> dict[str, Any]:
+def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> dict[str, Any]:
     """Return a retraction from rest as a result has it, after the dwells that change nothing."""
+    time, radius, depth, force, speed, energy = (column[:, case] for column in found)
     force = np.where(force < 0, _tension(groups, crack, energy, speed), 1.0) * force
+    # the start, and the end of each dwell
     waits = [move.duration for move in groups.moves if isinstance(move, Dwell)]
-    columns = (time, depth, force, radius, speed, energy)
-    if waits:
-        ends = np.cumsum(waits) / groups.material.time_unit
-        columns = tuple(np.append(np.full(len(waits), c[0]), c) for c in columns)
-        columns[0][len(waits) :] += ends[-1]
-        columns[0][1 : len(waits)] = ends[:-1]
-    move = np.maximum(np.arange(columns[0].size) - 1, 0)
-    return _series(groups, *columns, np.minimum(move, len(waits)))
+    ends = np.append(0.0, np.cumsum(waits)) / groups.material.time_unit
+    count = len(waits)
+    time = np.append(ends[:-1], time + ends[-1])
+    depth, force, radius, speed, energy = (
+        np.append(np.full(count, column[0]), column)
+        for column in (depth, force, radius, speed, energy)
+    )
+    move = np.clip(np.arange(time.size) - 1, 0, count)
+    return _series(groups, Curve(time, depth, force, radius, speed, energy, move, True))
 
 
-def _series(
-    groups: Groups,
-    time: Array,
-    depth: Array,
-    force: Array,
-    radius: Array,
-    speed: Array,
-    energy: Array,
-    move: npt.NDArray[np.intp],
-) -> dict[str, Any]:
+def _series(groups: Groups, run: Curve) -> dict[str, Any]:
     """Return a history as a result has it."""
     unit = groups.material.time_unit
     return {
-        "time": time * unit,
-        "depth": depth * groups.tabor,
-        "force": force / LOAD,
-        "contact_radius": radius / ROOT,
-        "edge_speed": speed / groups.tabor**2 / unit,
-        "amplification": energy,
-        "move": move,
+        "time": run.time * unit,
+        "depth": run.depth * groups.tabor,
+        "force": run.force / LOAD,
+        "contact_radius": run.radius / ROOT,
+        "edge_speed": run.speed / groups.tabor**2 / unit,
+        "amplification": run.amplification,
+        "move": run.move,
     }
 
 
@@ -393,6 +382,10 @@ def _zones(
         loading = 0.25 * (at["pull_off_time"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
+    if way < LEAST_ZONES * zone:
+        flat = np.flatnonzero(series["force"] < -(1 - _FLAT) * at["pull_off_force"])
+        further = radius[last] - radius[flat[-1]]
+        way = further if further > _FAR * zone else way
     return max(way, 0.0) / zone
 
 

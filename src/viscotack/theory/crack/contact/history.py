@@ -105,7 +105,8 @@ class _State(NamedTuple):
     outside at the last one before. `elastic` goes one annulus beyond the edge. `travel` is the mean
     rate of the radius over the last step and `step` its length, infinite where it was a jump or
     there was none; `rate` is that of the radius at the end of it. `left` is the part of a tension
-    of short range that is left at this speed of the edge.
+    of short range that is left at this speed of the edge. `way` is the
+    sign of the last travel, 0 where there was none.
     """
 
     time: float
@@ -120,6 +121,7 @@ class _State(NamedTuple):
     travel: float = 0.0
     step: float = np.inf
     rate: float = 0.0
+    way: float = 0.0
 
 
 class Contact:
@@ -388,9 +390,13 @@ class _Step:
         depth, _, lag = self.at(before)
         opens = self._lift(before, depth, lag) > 1 + _EQUAL
         closes = self._jump(before, depth) < 1 - _EQUAL
+        drive, way = (depth - self._before.depth) / self._dt, self._before.way
         if opens and closes:
-            opens = self._goes_on_opening((depth - self._before.depth) / self._dt)
+            opens = self._goes_on_opening(drive)
             closes = not opens
+        elif way * drive > 0:
+            # it turns with the drive, not against it: what it has just left would bring it back
+            opens, closes = opens and way < 0, closes and way > 0
         if closes:
             return self._closed(before)
         return self._opened(before) if opens else before
@@ -511,7 +517,7 @@ class _Step:
         travel, rate = (radius - b) / self._dt, self.rate(radius)
         drive = self._value if self._control == "drive" else of._drive(depth, force)
         left = of._left(rate)
-        edge = (left, travel, self._dt, rate)
+        edge = (left, travel, self._dt, rate, float(np.sign(travel)) or before.way)
         return _State(time, drive, depth, force, radius, elastic, memory, beside, *edge)
 
 
