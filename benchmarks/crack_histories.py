@@ -4,8 +4,10 @@
 
 History i of a seed is the same whatever else is asked: a dwell at rest, an approach with and
 without a dwell, a reversal, cycles, dead loads, every fourth behind a spring; Tabor numbers of 8 to
-60, standard solids, power laws and Prony series, spheres, cones and r^4. The store keeps what
-simulations cost; the theory is asked anew each time. --only simulates without asking the theory.
+60, standard solids, power laws and Prony series, spheres, cones and r^4. With --turns a sphere is
+pressed and pulled up to 100 times faster. The store keeps what simulations cost; the theory is
+asked anew each time. --only simulates without asking the theory. Prints a line a history, and how
+often the band held, by kind.
 """
 
 import argparse
@@ -120,8 +122,7 @@ def compared(i, drawn, row):
         return told | {"note": f"refused: {error}"[:100]}
     told["seconds"] = time.perf_counter() - begin
     told |= {"force": answer.pull_off_force, "band": answer.band, "inside": answer.inside}
-    told["effective"] = groups.tabor * (answer.amplification_at_pull_off or 1) ** (-1 / 3)
-    told["zones"], told["why"] = answer.zones, answer.why
+    told["zones"] = answer.zones
     if row["simulated"] == "":
         return told | {"note": f"not simulated: {row['note']}"}
     if answer.pull_off_force is None:
@@ -139,6 +140,22 @@ def rows_of(path):
         return {}
     with path.open(newline="") as file:
         return {int(row["history"]): row for row in csv.DictReader(file)}
+
+
+def summary(told):
+    """Print how far the theory is off, and how often the band held, by kind."""
+    good = [found for found in told if "error" in found]
+    kinds = {found["kind"].split(" (")[0].replace(", spring", "") for found in good}
+    for kind in ("", *sorted(kinds)):
+        part = [found for found in good if not kind or found["kind"].split(" (")[0] == kind]
+        part += [f for f in good if kind and f["kind"].split(" (")[0] == f"{kind}, spring"]
+        off = np.abs([found["error"] for found in part])
+        held = sum(bool(found["held"]) for found in part)
+        print(
+            f"{kind or 'all':16} {len(part):3} compared, held {held}, median {np.median(off):.2%},"
+            f" 9 of 10 {np.quantile(off, 0.9):.2%}, worst {off.max():.2%},"
+            f" median band {np.median([found['band'] for found in part]):.2%}"
+        )
 
 
 def main():
@@ -171,6 +188,8 @@ def main():
             line += f" force {found['force']:.3f} error {found['error']:+.2%}"
             line += f" band {found['band']:.2%} {'' if found['held'] else 'OUTSIDE'}"
         print(line, found.get("note", ""), flush=True)
+    if any("error" in found for found in told):
+        summary(told)
 
 
 if __name__ == "__main__":

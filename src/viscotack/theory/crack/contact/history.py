@@ -8,6 +8,29 @@ The force is :math:`P = 2 \int_0^a \chi_e ds`. An edge that opens has
 with the jump of :math:`\chi_u` there: in front of a crack that opens nothing has crept, and behind
 one that closes the shape is given.
 
+**Two memories.** In front of the edge lies what the outside remembers, behind it what the inside
+does. Of a relaxed contact the one is zero and the other :math:`d_j = \chi_e`, so that lift and
+jump are both D - g(a), both energies are 1, and the edge rests. Each memory evolves on its own. An
+annulus that is closed starts from its outer memory; one that is opened keeps its inner one. The two
+annuli beside the edge have both, and take over the part of the other that the edge has passed of
+the way between them. The jump is measured a zone in front of the edge, an annulus at least: right
+at the edge an opening of 1e-12 would leave the memory of the inside, hence the jump
+:math:`c \chi_e` of energy k^2.
+
+**Which energy holds.** Only that of opening above 1: the edge opens; only that of closing below 1:
+it closes; neither: it rests. In motion both hold: just opened annuli have a small jump, just closed
+ones a large lift. Then it goes on as before, unless the drive moves the other way and the edge is
+slower than :math:`|\dot a| g'(a) < 3 |\dot D|` (the 3 is that of slow reversals: 10 gives forces
+3 % low, 1 gives 7 % high). The rate of the last step counts: that of a trial would decide about
+itself. An edge that turned does not turn back before the drive does.
+
+**Steps.** Memories are exact for elastic parts straight in time. The rate of the edge at the end of
+a step is that of the parabola through this step and the one before, of second order, where the edge
+goes on as before.
+
+**Range.** The machine feels, holds and is sprung by tensions that the range of the law has reduced,
+by a part that depends on the opening speed (`tension` of :class:`Contact`).
+
 Units as in :mod:`._profile`, times in the unit of the material. Between the annuli the memory is
 straight in g, which is exact for what was brought in at rest.
 """
