@@ -407,7 +407,6 @@ class _Step:
     def edge(self) -> float:
         """Return the radius at the end of the step."""
         before = self._before.radius
-        of = self._of
         if before == 0:
             return self._closed(0.0) if self._touches() else 0.0
         depth, _, lag = self.at(before)
