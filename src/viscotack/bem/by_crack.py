@@ -22,13 +22,13 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
-from viscotack.protocol import (
-    Apart,
-)
+from viscotack.protocol import Apart, Dwell
 from viscotack.result.loops import Loop, returned, work_at_indenter
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
+    Curve,
+    Curves,
     profile_of,
     recede,
 )
@@ -46,6 +46,9 @@ LEAST_TABOR = 2.0
 LARGEST_TABOR = 1e9
 # Way of the edge to the pull-off, in zones, below which a crack above that energy is not steady.
 LEAST_ZONES, _SLOW = 1.5, 1.1
+# A contact that lets go where it starts has its zone yet to grow: while the tension has hardly
+# fallen the edge goes so many zones, or it is refused.
+_FLAT, _FAR = 5e-3, 10.0
 # How much larger than the largest relaxed state a contact may become.
 _MARGIN = 1.15
 # Instants nearer to each other than this part of a parabola's tell the same of it.
@@ -168,8 +171,8 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     law, unit = groups.traction, groups.material.time_unit
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
     start, largest = start_of(groups, profile)
-    if not groups.moves and groups.stiffness is None and start > 0:
-        assert groups.rate is not None, "a problem without moves has a rate"
+    series: dict[str, Any]
+    if start > 0 and groups.stiffness is None and groups.rate is not None and _rests(groups):
         found = recede(
             crack,
             profile,
@@ -177,24 +180,23 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
             rate=np.array([groups.rate * unit / groups.tabor]),
             tabor=np.array([groups.tabor]),
         )
-        time, radius, depth, force, speed, energy = (column[:, 0] for column in found)
-        move, detached = np.zeros(time.size, dtype=np.intp), True
+        series, detached = _receded(groups, crack, found, 0), True
     else:
+        spring = groups.stiffness
         contact = Contact(
             crack,
             profile,
             tabor=groups.tabor,
             largest=_MARGIN * largest,
-            stiffness=None if groups.stiffness is None else groups.stiffness * LOAD * groups.tabor,
+            stiffness=None if spring is None else spring * LOAD * groups.tabor,
+            tension=lambda speed: _tension(groups, crack, crack.amplification(speed), speed),
         )
         if isinstance(groups.start, Apart):
             state = contact.apart(-groups.start.gap / groups.tabor)
         else:
             state = contact.relaxed(start)
         run = contact.run(state, drives_of(groups))
-        time, depth, force, radius = run.time, run.depth, run.force, run.radius
-        speed, energy, move, detached = run.speed, run.amplification, run.move, run.detached
-    series = _series(groups, crack, time, radius, depth, force, speed, energy, move)
+        series, detached = _series(groups, run), run.detached
     return _answer(problem, groups, crack, series, detached)
 
 
@@ -236,11 +238,9 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
         rate=rates * unit / tabor,
         tabor=tabor,
     )
-    still = np.zeros(len(found.time), dtype=np.intp)
     answers: list[CrackContact | InputError] = []
     for i, groups in enumerate(several):
-        time, radius, depth, force, speed, energy = (column[:, i] for column in found)
-        series = _series(groups, crack, time, radius, depth, force, speed, energy, still)
+        series = _receded(groups, crack, found, i)
         try:
             answers.append(_answer(groups, groups, crack, series, True))
         except InputError as error:
@@ -248,30 +248,46 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     return answers
 
 
-def _series(
-    groups: Groups,
-    crack: SteadyCrack,
-    time: Array,
-    radius: Array,
-    depth: Array,
-    force: Array,
-    speed: Array,
-    energy: Array,
-    move: npt.NDArray[np.intp],
-) -> dict[str, Any]:
-    """Return a history as a result has it; the force with the correction for the range."""
-    effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
-    ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
+def _rests(groups: Groups) -> bool:
+    """Return whether all that a relaxed contact does before the retraction is to wait."""
+    return all(isinstance(move, Dwell) for move in groups.moves)
+
+
+def _receded(groups: Groups, crack: SteadyCrack, found: Curves, case: int) -> dict[str, Any]:
+    """Return a retraction from rest as a result has it, after the dwells that change nothing."""
+    time, radius, depth, force, speed, energy = (column[:, case] for column in found)
+    force = np.where(force < 0, _tension(groups, crack, energy, speed), 1.0) * force
+    # the start, and the end of each dwell
+    waits = [move.duration for move in groups.moves if isinstance(move, Dwell)]
+    ends = np.append(0.0, np.cumsum(waits)) / groups.material.time_unit
+    count = len(waits)
+    time = np.append(ends[:-1], time + ends[-1])
+    depth, force, radius, speed, energy = (
+        np.append(np.full(count, column[0]), column)
+        for column in (depth, force, radius, speed, energy)
+    )
+    move = np.clip(np.arange(time.size) - 1, 0, count)
+    return _series(groups, Curve(time, depth, force, radius, speed, energy, move, True))
+
+
+def _series(groups: Groups, run: Curve) -> dict[str, Any]:
+    """Return a history as a result has it."""
     unit = groups.material.time_unit
     return {
-        "time": time * unit,
-        "depth": depth * groups.tabor,
-        "force": np.where(force < 0, ratio, 1.0) * force / LOAD,
-        "contact_radius": radius / ROOT,
-        "edge_speed": speed / groups.tabor**2 / unit,
-        "amplification": energy,
-        "move": move,
+        "time": run.time * unit,
+        "depth": run.depth * groups.tabor,
+        "force": run.force / LOAD,
+        "contact_radius": run.radius / ROOT,
+        "edge_speed": run.speed / groups.tabor**2 / unit,
+        "amplification": run.amplification,
+        "move": run.move,
     }
+
+
+def _tension(groups: Groups, crack: SteadyCrack, energy: Any, speed: Any) -> Array:
+    """Return the part of a tension of short range that the range of the law leaves."""
+    effective = _effective(groups, energy, np.asarray(crack.interface_work(speed)))
+    return np.asarray(lennard_jones.pull_off_ratio(effective))
 
 
 def _answer(
@@ -358,17 +374,32 @@ def _zones(
 
     The zone is as many times longer as the solid makes of the energy.
     """
-    radius, energy = series["contact_radius"], at["amplification_at_pull_off"]
+    energy, radius = at["amplification_at_pull_off"], series["contact_radius"]
     if energy is None:
         return 0.0
-    way = float(np.max(radius)) - at["contact_radius_at_pull_off"]
-    if not groups.moves and energy > _SLOW:
+    # since the edge last rested or closed
+    rows = np.flatnonzero(series["time"] <= at["pull_off_time"])
+    slow = np.flatnonzero(series["amplification"][rows] <= 1)
+    last = int(slow[-1]) if slow.size else 0
+    way = radius[last] - at["contact_radius_at_pull_off"]
+    if energy > _SLOW:
         # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
         # the square of the way of the drive: it is above the half for a quarter of the time.
-        loading = 0.25 * at["pull_off_time"] / groups.material.time_unit
+        begun = max(series["time"][last], _begun(series))
+        loading = 0.25 * (at["pull_off_time"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
+    if way < LEAST_ZONES * zone:
+        flat = np.flatnonzero(series["force"] < -(1 - _FLAT) * at["pull_off_force"])
+        further = radius[last] - radius[flat[-1]]
+        way = further if further > _FAR * zone else way
     return max(way, 0.0) / zone
+
+
+def _begun(series: dict[str, Any]) -> float:
+    """Return when the last move began."""
+    before = np.flatnonzero(series["move"] < series["move"][-1])
+    return float(series["time"][before[-1]]) if before.size else 0.0
 
 
 def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:

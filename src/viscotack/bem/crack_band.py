@@ -6,12 +6,15 @@ length of the zone beside the contact, and beside the way of its edge: both are 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from itertools import dropwhile
 from typing import Any
 
 import numpy as np
 
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups
+from viscotack.protocol import Approach, Dwell, LoadTo, Retract
 from viscotack.traction import LennardJones, grows
 
 # Bands: what simulations at the default accuracy are off, what the second correction for the
@@ -35,6 +38,17 @@ _MEASURED_FROM_REST = {
     "modulus_ratio": (1e-4, 1.0),
     "rate over the Tabor number": (1e-6, 1e6),
 }
+# Whole histories (`benchmarks/crack_histories.py`): of up to so many of these moves.
+_MEASURED_HISTORIES = {
+    "tabor": (8.0, 60.0),
+    "modulus_ratio": (0.03, 1.0),
+    "rate over the Tabor number": (0.3, 100.0),
+    "speed of a move over the Tabor number": (0.3, 100.0),
+    "number of moves": (1, 3),
+}
+_KINDS = Approach | Retract | Dwell | LoadTo
+# Softer springs were not simulated; a rigid machine is the limit of stiffer ones.
+_SPRINGS = {"stiffness times the Tabor number": (0.1, np.inf)}
 
 
 ELSEWHERE = "was measured elsewhere, and is not known to hold here: "
@@ -66,7 +80,7 @@ def band_of(
         f"range of the forces, effective Tabor number {effective:.3g}": by_range,
         f"way of {zones:.3g} zones to the pull-off": by_way,
     }
-    if groups.moves:
+    if history_of(groups):
         parts["history"] = _HISTORY_BAND * min(1.0, 10 / effective)
     if grows(groups.traction):
         parts["interface that grows with the opening speed"] = _GROWING_BAND
@@ -79,19 +93,38 @@ def band_of(
     return band, not elsewhere, why
 
 
+def history_of(groups: Groups) -> tuple[Any, ...]:
+    """Return the moves that change something: not the dwells of a start, which is at rest."""
+    return tuple(dropwhile(lambda move: isinstance(move, Dwell), groups.moves))
+
+
 def not_measured(groups: Groups) -> str:
     """Return in words where the band was not measured on problems like it, or ""."""
+    moves, unit = history_of(groups), groups.material.time_unit / groups.tabor
     values = {"tabor": groups.effective_tabor, "modulus_ratio": groups.modulus_ratio}
     # an elastic contact knows no rate
     if groups.rate is not None and groups.modulus_ratio < 1:
-        rate = groups.rate * groups.material.time_unit
-        values["rate over the Tabor number"] = rate / groups.tabor
+        values["rate over the Tabor number"] = groups.rate * unit
     simple = isinstance(groups.geometry, Sphere) and isinstance(groups.traction, LennardJones)
-    from_rest = simple and not groups.moves and groups.stiffness is None
-    return outside(values, _MEASURED_FROM_REST if from_rest else _MEASURED)
+    measured = _MEASURED_FROM_REST if simple and groups.stiffness is None else _MEASURED
+    if groups.stiffness is not None:
+        measured = measured | _SPRINGS
+        values["stiffness times the Tabor number"] = groups.stiffness * groups.tabor
+    if not moves:
+        return outside(values, measured)
+    measured = measured | _MEASURED_HISTORIES
+    values["number of moves"] = len(moves)
+    speeds = [move.speed * unit for move in moves if isinstance(move, Approach | Retract)]
+    found = [outside(values, measured)]
+    if groups.modulus_ratio < 1:
+        name = "speed of a move over the Tabor number"
+        found += [outside({name: speed}, measured) for speed in speeds]
+    others = {type(move).__name__ for move in moves if not isinstance(move, _KINDS)}
+    found += [f"for histories without {name}" for name in sorted(others)]
+    return "; ".join(word for word in found if word)
 
 
-def outside(values: dict[str, float], ranges: dict[str, tuple[float, float]]) -> str:
+def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return in words which values lie outside their ranges, or ""."""
     found = []
     for name, value in values.items():

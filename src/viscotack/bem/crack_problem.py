@@ -23,6 +23,7 @@ from viscotack.protocol import (
     MoveTo,
     Retract,
 )
+from viscotack.theory import lennard_jones
 from viscotack.theory.crack.contact import (
     Drive,
     Profile,
@@ -83,7 +84,10 @@ def _relaxed_radius(state: Any, groups: Groups, profile: Profile) -> float:
         case AtDepth():
             return radius_at_depth(profile, state.depth / groups.tabor)
         case AtForce():
-            return radius_at_force(profile, state.force * LOAD)
+            # a tension of this range is one larger without
+            left = float(lennard_jones.pull_off_ratio(groups.effective_tabor))
+            short = state.force / left if state.force < 0 else state.force
+            return radius_at_force(profile, short * LOAD)
         case AtRadius():
             return state.contact_radius * ROOT
     raise AssertionError(state)

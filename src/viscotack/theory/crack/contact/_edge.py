@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import log
 from typing import Any
 
@@ -16,6 +17,8 @@ Array = npt.NDArray[np.float64]
 
 # ln of the odds of Gamma at both ends of the table, and its rows.
 _ODDS, _ROWS = (-14.0, 12.0), 8000
+# Rows of other tables over the speed.
+_OTHERS = 1000
 # What is gained by the slowest crack of an interface that grows with the opening speed.
 _GAINED = 1e-6
 
@@ -28,7 +31,7 @@ class Edge:
         self.limit, self.sign = (crack.largest if sign > 0 else k), sign
         # an interface that grows with the opening speed has no such limit
         grown = sign > 0 and crack.largest != 1 / k
-        self.elastic = k == 1 and not grown
+        self.elastic, self._span = k == 1 and not grown, (0.0, 0.0)
         if self.elastic:
             return
         if grown:
@@ -36,12 +39,14 @@ class Edge:
             first, last = np.log(np.asarray(crack.speed(ends)))
             speed = np.exp(np.linspace(first, last, _ROWS))
             self._gamma = Even(first, last, np.asarray(crack.amplification(speed)))
+            self._span = first, last
             return
         odds = np.exp(np.array(_ODDS))
         ends = (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
         first, last = np.log(np.abs(np.asarray(crack.speed(ends))))
         speed = np.exp(np.linspace(first, last, _ROWS))
         self._gamma = Even(first, last, np.asarray(crack.amplification(sign * speed)))
+        self._span = first, last
 
     def amplification(self, speed: Any) -> Any:
         """Return Gamma at speeds, not negative."""
@@ -55,3 +60,10 @@ class Edge:
         if self.elastic or speed <= 0:
             return 1.0
         return self._gamma.one(log(speed))
+
+    def table(self, quantity: Callable[[Array], Array]) -> Even | None:
+        """Return a quantity of the speed over ln V where Gamma changes, None where it does not."""
+        if self.elastic:
+            return None
+        first, last = self._span
+        return Even(first, last, quantity(np.exp(np.linspace(first, last, _OTHERS))))

@@ -8,6 +8,29 @@ The force is :math:`P = 2 \int_0^a \chi_e ds`. An edge that opens has
 with the jump of :math:`\chi_u` there: in front of a crack that opens nothing has crept, and behind
 one that closes the shape is given.
 
+**Two memories.** In front of the edge lies what the outside remembers, behind it what the inside
+does. Of a relaxed contact the one is zero and the other :math:`d_j = \chi_e`, so that lift and
+jump are both D - g(a), both energies are 1, and the edge rests. Each memory evolves on its own. An
+annulus that is closed starts from its outer memory; one that is opened keeps its inner one. The two
+annuli beside the edge have both, and take over the part of the other that the edge has passed of
+the way between them. The jump is measured a zone in front of the edge, an annulus at least: right
+at the edge an opening of 1e-12 would leave the memory of the inside, hence the jump
+:math:`c \chi_e` of energy k^2.
+
+**Which energy holds.** Only that of opening above 1: the edge opens; only that of closing below 1:
+it closes; neither: it rests. In motion both hold: just opened annuli have a small jump, just closed
+ones a large lift. Then it goes on as before, unless the drive moves the other way and the edge is
+slower than :math:`|\dot a| g'(a) < 3 |\dot D|` (the 3 is that of slow reversals: 10 gives forces
+3 % low, 1 gives 7 % high). The rate of the last step counts: that of a trial would decide about
+itself. An edge that turned does not turn back before the drive does.
+
+**Steps.** Memories are exact for elastic parts straight in time. The rate of the edge at the end of
+a step is that of the parabola through this step and the one before, of second order, where the edge
+goes on as before.
+
+**Range.** The machine feels, holds and is sprung by tensions that the range of the law has reduced,
+by a part that depends on the opening speed (`tension` of :class:`Contact`).
+
 Units as in :mod:`._profile`, times in the unit of the material. Between the annuli the memory is
 straight in g, which is exact for what was brought in at rest.
 """
@@ -16,6 +39,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import log
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,12 +58,15 @@ Array = npt.NDArray[np.float64]
 _ANNULI, _SMALLEST = 360, 0.01
 # Bounds of a step: change of the radius over it, of the drive over the height of JKR's pull-off,
 # of its length over the one before; and the first one over the time of a move.
-_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.006, 0.05, 1.6, 1e-5
+_TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.008, 0.07, 1.6, 1e-5
 # Rounds of a root and its tolerance; steps of a history at most.
 _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
 # Radius [beta] below which nothing is left of a contact; and in the last retraction, where one that
 # snaps off behind a spring would close and open again without end, and without inertia.
 _GONE, _LEFT = 0.02, 0.1
+# An energy is that of an edge at rest within round-off. An edge that could open as well as close
+# turns with the drive where it is slower than so many times what the drive asks of it.
+_EQUAL, _AGAINST = 1e-10, 3.0
 
 
 @dataclass(frozen=True)
@@ -73,7 +100,7 @@ class Curve(NamedTuple):
     Attributes
     ----------
     time, depth, force, radius : ndarray
-        Depth [beta^2/R], force of short range [R dg], contact radius [beta].
+        Depth [beta^2/R], force that the machine feels [R dg], contact radius [beta].
     speed, amplification : ndarray
         Of the edge, positive where it opens [E0* h0^2/(dg tau)], and its energy [dg].
     move : ndarray
@@ -93,7 +120,17 @@ class Curve(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Time, given value, depth, force, radius, elastic parts and memories of the annuli."""
+    """Time, given value, depth, force, radius, and what the annuli remember.
+
+    `memory` is that of the inside for annuli of less than the radius, of the outside for the
+    others. The two annuli beside the edge have the other one too, to interpolate up to the edge
+    from either side: `beside` is that of the inside at the first annulus beyond, and that of the
+    outside at the last one before. `elastic` goes one annulus beyond the edge. `travel` is the mean
+    rate of the radius over the last step and `step` its length, infinite where it was a jump or
+    there was none; `rate` is that of the radius at the end of it. `left` is the part of a tension
+    of short range that is left at this speed of the edge. `way` is the
+    sign of the last travel, 0 where there was none.
+    """
 
     time: float
     drive: float
@@ -102,6 +139,12 @@ class _State(NamedTuple):
     radius: float
     elastic: Array
     memory: Array
+    beside: Array
+    left: float
+    travel: float = 0.0
+    step: float = np.inf
+    rate: float = 0.0
+    way: float = 0.0
 
 
 class Contact:
@@ -119,6 +162,9 @@ class Contact:
         Largest radius of the history [beta].
     stiffness : float or None
         Of the machine [R dg over beta^2/R]; None for a rigid one.
+    tension : callable, optional
+        Part of a tension of short range that the range of the law leaves, at opening speeds: what
+        the machine feels, holds and is sprung by. None where the range is no length at all.
     """
 
     def __init__(
@@ -129,6 +175,7 @@ class Contact:
         tabor: float,
         largest: float,
         stiffness: float | None = None,
+        tension: Callable[[Array], Array] | None = None,
     ) -> None:
         self._profile, self._mu2, self._stiffness = profile, tabor**2, stiffness
         self._chain: Chain = chain_of(crack.modes)
@@ -141,21 +188,45 @@ class Contact:
         self._ds, self._dg = np.diff(self._s), np.diff(self._g)
         self._whole = np.asarray(profile.total(self._s))
         self._total = np.diff(self._whole)
+        self._at_rest, self._tension = 1.0, None
+        if tension is not None:
+            self._at_rest = float(tension(np.zeros(1))[0])
+            self._tension = self._opening.table(tension)
+        self._ahead = max(crack.zone_length / self._mu2, self._apart)
 
     def relaxed(self, radius: float) -> _State:
         """Return a relaxed contact of a radius."""
         depth = float(self._profile.relaxed_depth(radius))
-        elastic = depth - self._g
-        # the annulus behind the edge goes on like those before it, for what lies between them
-        inside = self._s < radius + np.append(self._ds, 0.0)
-        memory = np.where(inside, elastic, 0.0)[:, None] * np.ones(self._chain.times.size)
+        elastic, modes = depth - self._g, self._chain.times.size
+        last = self.last_inside(radius)
+        elastic[last + 2 :] = 0.0
+        memory = np.repeat(elastic[:, None], modes, axis=1)
+        memory[last + 1] = 0.0
+        beside = np.zeros((2, modes))
+        beside[0] = elastic[last + 1]
         force = float(self._profile.relaxed_force(radius))
-        return _State(0.0, self._drive(depth, force), depth, force, radius, elastic, memory)
+        force *= self._at_rest if force < 0 else 1.0
+        drive, left = self._drive(depth, force), self._at_rest
+        return _State(0.0, drive, depth, force, radius, elastic, memory, beside, left)
 
     def apart(self, depth: float) -> _State:
         """Return surfaces that do not touch, at a depth below zero."""
         memory = np.zeros((self._s.size, self._chain.times.size))
-        return _State(0.0, depth, depth, 0.0, 0.0, np.zeros(self._s.size), memory)
+        elastic = np.zeros(self._s.size)
+        beside, left = np.zeros_like(memory[:2]), self._at_rest
+        return _State(0.0, depth, depth, 0.0, 0.0, elastic, memory, beside, left)
+
+    def last_inside(self, radius: float) -> int:
+        """Return the number of the last annulus of less than a radius, -1 if there is none."""
+        if radius <= 0:
+            return -1
+        i = self.interval(radius)
+        return i if self._s[i] < radius else i - 1
+
+    def interval(self, radius: float) -> int:
+        """Return the number of the annulus from which on a radius lies."""
+        i = int(max(radius - self._inner, 0.0) / self._apart) + (radius > self._inner)
+        return min(i, self._s.size - 2)
 
     def run(self, start: _State, drives: tuple[Drive, ...]) -> Curve:
         """Return the history of a start, until the contact lets go in the last drive or it ends."""
@@ -193,7 +264,7 @@ class Contact:
             moved = found.radius - state.radius
             if last and found.radius < min(_LEFT, state.radius) and drive.speed < 0:
                 found = found._replace(radius=0.0, force=0.0)
-            self._note(rows, state, found, number)
+            self._note(rows, found, number)
             gone = state.radius > 0 and found.radius == 0
             met = drive.end is not None and dt > 0 and _reached(found, drive)
             state = found
@@ -209,6 +280,12 @@ class Contact:
     def _drive(self, depth: float, force: float) -> float:
         return depth if self._stiffness is None else depth + force / self._stiffness
 
+    def _left(self, rate: float) -> float:
+        """Return the part of a tension that is left while the radius changes at a rate."""
+        if self._tension is None or rate >= 0:
+            return self._at_rest
+        return self._tension.one(log(-self._mu2 * rate))
+
     def _longest(self, drive: Drive) -> float:
         if drive.speed == 0:
             return np.inf if not self._chain.times.size else drive.duration / 20
@@ -217,9 +294,8 @@ class Contact:
     def _slowest(self, drive: Drive) -> float:
         return drive.duration if drive.speed == 0 else 1.0 / abs(drive.speed)
 
-    def _note(self, rows: list[Any], before: _State, now: _State, number: int) -> None:
-        dt, moved = now.time - before.time, before.radius - now.radius
-        speed = self._mu2 * moved / dt if dt > 0 else 0.0
+    def _note(self, rows: list[Any], now: _State, number: int) -> None:
+        speed = -self._mu2 * now.rate
         edge = self._opening if speed >= 0 else self._closing
         rows.append((now, speed, edge.one(abs(speed)), number))
 
@@ -253,7 +329,8 @@ class Contact:
         far = abs(radius - state.radius) > 4 * _TRAVEL * scale
         if far and dt > least:
             return None, False
-        return step.state(radius, time), far
+        found = step.state(radius, time)
+        return (found._replace(step=np.inf) if far else found), far
 
 
 class _Step:
@@ -265,12 +342,18 @@ class _Step:
         self._of, self._before, self._control, self._value = contact, state, control, value
         self._dt = dt
         chain = contact._chain
-        self._decay, old, self._new, self._c = chain.step(dt)
-        kept = state.memory @ (chain.weights * self._decay)
-        self._old = old
-        self._out = kept
-        self._in = kept + float(chain.weights @ old) * state.elastic
+        self._decay, self._old, self._new, self._c = chain.step(dt)
+        self._last = last = contact.last_inside(state.radius)
+        kept = chain.weights * self._decay
+        lag = state.memory @ kept + float(chain.weights @ self._old) * state.elastic
+        self._in, self._out = lag, lag.copy()
+        if last >= 0:
+            beyond = last + 1
+            self._out[beyond] -= float(chain.weights @ self._old) * state.elastic[beyond]
+            self._in[beyond] += float(kept @ (state.beside[0] - state.memory[beyond]))
+            self._out[last] = float(kept @ state.beside[1])
         self._sum_in, self._sum_out = (self._cumulated(m) for m in (self._in, self._out))
+        self._until = self._outside(state.radius)[1]
 
     def _cumulated(self, memory: Array) -> Array:
         """Return the integral of a memory, straight in g, up to each annulus."""
@@ -279,52 +362,102 @@ class _Step:
         parts = memory[:-1] * of._ds + rise * (of._total - of._g[:-1] * of._ds)
         return np.append(0.0, np.cumsum(parts))
 
-    def _memory_at(self, a: float, memory: Array, total: Array) -> tuple[float, float]:
-        """Return a memory at a radius, and its integral up to there."""
-        a = float(a)
+    def _memory_at(self, a: float, memory: Array, total: Array, i: int) -> tuple[float, float]:
+        """Return a memory at a radius beyond annulus i, and its integral up to there."""
         of = self._of
-        i = min(int(max(a - of._inner, 0.0) / of._apart) + (a > of._inner), of._s.size - 2)
         rise = (memory[i + 1] - memory[i]) / of._dg[i]
         g, s = float(of._profile.depth(a)), float(of._s[i])
         whole = float(of._profile.total(a)) - of._whole[i]
         part = memory[i] * (a - s) + rise * (whole - of._g[i] * (a - s))
         return float(memory[i] + rise * (g - of._g[i])), float(total[i] + part)
 
+    def _inside(self, a: float) -> tuple[float, float]:
+        """Return the memory of the inside at a radius, and its integral."""
+        i = min(self._of.interval(a), max(self._last, 0))
+        return self._memory_at(a, self._in, self._sum_in, i)
+
+    def _outside(self, a: float) -> tuple[float, float]:
+        """Return the memory of the outside at a radius, and its integral."""
+        i = max(self._of.interval(a), self._last)
+        return self._memory_at(a, self._out, self._sum_out, i)
+
     def at(self, a: float) -> tuple[float, float, float]:
         """Return depth, force and memory in front of the edge for a radius at the end."""
         before = self._before.radius
         a = float(a)
-        lag, whole = self._memory_at(min(a, before), self._in, self._sum_in)
+        lag, whole = self._inside(min(a, before))
         if a > before:
-            _, until = self._memory_at(before, self._out, self._sum_out)
-            lag, beyond = self._memory_at(a, self._out, self._sum_out)
-            whole += beyond - until
+            lag, beyond = self._outside(a)
+            whole += beyond - self._until
         whole += float(self._of._profile.total(a))
         c, value, stiffness = self._c, self._value, self._of._stiffness
+        left = self._before.left
         if self._control == "force":
-            depth = (value * c / 2 + whole) / max(a, 1e-12)
+            short = value / left if value < 0 else value
+            depth = (short * c / 2 + whole) / max(a, 1e-12)
         elif self._control == "depth" or stiffness is None:
             depth = value
         else:
-            soft = 2 / (c * stiffness)
+            # without force the depth is the drive
+            soft = 2 / (c * stiffness) * (left if value * a < whole else 1.0)
             depth = (value + soft * whole) / (1 + soft * a)
-        return depth, 2 / c * (depth * a - whole), lag
+        force = 2 / c * (depth * a - whole)
+        return depth, force * left if force < 0 else force, lag
 
     def edge(self) -> float:
         """Return the radius at the end of the step."""
         before = self._before.radius
-        of = self._of
         if before == 0:
             return self._closed(0.0) if self._touches() else 0.0
         depth, _, lag = self.at(before)
-        g, around = float(of._profile.depth(before)), 2 * np.pi * before
-        lift = min((depth - g - lag) / self._c, 0.0)
-        out, _ = self._memory_at(before, self._out, self._sum_out)
-        jump = min(depth - g - out, 0.0)
-        opens, closes = lift**2 / around > 1, jump**2 / around < 1
-        if closes and depth >= self._before.depth:
+        opens = self._lift(before, depth, lag) > 1 + _EQUAL
+        closes = self._jump(before, depth) < 1 - _EQUAL
+        drive, way = (depth - self._before.depth) / self._dt, self._before.way
+        if opens and closes:
+            opens = self._goes_on_opening(drive)
+            closes = not opens
+        elif way * drive > 0:
+            # it turns with the drive, not against it: what it has just left would bring it back
+            opens, closes = opens and way < 0, closes and way > 0
+        if closes:
             return self._closed(before)
         return self._opened(before) if opens else before
+
+    def _lift(self, a: float, depth: float, lag: float) -> float:
+        """Return the energy of an edge that opens."""
+        lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
+        return lift**2 / (2 * np.pi * a)
+
+    def _jump(self, a: float, depth: float) -> float:
+        """Return the energy of an edge that closes."""
+        of = self._of
+        out, _ = self._outside(min(a + of._ahead, float(of._s[-1])))
+        jump = min(depth - float(of._profile.depth(a)) - out, 0.0)
+        return jump**2 / (2 * np.pi * a)
+
+    def _goes_on_opening(self, drive: float) -> bool:
+        """Return whether an edge opens that could as well close, from the rate of the depth."""
+        travel = self._before.travel
+        if travel == 0:
+            return drive < 0
+        if travel * drive < 0:
+            # the drive moves against it
+            rise = float(self._of._profile.depth(1.001 * self._before.radius))
+            rise -= float(self._of._profile.depth(0.999 * self._before.radius))
+            slope = rise / (0.002 * self._before.radius)
+            if abs(travel) * slope < _AGAINST * abs(drive):
+                return drive < 0
+        return travel < 0
+
+    def rate(self, a: float) -> float:
+        """Return the rate of the radius at the end, of second order where it goes on as before."""
+        mean, before = (a - self._before.radius) / self._dt, self._before
+        if mean * before.travel <= 0:
+            return mean
+        ratio = self._dt / before.step
+        rate = ((1 + 2 * ratio) * mean - ratio * before.travel) / (1 + ratio)
+        # a crack that slows down does not turn
+        return rate if rate * mean > 0 else 0.0
 
     def _touches(self) -> bool:
         if self._control == "force":
@@ -336,10 +469,8 @@ class _Step:
 
         def excess(a: float) -> float:
             depth, _, lag = self.at(a)
-            lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
-            speed = self._of._mu2 * (before - a) / self._dt
-            asked = self._of._opening.one(speed)
-            return lift**2 / (2 * np.pi * a) - asked
+            speed = -self._of._mu2 * self.rate(a)
+            return self._lift(a, depth, lag) - self._of._opening.one(speed)
 
         low, shrink = before, 1e-7
         while low > _GONE and shrink < 1:
@@ -354,11 +485,8 @@ class _Step:
         largest = float(self._of._s[-1])
 
         def excess(a: float) -> float:
-            depth, _, _ = self.at(a)
-            out = self._memory_at(a, self._out, self._sum_out)[0]
-            jump = min(depth - float(self._of._profile.depth(a)) - out, 0.0)
-            speed = self._of._mu2 * (a - before) / self._dt
-            return self._of._closing.one(speed) - jump**2 / (2 * np.pi * a)
+            speed = self._of._mu2 * self.rate(a)
+            return self._of._closing.one(speed) - self._jump(a, self.at(a)[0])
 
         grow, low, high = 1e-7, before, before
         while True:
@@ -379,18 +507,40 @@ class _Step:
         else:
             depth = before.depth if self._control == "force" else self._value
             force = 0.0
-        inside = of._s < before.radius
-        memory = np.where(inside, self._in, self._out)
-        # behind the edge too, for what lies between two annuli
-        reach = np.append(of._ds, 0.0)
-        lagging = np.where(of._s < before.radius + reach, self._in, memory)
-        elastic = (depth - of._g - lagging) / self._c
-        then = np.where(of._s < before.radius + reach, before.elastic, 0.0)
-        now = np.where(of._s < radius + reach, elastic, 0.0) if radius > 0 else 0.0 * elastic
-        memories = before.memory * self._decay
-        memories = memories + then[:, None] * self._old + now[:, None] * self._new
+        b, was, now = before.radius, self._last, of.last_inside(radius)
+        lag = self._out.copy()
+        lag[: was + 1] = self._in[: was + 1]
+        # of the inside, at the first annulus beyond the edge; of the outside, at the last before
+        memory, then = before.memory * self._decay, before.elastic.copy()
+        beyond, behind = before.beside * self._decay
+        if was >= 0:
+            beyond = beyond + then[was + 1] * self._old
+            then[was + 1] = 0.0
+        memory += then[:, None] * self._old
+        outside = memory[max(now, 0)].copy()
+        if now == was:
+            # what the edge passed of the way between two annuli, it passed of their memories
+            closed = max(radius - b, 0.0) / (of._s[was + 1] - b) if radius > 0 else 0.0
+            beyond = beyond + closed * (memory[now + 1] - beyond)
+            lag[now + 1] = (1 - closed) * self._in[now + 1] + closed * self._out[now + 1]
+        else:
+            beyond = memory[now + 1]
+        elastic = np.zeros_like(before.elastic)
+        if now >= 0:
+            elastic[: now + 2] = (depth - of._g[: now + 2] - lag[: now + 2]) / self._c
+            beyond = beyond + elastic[now + 1] * self._new
+            memory[: now + 1] += elastic[: now + 1, None] * self._new
+        if now == was >= 0:
+            opened = max(b - radius, 0.0) / (b - of._s[was])
+            behind = behind + opened * (memory[now] - behind)
+        else:
+            behind = outside if now > was else memory[now]
+        beside = np.array([beyond, behind])
+        travel, rate = (radius - b) / self._dt, self.rate(radius)
         drive = self._value if self._control == "drive" else of._drive(depth, force)
-        return _State(time, drive, depth, force, radius, elastic, memories)
+        left = of._left(rate)
+        edge = (left, travel, self._dt, rate, float(np.sign(travel)) or before.way)
+        return _State(time, drive, depth, force, radius, elastic, memory, beside, *edge)
 
 
 def _bisected(excess: Callable[[float], float], negative: float, positive: float) -> float:

@@ -1,0 +1,188 @@
+"""Contacts with a steady crack for their edge: rest, dwells, turns and held tensions."""
+
+import numpy as np
+import pytest
+
+from viscotack import (
+    Apart,
+    Approach,
+    AtDepth,
+    AtForce,
+    Dwell,
+    Groups,
+    LennardJones,
+    LoadTo,
+    MoveTo,
+    OutOfRange,
+    Retract,
+    Sphere,
+    StandardSolid,
+    crack_contact,
+    pull_off_force,
+    solve,
+)
+from viscotack.theory import SteadyCrack
+from viscotack.theory.crack.contact import Contact, Drive, history, profile_of, radius_at_force
+
+
+def standard(k=0.1):
+    return StandardSolid(rubbery_modulus=1.0, glassy_modulus=1 / k, tau0=1.0, poisson_ratio=0.0)
+
+
+def pressed(*moves, rate=20.0, tabor=10.0, k=0.1, speed=20.0, **more):
+    approach = Approach(speed, AtDepth(10 * tabor))
+    return Groups(
+        tabor=tabor,
+        material=standard(k),
+        start=Apart(30.0),
+        moves=(approach, *moves),
+        rate=rate,
+        **more,
+    )
+
+
+@pytest.mark.parametrize("tabor", [12.0, 1e3, 1e5])
+@pytest.mark.parametrize(
+    ("hold", "stiffness"), [("drive", None), ("depth", None), ("force", None), ("drive", 0.1)]
+)
+def test_a_relaxed_contact_rests(tabor, hold, stiffness):
+    rest = Groups(
+        tabor=tabor,
+        material=standard(0.05),
+        start=AtForce(2.0),
+        moves=(Dwell(3.0, hold),),
+        rate=None,
+        stiffness=stiffness,
+    )
+    found = crack_contact(rest)
+    for series in (found.force, found.contact_radius, found.depth):
+        np.testing.assert_allclose(series, series[0], rtol=1e-9)
+    assert found.force[0] == pytest.approx(2.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("start", [AtForce(6.0), AtForce(-0.7)])
+@pytest.mark.parametrize("stiffness", [None, 0.1])
+def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
+    at_once = Groups(tabor=30.0, material=standard(), start=start, rate=300.0, stiffness=stiffness)
+    told = crack_contact(at_once)
+    for moves in ((Dwell(1e-3),), (Dwell(5.0, "force"), Dwell(0.3))):
+        found = crack_contact(
+            Groups(
+                tabor=30.0,
+                material=standard(),
+                start=start,
+                moves=moves,
+                rate=300.0,
+                stiffness=stiffness,
+            )
+        )
+        assert found.pull_off_force == pytest.approx(told.pull_off_force, rel=1e-8)
+        assert found.band == pytest.approx(told.band, rel=1e-6)
+        assert found.inside == told.inside
+        waited = sum(move.duration for move in moves)
+        assert found.pull_off_time - waited == pytest.approx(told.pull_off_time, rel=1e-6)
+        assert np.all(np.diff(found.time) >= 0) and found.move[-1] == len(moves)
+
+
+def test_the_annuli_themselves_rest():
+    crack, profile = SteadyCrack(standard(), LennardJones(1.0, 1.0)), profile_of(Sphere(1.0))
+    radius = radius_at_force(profile, 10.0)
+    contact = Contact(crack, profile, tabor=20.0, largest=1.1 * radius)
+    pull = Drive("drive", -30.0, np.inf)
+    at_once = contact.run(contact.relaxed(radius), (pull,)).force.min()
+    for hold in ("drive", "force"):
+        waited = contact.run(contact.relaxed(radius), (Drive(hold, 0.0, 4.0), pull))
+        assert waited.force.min() == pytest.approx(at_once, rel=1e-8)
+
+
+def test_a_longer_dwell_after_an_approach_never_lowers_the_pull_off():
+    forces = [
+        crack_contact(pressed(Dwell(duration), rate=100.0, tabor=20.0)).pull_off_force
+        for duration in (1e-3, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0)
+    ]
+    assert np.all(np.diff(forces) > 0)
+
+
+@pytest.mark.parametrize(
+    "moves",
+    [
+        (),
+        (Dwell(0.1),),
+        (Retract(5.0, AtDepth(40.0)), Approach(100.0, AtDepth(100.0))),
+    ],
+    ids=["turn", "dwell", "reversal"],
+)
+@pytest.mark.parametrize("rate", [2.0, 200.0])
+def test_shorter_steps_neither_chatter_nor_tell_another_force(monkeypatch, moves, rate):
+    case = pressed(*moves, rate=rate)
+    usual = crack_contact(case)
+    monkeypatch.setattr(history, "_TRAVEL", history._TRAVEL / 2)
+    monkeypatch.setattr(history, "_DRIVE", history._DRIVE / 2)
+    finer = crack_contact(case)
+    assert finer.pull_off_force == pytest.approx(usual.pull_off_force, rel=2e-3)
+    for found in (usual, finer):
+        way = np.sign(found.edge_speed)
+        turns = np.count_nonzero(np.diff(way[way != 0]))
+        assert turns <= 1 + len(moves)
+
+
+def test_steps_are_of_second_order(monkeypatch):
+    forces = []
+    for factor in (1, 2, 4):
+        monkeypatch.setattr(history, "_TRAVEL", 0.016 / factor)
+        monkeypatch.setattr(history, "_DRIVE", 0.14 / factor)
+        forces.append(crack_contact(pressed(Dwell(1.0))).pull_off_force)
+    assert abs(forces[1] / forces[2] - 1) < 2e-4
+    assert abs(forces[0] - forces[1]) > 2.5 * abs(forces[1] - forces[2])
+
+
+@pytest.mark.parametrize("stiffness", [None, 0.1])
+def test_a_held_tension_is_the_one_that_was_told(stiffness):
+    held = Groups(
+        tabor=12.0,
+        material=standard(0.2),
+        start=AtForce(-0.5),
+        moves=(LoadTo(-1.5, 0.2), Dwell(0.5, "force")),
+        rate=30.0,
+        stiffness=stiffness,
+    )
+    found = crack_contact(held)
+    assert found.force[0] == pytest.approx(-0.5, rel=1e-9)
+    np.testing.assert_allclose(found.force[found.move == 1], -1.5, rtol=1e-9)
+
+
+def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_short():
+    # smaller than the glassy contact at pull-off: the tension is largest before the edge has moved
+    case = dict(tabor=1e3, material=standard(0.05), rate=1e8)
+    moves = (Approach(1e4, AtForce(20.0)), Dwell(1e3))
+    after = crack_contact(Groups(start=Apart(20.0), moves=moves, **case))
+    rested = crack_contact(Groups(start=AtDepth(8438.61), **case))
+    assert after.zones > 10 and rested.zones > 10
+    assert 0.9 / 0.05 < after.pull_off_force < rested.pull_off_force < 1 / 0.05
+    with pytest.raises(OutOfRange, match="start is too small"):
+        crack_contact(Groups(10.0, standard(0.03), AtDepth(60.0), 1e5))
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (pressed(tabor=100.0), "tabor 8 to 60, not 100"),
+        (pressed(speed=5000.0), "speed of a move over the Tabor number 0.3 to 100, not 500"),
+        (pressed(MoveTo(50.0, 1.0)), "histories without MoveTo"),
+        (pressed(*(Dwell(0.1),) * 3), "number of moves 1 to 3, not 4"),
+        (pressed(stiffness=1e-3), "stiffness times the Tabor number 0.1 to inf, not 0.01"),
+    ],
+)
+def test_a_history_of_a_kind_that_was_not_simulated_says_so(case, words):
+    found = crack_contact(case)
+    assert not found.inside
+    assert words in found.why
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rate", [4.0, 20.0, 400.0])
+def test_turns_after_an_approach_are_those_of_a_simulation(rate):
+    case = pressed(rate=rate)
+    found = crack_contact(case)
+    simulated = pull_off_force(solve(case, accuracy=5e-3, estimate_error=False))
+    assert found.pull_off_force == pytest.approx(simulated, rel=found.band + 5e-3)
