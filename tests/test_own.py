@@ -2,7 +2,9 @@
 
 import json
 import sys
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ from typer.testing import CliRunner
 import viscotack as vt
 from viscotack.app.cli import application
 from viscotack.campaign import Store, read_plan, run
+from viscotack.materials import WLF, Passport, read_passport, write_passport
+from viscotack.materials.conversion import slowed
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.schema import schema, words
 
@@ -138,6 +142,57 @@ geometry.rounding = 20e-6
     assert run(None, tmp_path / "study", workers=1).done == 2
 
 
+def test_a_prediction_of_a_theory_knows_them():
+    status, out, err = call(
+        *"predict sphere --material cole-cole:0.6 --modulus-ratio 0.1 --tabor 30".split(),
+        *"--preload 200 --rate 100 --json".split(),
+    )
+    assert status == 0, err
+    told = json.loads(out)["pull_off_force"]
+    status, out, err = call(
+        *"predict sphere --material fractional-zener:0.6 --modulus-ratio 0.1 --tabor 30".split(),
+        *"--preload 200 --rate 100 --json".split(),
+    )
+    assert status == 0, err
+    assert told == pytest.approx(json.loads(out)["pull_off_force"], rel=1e-5)
+
+
+def test_a_passport_holds_a_material_of_ones_own(tmp_path):
+    solid = ZENER(rubbery_modulus=1e6, glassy_modulus=1e8, tau0=0.1, order=0.6, poisson_ratio=0.5)
+    shift = WLF(293.15, 8.0, 100.0)
+    file = tmp_path / "own.toml"
+    written = Passport(
+        name="own",
+        material=solid,
+        temperature=293.15,
+        shift=shift,
+        frequencies=(1.0, 1e4),
+        allowed=(replace(solid, order=0.5),),
+    )
+    write_passport(written, file)
+    assert read_passport(file, also=(MORSE, ZENER)) == written
+    with pytest.raises(vt.InputError, match=r"got 'cole-cole'; if it is one of your own, give"):
+        read_passport(file)
+    assert call("material", "show", file)[0] == 0
+    status, out, err = call(
+        "simulate", "sphere", "--material", file, *"--tabor 2 --preload 3 --rate 1".split(),
+        *"--json --until pull-off --accuracy 1e-2".split(),
+    )  # fmt: skip
+    assert status == 0, err
+    assert json.loads(out)["problem"]["material"]["type"] == "ColeCole"
+
+
+def test_a_temperature_shifts_times_of_ones_own_by_their_cards():
+    @dataclass(frozen=True, kw_only=True)
+    class Renamed(vt.Elastic):
+        memory: Annotated[float, vt.Quantity("s", "T", "memory", above=0)]
+        slowness: Annotated[float, vt.Quantity("Pa s^0.5", "c", "slowness", above=0)]
+
+    solid = slowed(Renamed(rubbery_modulus=1e6, poisson_ratio=0.5, memory=2.0, slowness=3.0), 100)
+    assert (solid.memory, solid.slowness) == pytest.approx((200.0, 30.0), rel=1e-15)
+    assert solid.rubbery_modulus == 1e6
+
+
 def test_schema_and_words_know_them():
     found = schema((MORSE, ZENER, SHAPE))["$defs"]
     assert found["Morse"]["properties"]["steepness"]["exclusiveMinimum"] == 0
@@ -233,8 +288,6 @@ def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
 
 
 def test_a_constant_without_a_card_is_named_on_the_way_to_si():
-    from dataclasses import dataclass
-
     @dataclass(frozen=True, kw_only=True)
     class Bare(vt.Elastic):
         extra: float = 1.0
@@ -261,8 +314,6 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
         with pytest.raises(ValueError, match="'Poor' is no law, material or shape"):
             known((poor,))
     bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
-    from dataclasses import dataclass
-
     with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
         known((dataclass(frozen=True)(bare),))
 

@@ -11,6 +11,7 @@ from scipy.special import gamma as gamma_function
 
 from viscotack.materials import (
     Elastic,
+    FractionalZener,
     Prony,
     RelaxationPowerLaw,
     RetardationPowerLaw,
@@ -31,8 +32,19 @@ SOLIDS = [
     RetardationPowerLaw(**MODULI, exponent=1.0, tau0=0.019),
     RetardationPowerLaw(**MODULI, exponent=1.6, tau0=0.019),
     RelaxationPowerLaw(**MODULI, exponent=0.6, tau0=1e-3),
+    FractionalZener(**MODULI, order=0.4, tau0=1e-3),
+    FractionalZener(**MODULI, order=0.7, tau0=1e-3),
 ]
-NAMES = ["standard", "prony", "broad", "integer", "narrow", "relaxation"]
+NAMES = [
+    "standard",
+    "prony",
+    "broad",
+    "integer",
+    "narrow",
+    "relaxation",
+    "fractional-broad",
+    "fractional",
+]
 solids = pytest.mark.parametrize("material", SOLIDS, ids=NAMES)
 theories = pytest.mark.parametrize("theory", [persson_brener, greenwood])
 SPEEDS = [1e-3, 0.3, 20.0, 1e5]

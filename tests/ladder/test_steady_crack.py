@@ -7,7 +7,7 @@ import pytest
 from scipy.special import wofz
 
 from viscotack.errors import InputError
-from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.materials import Elastic, FractionalZener, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.theory.crack.steady import (
     MESH_ERROR,
     Comparison,
@@ -235,6 +235,28 @@ def test_how_far_others_are_off():
     assert np.pi / 9 * 0.7 < alpha < np.pi / 9 * 1.2
     better = compared(crack, np.geomspace(0.01, 1e3, 30), strength_ratio=alpha)
     assert np.max(np.abs(better.off("persson_brener"))) < off + 1e-3
+
+
+def test_a_slow_mode_of_next_to_no_weight_changes_nothing():
+    branches = ((5.0, 0.1), (4.0, 1.0))
+    solid = Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
+    faint = Prony(rubbery_modulus=1.0, branches=((1e-13, 1e20), *branches), poisson_ratio=0.0)
+    law = LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0)
+    gamma = np.array([0.2, 0.6, 1.01, 3.0, 9.0])
+    one, other = SteadyCrack(solid, law), SteadyCrack(faint, law)
+    assert other.speed(gamma) * other.speed_unit == pytest.approx(
+        one.speed(gamma) * one.speed_unit, rel=1e-9
+    )
+
+
+@pytest.mark.parametrize("order", [0.3, 0.9])
+def test_a_fractional_solid_has_cracks_at_a_modulus_ratio_of_a_millionth(order):
+    solid = FractionalZener(
+        rubbery_modulus=1.0, glassy_modulus=1e6, order=order, tau0=1.0, poisson_ratio=0.0
+    )
+    crack = SteadyCrack(solid, LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0))
+    gamma = np.array([1.01, 2.0, 30.0])
+    assert crack.amplification(crack.speed(gamma)) == pytest.approx(gamma, rel=1e-3)
 
 
 def test_what_is_no_material_or_law_is_refused():

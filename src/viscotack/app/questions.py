@@ -231,7 +231,7 @@ def stated(
         If an answer is missing, does not go with another, or is impossible.
     """
     given, nouns = given_of(answers), known(also)
-    given |= _scales_of_passport(given)
+    given |= _scales_of_passport(given, nouns)
     in_si = bool(given.keys() & SCALES.keys())
     if "temperature" in given and not in_si:
         raise InputError(
@@ -276,7 +276,7 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
         for flag in ("modulus-ratio", "exponent"):
             if flag in given:
                 raise InputError(f"{name} states the whole material; leave out --{flag}")
-        return _solid_of(given).reduced(), "1"
+        return _solid_of(given, nouns).reduced(), "1"
     if "temperature" in given:
         raise InputError(
             "--temperature is for a material from a passport, which says how times shift; give "
@@ -386,9 +386,9 @@ def _listed(words: list[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
-def _solid_of(given: Mapping[str, Any]) -> Material:
+def _solid_of(given: Mapping[str, Any], nouns: Nouns) -> Material:
     """Return the material of a passport, at the temperature asked for."""
-    passport = read_passport(given["material"])
+    passport = read_passport(given["material"], also=nouns.materials.values())
     temperature = temperature_of(given)
     return passport.material if temperature is None else passport.at_temperature(temperature)
 
@@ -404,16 +404,16 @@ def temperature_of(answers: Mapping[str, Any]) -> float | None:
         raise InputError(f'--temperature: {error}; for example --temperature "0 degC"') from None
 
 
-def shift_deviation_of(answers: Mapping[str, Any]) -> float:
+def shift_deviation_of(answers: Mapping[str, Any], also: Iterable[Any] = ()) -> float:
     """Return the standard deviation of log10 a_T of a passport at the temperature asked for."""
     given = given_of(answers)
     temperature = temperature_of(given)
     if temperature is None or not given.get("material", "").endswith(".toml"):
         return 0.0
-    return read_passport(given["material"]).shift_deviation(temperature)
+    return read_passport(given["material"], also=also).shift_deviation(temperature)
 
 
-def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
+def _scales_of_passport(given: Mapping[str, Any], nouns: Nouns) -> dict[str, Any]:
     """Return what a passport says of the scales, where the answer is wanted in SI."""
     name = given.get("material", "")
     if not name.endswith(".toml") or not given.keys() & SCALES.keys():
@@ -421,7 +421,7 @@ def _scales_of_passport(given: Mapping[str, Any]) -> dict[str, Any]:
     for flag in ("contact-modulus", "poisson-ratio", "tau0"):
         if flag in given:
             raise InputError(f"{name} states the whole material; leave out --{flag}")
-    solid = _solid_of(given)
+    solid = _solid_of(given, nouns)
     scales = {
         "contact-modulus": f"{solid.contact_modulus!r} Pa",
         "poisson-ratio": solid.poisson_ratio,

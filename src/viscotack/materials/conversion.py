@@ -12,7 +12,7 @@ The times of the two forms differ: each retardation time is longer than its rela
 one form is in the other is found exactly, see :mod:`viscotack.materials.interconversion`.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from viscotack.materials import checks
 from viscotack.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Material
+from viscotack.materials.scaling import scaled
 from viscotack.materials.solids import Elastic, Prony, StandardSolid
 
 Array = npt.NDArray[np.float64]
@@ -230,7 +231,7 @@ def slowed(material: Any, factor: float) -> Any:
     Parameters
     ----------
     material : Material
-        Any solid; fields are told by their names.
+        Any solid; its times are the numbers whose cards have a unit of time.
     factor : float
         Shift factor a_T, positive; above 1 for a slower solid.
 
@@ -243,8 +244,4 @@ def slowed(material: Any, factor: float) -> Any:
     200.0
     """
     a = checks.positive("factor", factor, "-")
-    if hasattr(material, "tau0"):
-        return replace(material, tau0=a * material.tau0)
-    if hasattr(material, "branches"):
-        return replace(material, branches=tuple((E, a * t) for E, t in material.branches))
-    return material
+    return scaled(material, modulus=1.0, time=a)

@@ -36,7 +36,7 @@ from viscotack.materials.constants import (
     RubberyModulus,
 )
 from viscotack.materials.material import Complex, Real
-from viscotack.materials.modes import Modes, compressed
+from viscotack.materials.modes import FINEST, ROUNDING, Modes, compressed
 
 Array = npt.NDArray[np.float64]
 
@@ -154,12 +154,8 @@ class FractionalZener:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
 
         The trapezoidal rule over the spectrum, with the widest step that keeps the tolerance; the
-        error is measured against the exact creep, at sixteen times a step. 1 to 30 ms.
-
-        Raises
-        ------
-        ValueError
-            If the tolerance cannot be reached, below about 1e-12.
+        error is measured against the exact creep. 1 to 30 ms; 1 s at an order of 0.95 over forty
+        decades.
         """
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
@@ -167,10 +163,13 @@ class FractionalZener:
         a, k = self.order, self.modulus_ratio
         if k == 1:
             return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
+        tolerance = max(tolerance, FINEST)
         first, last = math.log(shortest / self.tau0), math.log(longest / self.tau0)
         step = 3 * math.pi * _width(a) / math.log(4 / tolerance)
-        # the error is a wave of one step in the logarithm of time
-        at = np.linspace(first, last, 2 + int(16 / step * (last - first)))
+        # The error is a wave of one step in the logarithm of time, and its height changes over the
+        # width of the kernel: one wave every quarter of an e-fold has the highest.
+        waves = np.linspace(first, last, 2 + int((last - first) / max(step, 0.25)))
+        at = np.unique(np.minimum(waves[:, None] + step * np.arange(16) / 16, last))
         exact = k + (1 - k) * passed(a, at)
         missed = math.inf
         while step > _FINE * _width(a):
@@ -188,7 +187,7 @@ class FractionalZener:
                 error=0.0,
             )
             missed = float(np.max(np.abs(modes.creep(self.tau0 * np.exp(at)) - exact)))
-            error = 1.05 * missed + 1e-14
+            error = 1.05 * missed + ROUNDING
             if error <= tolerance:
                 return Modes(modes.instantaneous, modes.weights, modes.times, error)
             step *= 0.85

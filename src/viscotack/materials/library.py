@@ -3,8 +3,9 @@
 Few, because each is checked against its publication. Add one by a function like those below.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -78,8 +79,15 @@ def published(name: str) -> Passport:
     return MATERIALS[name]()
 
 
-def passport_of(name: str) -> Passport:
+def passport_of(name: str, *, also: Iterable[Any] = ()) -> Passport:
     """Return the passport in a file, or that of a published material.
+
+    Parameters
+    ----------
+    name : str
+        Path of the file, or short name of the published material.
+    also : iterable of classes
+        Materials of the user's own that the file may name.
 
     Raises
     ------
@@ -93,4 +101,4 @@ def passport_of(name: str) -> Passport:
             f"{name!r} is neither a passport (FILE.toml) nor a published material "
             f"({', '.join(MATERIALS)})"
         )
-    return read_passport(name)
+    return read_passport(name, also=also)

@@ -75,12 +75,15 @@ class Material(Protocol):
             Times [s] between which the modes must hold, positive.
         tolerance : float
             Largest error of E0 C(t), dimensionless, in (0, 1). It is absolute: for fast events in
-            a solid of small k ask for a fraction of E0 C(shortest).
+            a solid of small k ask for a fraction of E0 C(shortest). Theories of cracks ask for
+            1e-14 k: below `viscotack.materials.modes.FINEST`, 3e-14, rounding decides, and the
+            modes are the closest there are.
 
         Returns
         -------
         Modes
-            With a stated error that holds for shortest <= time <= longest.
+            With a stated error that holds for shortest <= time <= longest; not above the larger
+            of the tolerance and `FINEST`.
         """
         ...
 

@@ -10,6 +10,10 @@ from viscotack.materials.checks import like_input, nonnegative
 
 Array = npt.NDArray[np.float64]
 
+# Of E0 C(t): what its evaluation as a sum of exponentials may lose to rounding, and the smallest
+# tolerance that modes can be held to. Below it they are the closest ones, and state their error.
+ROUNDING, FINEST = 1e-14, 3e-14
+
 
 @dataclass(frozen=True)
 class Modes:

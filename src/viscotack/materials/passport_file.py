@@ -6,13 +6,14 @@ reading refuses a file in which they no longer do.
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml
 from viscotack.files.whole import Target, write_whole
@@ -32,12 +33,22 @@ _TABLES = (
 
 
 def write_passport(passport: Passport, path: Target) -> None:
-    """Write a passport to a TOML file; :func:`read_passport` gives back an equal one."""
+    """Write a passport to a TOML file; :func:`read_passport` gives back an equal one.
+
+    A material of the user's own is written by its word and its numbers, without its code.
+    """
     write_whole(path, passport_text(passport).encode())
 
 
-def read_passport(path: str | os.PathLike[str]) -> Passport:
+def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Passport:
     """Return the passport in a file.
+
+    Parameters
+    ----------
+    path : path
+        File that :func:`write_passport` wrote, or one by hand of the same tables.
+    also : iterable of classes
+        Materials of the user's own that it may name by their words; others are ignored.
 
     Raises
     ------
@@ -60,7 +71,7 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
             "a newer viscotack may read it"
         )
     try:
-        return _passport(tables)
+        return _passport(tables, known_models(also))
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         missing = isinstance(error, KeyError)
         words = (
@@ -69,7 +80,13 @@ def read_passport(path: str | os.PathLike[str]) -> Passport:
         raise InputError(f"{path}: {words}") from None
 
 
-def _passport(tables: Mapping[str, Any]) -> Passport:
+def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
+    """Return the classes of materials by their words, with those of the user's own."""
+    own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
+    return MODELS | own
+
+
+def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
     for name in tables:
         if name not in ("passport", "name", *_TABLES):
             raise InputError(f"unknown table [{name}]; a passport has {', '.join(_TABLES)}")
@@ -84,7 +101,7 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
     measured = convention.get("measured", "not stated")
     passport = Passport(
         name=str(tables.get("name", "")),
-        material=material_in(tables["material"]),
+        material=material_in(tables["material"], models),
         temperature=_read(temperature.get("reference"), "K"),
         shift=_shift(temperature),
         fitted_shift=_fitted(tables.get("nearest_law", {})),
@@ -93,26 +110,30 @@ def _passport(tables: Mapping[str, Any]) -> Passport:
         measured=None if measured == "not stated" else measured,
         origin=_made(Origin, tables.get("origin", {})),
         evidence=_made(Evidence, tables["evidence"]) if "evidence" in tables else None,
-        allowed=tuple(material_in(table) for table in tables.get("allowed", ())),
+        allowed=tuple(material_in(table, models) for table in tables.get("allowed", ())),
     )
     _check_forms(passport, tables)
     return passport
 
 
-def material_in(table: Mapping[str, Any]) -> Material:
-    """Return the material of a table [material] that states a model."""
+def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material:
+    """Return the material of a table [material] that states a model, one of those given."""
     model = table["model"]
     rests(FITS_ONLY.get(model))
-    if model not in MODELS:
-        raise InputError(f"[material] model must be one of {', '.join(MODELS)}, got {model!r}")
-    units = units_of(MODELS[model])
+    if model not in models:
+        raise InputError(
+            f"[material] model must be one of {', '.join(models)}, got {model!r}; if it is one of "
+            "your own, give its class (also=(CLASS,) in Python, --with FILE.py on the command line)"
+        )
+    units, lists = units_of(models[model]), cards(models[model], Pairs)
     values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
-    if model == "prony":
-        values["branches"] = [(parse(E, "Pa"), parse(t, "s")) for E, t in table["branches"]]
-    extra = table.keys() - {"model", "branches", *units}
+    for key, field in lists.items():
+        first, second = field.card.units
+        values[key] = [(parse(x, first), parse(y, second)) for x, y in table[key]]
+    extra = table.keys() - {"model", *lists, *units}
     if extra:
         raise InputError(f"[material] has the unknown key {min(extra)!r}")
-    return MODELS[model](**values)
+    return models[model](**values)
 
 
 def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:

@@ -3,6 +3,7 @@
 from dataclasses import fields
 from typing import Any
 
+from viscotack.cards import Pairs, cards
 from viscotack.files.toml import toml_value
 from viscotack.materials.conversion import prony_form, relaxation_form, retardation_series
 from viscotack.materials.passport import Passport
@@ -25,6 +26,7 @@ _TIMES = {
     "relaxation-power-law": "tau0 is the characteristic relaxation time",
     "fractional-zener": "tau0 is the retardation time",
 }
+_OWN_TIMES = "as the class of the model defines them"
 
 
 def passport_text(passport: Passport) -> str:
@@ -49,7 +51,7 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
     convention = {
         "modulus": "E",
         "measured": passport.measured or "not stated",
-        "times": _TIMES[solid["model"]],
+        "times": _TIMES.get(solid["model"], _OWN_TIMES),
     }
     temperature: dict[str, Any] = {}
     if passport.temperature is not None:
@@ -77,8 +79,8 @@ def _solid(material: Any) -> dict[str, Any]:
         name: _quantity(getattr(material, name), unit)
         for name, unit in units_of(type(material)).items()
     }
-    if isinstance(material, Prony):
-        constants["branches"] = _pairs(material.branches, "Pa", "s")
+    for name, field in cards(type(material), Pairs).items():
+        constants[name] = _pairs(getattr(material, name), *field.card.units)
     return {"model": word_of(material)} | constants
 
 

@@ -28,7 +28,7 @@ from viscotack.materials.constants import (
 )
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
-from viscotack.materials.modes import Modes, compressed
+from viscotack.materials.modes import ROUNDING, Modes, compressed
 from viscotack.materials.spectrum import FINE, coarse_step, crept, nodes, summed, transform
 
 Array = npt.NDArray[np.float64]
@@ -312,7 +312,7 @@ class RelaxationPowerLaw:
         t = np.geomspace(shortest, longest, 2 + int(np.log(longest / shortest) / (step / 8)))
         exact = summed(lambda ratio: -np.expm1(-ratio), reference, t / self.tau0, reference_tau)
         missed = np.max(np.abs(modes.creep(t) - self.modulus_ratio - exact))
-        return replace(modes, error=1.05 * float(missed) + 1e-14)
+        return replace(modes, error=1.05 * float(missed) + ROUNDING)
 
     def reduced(self) -> "RelaxationPowerLaw":
         """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""

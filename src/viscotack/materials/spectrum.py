@@ -108,7 +108,7 @@ def coarse_step(exponent: float, *, longest: float, tolerance: float) -> tuple[f
     series in t.
     """
     n, t = exponent, longest
-    s = np.arange(3.0, 23.0, 0.1)
+    s = np.arange(3.0, 30.0, 0.1)
     nu = n + 1j * s
     G = np.exp(loggamma(nu).real) * rgamma(n)  # |Gamma(nu)|/Gamma(n)
     bound = G * (1 + 2.2 / (1 + 2 * n))

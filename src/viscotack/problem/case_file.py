@@ -177,7 +177,12 @@ def _layer(table: Table, material: Material) -> Layer:
     return table.make(Layer, **table.numbers(Layer), base=base)
 
 
-def shift_deviation(path: str | os.PathLike[str], *, temperature: float | None = None) -> float:
+def shift_deviation(
+    path: str | os.PathLike[str],
+    *,
+    temperature: float | None = None,
+    also: Iterable[Any] = (),
+) -> float:
     """Return how well the times of a case's material are known, as far as its shift says.
 
     Parameters are those of :func:`read_case`, which has checked the file.
@@ -191,13 +196,13 @@ def shift_deviation(path: str | os.PathLike[str], *, temperature: float | None =
     table = Table(path, "material", read_toml(path))
     if "passport" not in table.values:
         return 0.0
-    passport, stated = _passport(table, temperature)
+    passport, stated = _passport(table, known(also), temperature)
     return 0.0 if stated is None else passport.shift_deviation(stated)
 
 
 def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material:
     if "passport" in table.values:
-        passport, stated = _passport(table, temperature)
+        passport, stated = _passport(table, nouns, temperature)
         return passport.material if stated is None else table.make(passport.at_temperature, stated)
     if temperature is not None:
         raise InputError(
@@ -211,9 +216,12 @@ def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material
     return table.make(kind, **table.numbers(kind))
 
 
-def _passport(table: Table, temperature: float | None) -> tuple[Passport, float | None]:
+def _passport(
+    table: Table, nouns: Nouns, temperature: float | None
+) -> tuple[Passport, float | None]:
     """Return the passport beside the file, and the temperature [K] that is asked for."""
-    passport = read_passport(table.beside("passport", '"pdms.toml"'))
+    own = nouns.materials.values()
+    passport = read_passport(table.beside("passport", '"pdms.toml"'), also=own)
     stated = None
     if "temperature" in table.values:
         stated = table.quantity("temperature", "K", '"20 degC"')

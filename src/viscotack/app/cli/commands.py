@@ -190,7 +190,7 @@ def _simulate(
         check_files(named, as_json=as_json, reads=(case,))
         seconds = _seconds(time_limit)
         problem = stated_problem(case, context, door, own)
-        say_deviation(case, context)
+        say_deviation(case, context, own)
         from viscotack.bem import solve
 
         with _progress() as progress:
@@ -292,17 +292,19 @@ def stated_problem(
     )
 
 
-def deviation_of_shift(case: Path | None, context: Context) -> float:
+def deviation_of_shift(
+    case: Path | None, context: Context, own: Iterable[Path] | None = None
+) -> float:
     """Return how well the times of the material are known: standard deviation of log10 a_T."""
-    given = answers(context)
+    given, also = answers(context), own_nouns(own or ())
     if case is None:
-        return shift_deviation_of(given)
-    return shift_deviation(case, temperature=temperature_of(given))
+        return shift_deviation_of(given, also)
+    return shift_deviation(case, temperature=temperature_of(given), also=also)
 
 
-def say_deviation(case: Path | None, context: Context) -> None:
+def say_deviation(case: Path | None, context: Context, own: Iterable[Path] | None = None) -> None:
     """Say how well the times of the material are known, where an answer does not hold it."""
-    if (deviation := deviation_of_shift(case, context)) > 0:
+    if (deviation := deviation_of_shift(case, context, own)) > 0:
         typer.echo(
             f"times of the material are known to {deviation:.2g} decades, from its shift with "
             "temperature, which this answer does not hold; viscotack predict does",

@@ -20,9 +20,10 @@ from viscotack.materials.passport import Origin, Passport
 from viscotack.materials.passport_file import write_passport
 from viscotack.materials.passport_words import in_words, shift_lines
 from viscotack.materials.words import word_of
+from viscotack.problem.nouns import own_nouns
 from viscotack.units import parse
 
-from .commands import AsJson, PlotFile, application, wrong_input
+from .commands import AsJson, PlotFile, With, application, wrong_input
 from .superposing import Shifting, stepped, swept
 from .writing import Writing, check_files
 
@@ -316,13 +317,13 @@ def fit_command(
 
 
 @material.command("show")
-def show_command(passport_file: Known, as_json: AsJson = False) -> None:
+def show_command(passport_file: Known, as_json: AsJson = False, own: With = None) -> None:
     """Show a material passport in words, or a published material.
 
     Example: viscotack material show pdms-10-1
     """
     with wrong_input():
-        passport = passport_of(passport_file)
+        passport = passport_of(passport_file, also=own_nouns(own or ()))
     if as_json:
         typer.echo(_json(passport))
     else:
@@ -368,6 +369,7 @@ def convert_command(
     poisson_ratio: Annotated[
         float | None, Option("--poisson-ratio", metavar="NU", help="In the same way.")
     ] = None,
+    own: With = None,
 ) -> None:
     """Convert a passport: to another temperature, to a Prony series, from another program.
 
@@ -383,7 +385,7 @@ def convert_command(
             _refuse(
                 "without --from", also | {"pressure-unit": pressure_unit, "time-unit": time_unit}
             )
-            passport = passport_of(source)
+            passport = passport_of(source, also=own_nouns(own or ()))
         else:
             passport = _imported(source, code, pressure_unit, time_unit, also)
         if temperature is not None:
@@ -429,6 +431,7 @@ def export_command(
             help='Of an incompressible solid, for a program that forbids that, "2 GPa".',
         ),
     ] = None,
+    own: With = None,
 ) -> None:
     """Write a material as input of another program, in its convention and in stated units.
 
@@ -439,7 +442,7 @@ def export_command(
     """
     with wrong_input():
         check_files({"--output": output}, reads=(Path(passport_file),))
-        passport = passport_of(passport_file)
+        passport = passport_of(passport_file, also=own_nouns(own or ()))
         if temperature is not None:
             passport = passport.moved_to(parse(temperature, "K"))
         form = _series(passport, frequencies, tolerance)

@@ -146,7 +146,7 @@ def _predict(
             _refuse({"--csv": csv_file}, "--csv is for a table CASES.csv; --curve writes the curve")
             problem = _problem(what, case, context, own)
             case = case if what in _DOORS else Path(what)
-            deviation = deviation_of_shift(case, context)
+            deviation = deviation_of_shift(case, context, own)
             wish = {"confidence": confidence, "budget": budget, "exact": exact}
             found = _predicted(problem, deviation, curve_file or plot_file, wish)
             result = _simulated(problem) if compare else None

@@ -233,7 +233,7 @@ def _advise(
 
     with wrong_input():
         problem = stated_problem(case, context, SPHERE, own)
-        say_deviation(case, context)
+        say_deviation(case, context, own)
         assert isinstance(problem, Problem | Groups)
         advice = advise(problem)
     if as_json:

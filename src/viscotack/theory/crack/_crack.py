@@ -34,6 +34,8 @@ _TO_COEFFICIENTS = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DE
 _FASTER, _SLOWER = 1e-13, 1e9
 # Of the creep, in glassy compliances: what a fast crack feels.
 _TOLERANCE = 1e-14
+# A over the time of a mode beyond which the mode has responded; its square is a number.
+_RESPONDED = 1e150
 _BLOCK = 2**18
 
 
@@ -161,7 +163,9 @@ def _parts(x: Array, material: Material, response: Response) -> tuple[Array, Arr
     rubbery = np.zeros(A.size)
     rows = max(1, _BLOCK // max(1, tau.size))
     for i in range(0, A.size, rows):
-        done, rest = response(A[i : i + rows, None] / tau)
+        with np.errstate(over="ignore"):
+            passed = np.minimum(A[i : i + rows, None] / tau, _RESPONDED)
+        done, rest = response(passed)
         glassy[i : i + rows] += done @ w
         rubbery[i : i + rows] = rest @ w
     return glassy.reshape(x.shape), rubbery.reshape(x.shape)

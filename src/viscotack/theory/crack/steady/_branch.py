@@ -128,9 +128,10 @@ class Branch:
         found = self._walk(before, crack, log_speed)
         if not self._cracks:
             self._begin(found)
+        odds = self._odds_of(self._gained(found))
         self._log_speed.append(log_speed)
         self._cracks.append(found)
-        self._odds.append(self._odds_of(self._gained(found)))
+        self._odds.append(odds)
 
     def _begin(self, first: Solution) -> None:
         """Put down the slow cracks below the first one that is solved."""
@@ -176,6 +177,12 @@ class Branch:
         return self._sign * (crack.amplification / self._elastic.amplification - 1)
 
     def _odds_of(self, gained: float) -> float:
+        if not gained > 0:
+            raise InputError(
+                "the slowest crack does not differ from the elastic one: the slowest retardation "
+                f"time of the solid, {max(self._modes.times):.3g} time units, is too long for its "
+                "weight; leave out modes that weigh next to nothing"
+            )
         k = self._modes.instantaneous
         largest = 1 / k - 1 if self._sign > 0 else 1 - k
         return float(np.log(gained / max(largest - gained, 1e-12)))

@@ -43,6 +43,8 @@ Array = npt.NDArray[np.floating[Any]]
 _REACH = 3e4
 # Of the creep, in glassy compliances, and the window of time of its modes [time units].
 _MODES_TOLERANCE, _WINDOW = 2e-4, (1e-30, 1e30)
+# Weight, of the rubbery compliance, of the slowest modes together that become one.
+_FAINT = 1e-8
 # Part of Gamma by which the mesh is off at most: against meshes three times finer, with the laws
 # of this package, k from 1e-3, both signs (`benchmarks/steady_crack.py`).
 MESH_ERROR = 5e-4
@@ -353,16 +355,26 @@ def modes_of(material: Any) -> Modes:
     """Return the modes of a solid, times in its unit of time."""
     unit, k = material.time_unit, material.modulus_ratio
     shortest, longest = (unit * edge for edge in _WINDOW)
-    modes = material.retardation_modes(
-        shortest=shortest, longest=longest, tolerance=min(_MODES_TOLERANCE * k, 0.5)
-    )
+    tolerance = min(_MODES_TOLERANCE * k, 0.5)
+    modes = material.retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
     total = modes.instantaneous + sum(modes.weights)
-    return Modes(
-        modes.instantaneous / total,
-        tuple(w / total for w in modes.weights),
-        tuple(t / unit for t in modes.times),
-        modes.error,
-    )
+    weights, times = _without_faint_tail(np.array(modes.weights), np.array(modes.times))
+    return Modes(modes.instantaneous / total, weights / total, times / unit, modes.error)
+
+
+def _without_faint_tail(weights: Array, times: Array) -> tuple[Array, Array]:
+    """Merge the slowest modes that weigh next to nothing with the one before.
+
+    The first crack that is solved is slow even for the slowest mode: if that is a faint one, the
+    crack differs from the elastic one by less than rounding. The merged mode has their weight and
+    their first rate of creep.
+    """
+    heavier = int(np.count_nonzero(np.cumsum(weights[::-1]) > _FAINT))
+    if heavier in (0, weights.size):
+        return weights, times
+    first = heavier - 1
+    weight, rate = np.sum(weights[first:]), np.sum(weights[first:] / times[first:])
+    return np.append(weights[:first], weight), np.append(times[:first], weight / rate)
 
 
 def _kept(maker: Any, *key: Any) -> Any:
