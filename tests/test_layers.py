@@ -31,6 +31,7 @@ ROOMS = (
     "identify",
     "pictures",
     "app",
+    "check",
     "__main__",
 )
 # The same inside the theories: what all of them share, then the wings.

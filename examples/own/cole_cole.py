@@ -83,8 +83,10 @@ class ColeCole:
     def complex_compliance(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
         """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
-        s = (1j * np.asarray(omega, dtype=float) * self.tau0) ** self.order
-        return Cinf + (C0 - Cinf) / (1 + s)
+        x = np.asarray(omega, dtype=float) * self.tau0
+        with np.errstate(invalid="ignore"):
+            passed = np.where(np.isinf(x), 0.0, 1 / (1 + (1j * x) ** self.order))
+        return Cinf + (C0 - Cinf) * passed
 
     def complex_modulus(self, omega: npt.ArrayLike) -> npt.NDArray[np.complex128]:
         """Return E' + i E'' [Pa] at angular frequencies [rad/s]."""
@@ -93,7 +95,7 @@ class ColeCole:
     def creep(self, time: npt.ArrayLike) -> Array:
         """Return the creep compliance [1/Pa] at times [s]."""
         t = np.asarray(time, dtype=float)
-        weight, tau = self._nodes(0.05)
+        weight, tau = self._nodes(self._step(FINEST))
         crept = -np.expm1(-t[..., None] / tau) @ weight
         k = self.modulus_ratio
         return (k + (1 - k) * crept) / self.rubbery_modulus
@@ -102,28 +104,24 @@ class ColeCole:
         """Return the relaxation modulus [Pa] at times [s]: the reciprocal of the creep."""
         t = np.asarray(time, dtype=float)
         k = self.modulus_ratio
-        weight, tau = self._nodes(0.05)
+        weight, tau = self._nodes(self._step(FINEST))
         stiff, relaxing = reciprocal(k, (1 - k) * weight, tau)
         return self.rubbery_modulus * (1 + np.exp(-t[..., None] / relaxing) @ stiff)
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return the creep in exponential modes for shortest <= time <= longest [s].
 
-        The integrand is analytic for |Im ln tau| < d, so that nodes a step apart err by
-        2 exp(-2 pi d/step) and some more; the step follows from half of the tolerance, and
-        `compressed` may use the other half.
+        Nodes may use half of the tolerance, and `compressed` a quarter at each end.
         """
-        k, a = self.modulus_ratio, self.order
-        tolerance = max(tolerance, FINEST)
-        width = min(np.pi / 2, np.pi * (1 - a) / a)
-        weight, tau = self._nodes(min(0.5, 2 * np.pi * width / np.log(100 / tolerance)))
+        k, tolerance = self.modulus_ratio, max(tolerance, FINEST)
+        weight, tau = self._nodes(self._step(tolerance))
         return compressed(
             k,
             (1 - k) * weight,
             tau,
             shortest=shortest,
             longest=longest,
-            tolerance=tolerance / 4,
+            tolerance=tolerance / 2,
             error=tolerance / 2,
         )
 
@@ -136,6 +134,14 @@ class ColeCole:
             tau0=1.0,
             poisson_ratio=0.0,
         )
+
+    def _step(self, tolerance: float) -> float:
+        """Return a step of ln tau: nodes err by 2 exp(-2 pi d/step) and some more.
+
+        The integrands are analytic for |Im ln tau| < d.
+        """
+        width = min(np.pi / 2, np.pi * (1 - self.order) / self.order)
+        return min(0.5, 2 * np.pi * width / np.log(100 / tolerance))
 
     def _nodes(self, step: float) -> tuple[Array, Array]:
         """Return weights that add up to 1, and retardation times [s]: the rule of trapezoids."""

@@ -12,6 +12,7 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from . import bem as bem
     from . import campaign as campaign
+    from . import check as check
     from . import datasets as datasets
     from . import lab as lab
     from . import materials as materials
@@ -193,7 +194,7 @@ _NAMES = {
     "pictures.lab": ("draw_fit",),
     "pictures.forecast": ("draw_prediction",),
 }
-_ROOMS = ("materials", "theory", "bem", "lab", "campaign", "datasets")
+_ROOMS = ("materials", "theory", "bem", "lab", "campaign", "datasets", "check")
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]

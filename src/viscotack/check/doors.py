@@ -1,0 +1,122 @@
+"""The ways by which a noun comes in: records, case files, flags, plans of campaigns, results."""
+
+import inspect
+import json
+import math
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from viscotack.app.questions import SPHERE, stated
+from viscotack.campaign import read_plan
+from viscotack.cards import Pairs, cards
+from viscotack.errors import InputError
+from viscotack.files.toml import toml_value
+from viscotack.problem.case_file import read_case
+from viscotack.problem.nouns import known, own_nouns
+from viscotack.problem.record import from_dict, to_dict
+
+from .findings import Finding, holds
+
+_TABLES: Mapping[str, Mapping[str, Any]] = {
+    "material": {"model": "elastic", "rubbery_modulus": "1 MPa", "poisson_ratio": 0.5},
+    "interface": {
+        "law": "lennard-jones",
+        "work_of_adhesion": "50 mJ/m^2",
+        "equilibrium_gap": "1 um",
+    },
+    "sphere": {"radius": "1 mm"},
+    "protocol": {"preload_depth": "1 um", "speed": "10 um/s"},
+}
+
+
+def classes_of(noun: Any) -> tuple[type, ...]:
+    """Return the class of a noun if the package does not have it, for ``also=``."""
+    kind = type(noun)
+    return () if known().types.get(kind.__name__) is kind else (kind,)
+
+
+def through_record(noun: Any) -> Iterator[Finding]:
+    """Check that a noun is written as a dictionary and read back."""
+    text = json.dumps(to_dict(noun))
+    back = from_dict(json.loads(text), also=classes_of(noun))
+    yield holds(
+        "record: from_dict(to_dict(noun)) is the noun", back == noun, repr(noun), repr(back)
+    )
+
+
+def numbers_of(noun: Any) -> dict[str, Any]:
+    """Return the numbers of a noun as a case file states them."""
+    found: dict[str, Any] = {}
+    for name, field in cards(type(noun)).items():
+        value, unit = getattr(noun, name), field.card.unit
+        if value is not None:
+            found[name] = value if unit == "1" else f"{value!r} {unit}"
+    for name, field in cards(type(noun), Pairs).items():
+        first, second = field.card.units
+        found[name] = [
+            [x if first == "1" else f"{x!r} {first}", y if second == "1" else f"{y!r} {second}"]
+            for x, y in getattr(noun, name)
+        ]
+    return found
+
+
+def case_text(**tables: Mapping[str, Any]) -> str:
+    """Return the text of a case file: a sphere, with tables of other nouns in place of its own."""
+    lines: list[str] = []
+    for name, values in (dict(_TABLES) | tables).items():
+        if values:
+            lines += [f"[{name}]", *(f"{key} = {toml_value(v)}" for key, v in values.items()), ""]
+    return "\n".join(lines)
+
+
+def through_case_file(noun: Any, part: str, tables: Mapping[str, Mapping[str, Any]]) -> Finding:
+    """State a noun in a case file and compare what is read with it."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "case.toml"
+        path.write_text(case_text(**tables), encoding="utf-8")
+        back = getattr(read_case(path, also=classes_of(noun)), part)
+    # a power-law profile is stated by a height, which rounds its coefficient
+    name = "case file: the tables state the noun"
+    return holds(name, back == noun or _near(back, noun), repr(noun), repr(back))
+
+
+def _near(one: Any, other: Any) -> bool:
+    if type(one) is not type(other) or not cards(type(one)) or cards(type(one), Pairs):
+        return False
+    names = cards(type(one))
+    return all(math.isclose(getattr(one, n), getattr(other, n), rel_tol=1e-12) for n in names)
+
+
+def through_flags(noun: Any, part: str, flags: Mapping[str, Any]) -> Finding:
+    """State a reduced noun by flags and compare what is understood with it."""
+    given = {"tabor": 1.0, "preload": 1.0, "rate": 1.0, "material": "elastic"} | dict(flags)
+    try:
+        back = getattr(stated(SPHERE, given, also=classes_of(noun)), part)
+    except InputError as error:
+        own = bool(classes_of(noun))
+        return holds(f"flag: --{part}", not own, "the noun by its word", f"refused: {error}")
+    return holds("flag: the word and its numbers state the noun", back == noun, noun, back)
+
+
+def through_campaign(noun: Any, tables: Mapping[str, Mapping[str, Any]]) -> Iterator[Finding]:
+    """Check that a plan varies the problem that the noun is in."""
+    files = []
+    for kind in classes_of(noun):
+        source = Path(inspect.getsourcefile(kind) or "")
+        try:
+            names = {getattr(thing, "__name__", "") for thing in own_nouns([source])}
+        except (InputError, OSError):
+            names = set()
+        if kind.__name__ not in names:
+            return  # the class does not stand in a file of its own, which a plan needs
+        files.append(str(source))
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "case.toml").write_text(case_text(**tables), encoding="utf-8")
+        plan = Path(folder) / "plan.toml"
+        own = f"with = {toml_value(files)}\n" if files else ""
+        text = f'problem = "case.toml"\n{own}[[grid]]\nprotocol.speed = [1e-5, 2e-5]\n'
+        plan.write_text(text, encoding="utf-8")
+        cases = len(read_plan(plan).cases)
+    yield holds("campaign: a plan has a row for each value", cases == 2, "2 rows", cases)

@@ -1,0 +1,128 @@
+"""What a check found: one line for each identity, limit, bound or door."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.errors import InputError
+
+
+class CheckFailed(InputError):
+    """A noun does not satisfy what the package relies on."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The outcome of one check.
+
+    Attributes
+    ----------
+    name : str
+        The identity, limit, bound or door that was checked.
+    expected, found : str
+        In words or numbers, SI unless stated.
+    passed : bool
+        Whether the noun satisfies it.
+    """
+
+    name: str
+    expected: str
+    found: str
+    passed: bool
+
+    def __str__(self) -> str:
+        mark = "ok  " if self.passed else "FAIL"
+        return f"{mark} {self.name}" + (
+            "" if self.passed else f": expected {self.expected}, found {self.found}"
+        )
+
+
+@dataclass(frozen=True)
+class Report:
+    """All findings for one noun.
+
+    Attributes
+    ----------
+    noun : str
+        What was checked.
+    findings : tuple of Finding
+        In the order of the checks.
+    """
+
+    noun: str
+    findings: tuple[Finding, ...]
+
+    @property
+    def failures(self) -> tuple[Finding, ...]:
+        """The findings that did not pass."""
+        return tuple(finding for finding in self.findings if not finding.passed)
+
+    @property
+    def passed(self) -> bool:
+        """Whether every check passed."""
+        return not self.failures
+
+    def raise_if_failed(self) -> "Report":
+        """Raise `CheckFailed` with all failures in words, or give back the report."""
+        if self.failures:
+            raise CheckFailed(str(self))
+        return self
+
+    def __str__(self) -> str:
+        count = f"{len(self.findings) - len(self.failures)} of {len(self.findings)} checks passed"
+        shown = self.failures or self.findings
+        return "\n".join([f"{self.noun}: {count}", *(f"  {finding}" for finding in shown)])
+
+
+Check = Callable[..., Iterator[Finding]]
+
+
+def report(noun: Any, checks: tuple[Check, ...], *arguments: Any) -> Report:
+    """Run checks on a noun; an exception in one is a finding and ends that check alone."""
+    found: list[Finding] = []
+    for check in checks:
+        try:
+            with np.errstate(all="ignore"):
+                found += check(noun, *arguments)
+        except Exception as error:
+            name = (check.__doc__ or check.__name__).partition(".")[0].strip()
+            what = f"{type(error).__name__}: {error}"
+            found.append(Finding(name, "an answer", what[:400], False))
+    words = repr(noun)
+    return Report(words if len(words) < 200 else f"{words[:197]}...", tuple(found))
+
+
+def same(
+    name: str, found: npt.ArrayLike, expected: npt.ArrayLike, *, rtol: float, atol: float = 0.0
+) -> Finding:
+    """Compare numbers; the finding shows the pair that is farthest off."""
+    x, y = np.broadcast_arrays(np.asarray(found), np.asarray(expected))
+    allowed = atol + rtol * np.abs(y)
+    with np.errstate(invalid="ignore"):
+        # equal infinities differ by nan
+        off = np.where(x == y, 0.0, np.abs(x - y) - allowed)
+    off = np.where(np.isnan(off), np.inf, off)
+    worst = np.unravel_index(np.argmax(off), off.shape)
+    return Finding(name, f"{y[worst]:.8g}", f"{x[worst]:.8g}", bool(off[worst] <= 0))
+
+
+def holds(name: str, truth: Any, expected: str, found: Any) -> Finding:
+    """State a condition; `found` is shown where it does not hold."""
+    return Finding(name, expected, f"{found}", bool(truth))
+
+
+def rises(name: str, values: npt.ArrayLike, *, slack: float = 1e-12) -> Finding:
+    """State that values never fall by more than rounding."""
+    v = np.asarray(values, dtype=float)
+    fall = float(np.max(-np.diff(v), initial=0.0))
+    largest = float(np.max(np.abs(v), initial=0.0))
+    within = fall <= slack * largest and bool(np.all(np.isfinite(v)))
+    return Finding(name, "no fall", f"a fall of {fall:.4g} among values to {largest:.4g}", within)
+
+
+def refused(error: Exception) -> bool:
+    """Return whether an exception is a refusal in words and no defect."""
+    return isinstance(error, InputError) and len(str(error).split()) >= 3

@@ -1,0 +1,141 @@
+"""What an indenter of revolution must satisfy: its slope, its units, JKR's contact with it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from viscotack.cards import check_carded
+from viscotack.geometry import PowerLawProfile
+from viscotack.materials.solids import Elastic
+from viscotack.problem import Problem
+from viscotack.protocol import AtForce, Retraction
+from viscotack.result.observables import pull_off_force
+from viscotack.theory.elastic import indenter
+from viscotack.traction import LennardJones
+
+from . import doors, simulated
+from .findings import Finding, Report, holds, report, rises, same
+
+
+def check_shape(shape: Any, *, size: float = 1e-4, thorough: bool = True) -> Report:
+    """Check an indenter of revolution against what the package relies on.
+
+    Parameters
+    ----------
+    shape : Shape
+        In SI, of the package or of one's own.
+    size : float
+        A contact radius [m] about which it is checked, from a thousandth to ten times it.
+    thorough : bool
+        Whether to simulate a contact and to plan a campaign too: seconds.
+
+    Examples
+    --------
+    >>> from viscotack.geometry import Sphere
+    >>> check_shape(Sphere(1e-3), thorough=False).passed
+    True
+    """
+    checks = (_profile, _units, _theory, _record, _case_file)
+    more = (_campaign, _contact) if thorough else ()
+    return report(shape, checks + more, size)
+
+
+def _profile(shape: Any, size: float) -> Iterator[Finding]:
+    """Check gap and flank."""
+    check_carded(type(shape))
+    symmetric = shape.symmetry == "revolution"
+    yield holds("symmetry is 'revolution'", symmetric, "'revolution'", shape.symmetry)
+    yield same("gap is 0 at the tip", shape.gap(0.0), 0.0, rtol=0, atol=1e-12 * size)
+    r = size * np.geomspace(1e-3, 10, 400)
+    yield rises("gap never falls outwards", shape.gap(r))
+    yield rises("flank never falls outwards", shape.flank(r))
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    half, middle = np.diff(r) / 2, (r[1:] + r[:-1]) / 2
+    climbed = half * (np.asarray(shape.flank(middle[:, None] + half[:, None] * nodes)) @ weights)
+    name = "flank is the derivative of the gap"
+    largest = float(np.max(np.abs(shape.gap(r))))
+    yield same(name, climbed, np.diff(shape.gap(r)), rtol=1e-4, atol=1e-9 * largest)
+    found = np.shape(shape.gap(np.full((2, 3), size)))
+    yield holds("gap: shape of the answer", found == (2, 3), (2, 3), found)
+
+
+def _units(shape: Any, size: float) -> Iterator[Finding]:
+    """Check other units of length."""
+    r, along, height = size * np.geomspace(1e-3, 10, 50), 0.3 * size, 2e-3 * size
+    other = shape.reduced(along, height)
+    name = "reduced: gap with distances and gaps in other units"
+    yield same(name, height * np.asarray(other.gap(r / along)), shape.gap(r), rtol=1e-9)
+    slope = height / along * np.asarray(other.flank(r / along))
+    yield same("reduced: flank in other units", slope, shape.flank(r), rtol=1e-9)
+    back = other.reduced(1 / along, 1 / height)
+    yield same("reduced and back is the shape", back.gap(r), shape.gap(r), rtol=1e-9)
+
+
+def _theory(shape: Any, size: float) -> Iterator[Finding]:
+    """Check the contact without adhesion."""
+    a = size * np.linspace(0.5, 1.0, 33)
+    solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
+    depth = np.asarray(indenter.bare_depth(a, shape=shape))
+    force = np.asarray(indenter.force(a, shape=shape, **solid))
+    yield rises("contact without adhesion: depth rises with the radius", depth)
+    # dF/d depth = 2 E* a, whatever the profile (Pharr, Oliver & Brotzen 1992)
+    stiffness = np.diff(force) / np.diff(depth)
+    name = "contact without adhesion: stiffness is 2 E* a"
+    yield same(name, stiffness, 2e6 * (a[1:] + a[:-1]) / 2, rtol=2e-3)
+    least, most = shape.gap(size), size * shape.flank(size)
+    fits = bool(least < depth[-1] <= 2 * most)
+    yield holds(
+        "contact without adhesion: depth above the gap of its edge",
+        fits,
+        f"{least:.4g} to {2 * most:.4g} m",
+        depth[-1],
+    )
+
+
+def _record(shape: Any, size: float) -> Iterator[Finding]:
+    """Check the round trip through a record."""
+    return doors.through_record(shape)
+
+
+def _tables(shape: Any, size: float) -> dict[str, Any]:
+    numbers = doors.numbers_of(shape)
+    if isinstance(shape, PowerLawProfile):
+        # stated by its height at a radius, for the unit of its coefficient changes with q
+        height = float(np.asarray(shape.gap(size)))
+        stated = {"height": f"{height!r} m", "at_radius": f"{size!r} m"}
+        numbers = {"exponent": shape.exponent} | stated
+    return {"sphere": {}} | {shape.word: numbers}
+
+
+def _case_file(shape: Any, size: float) -> Iterator[Finding]:
+    """Check the round trip through a case file."""
+    yield doors.through_case_file(shape, "geometry", _tables(shape, size))
+
+
+def _campaign(shape: Any, size: float) -> Iterator[Finding]:
+    """Check a plan of a campaign."""
+    return doors.through_campaign(shape, _tables(shape, size))
+
+
+def _contact(shape: Any, size: float) -> Iterator[Finding]:
+    """Check simulated contact."""
+    modulus, work = 1e6, 0.05
+    solid = Elastic(rubbery_modulus=0.75 * modulus, poisson_ratio=0.5)
+    theory = {"shape": shape, "contact_modulus": modulus, "work_of_adhesion": work}
+    a = size * np.geomspace(0.01, 3, 3000)
+    pulled = -float(np.min(indenter.force(a, **theory)))
+    at = float(a[np.argmin(indenter.force(a, **theory))])
+    # a range so short that JKR holds to a few parts in a hundred
+    gap = 0.03 * float(np.cbrt(at * (work / modulus) ** 2 * 1.0))
+    law = LennardJones(work, gap)
+    problem = Problem(solid, law, shape, Retraction(AtForce(0.0), 1e-6))
+    result = simulated.run(problem)
+    found = pull_off_force(result) * problem.scales().force
+    yield holds(
+        "simulation: a short range pulls like JKR for the shape",
+        0.93 < found / pulled < 1.1,
+        f"{pulled:.4g} N within 0.93 to 1.1",
+        f"{found:.4g} N",
+    )
+    yield from simulated.saved(problem, doors.classes_of(shape))

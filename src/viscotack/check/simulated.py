@@ -1,0 +1,92 @@
+"""Checks that run the simulation, or evaluate the predictions, for a problem with a noun in it."""
+
+import tempfile
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from viscotack.bem import solve
+from viscotack.forecast import advise, predict
+from viscotack.problem import Groups
+from viscotack.result import Result, load, save
+from viscotack.result.observables import pull_off_force
+from viscotack.theory import lennard_jones
+
+from .findings import Finding, holds, refused, same
+
+ACCURACY = 1e-2
+# Of the force: what bounds between laws of equal work and strength may differ by.
+_SLACK = 0.03
+
+
+def run(problem: Any, *, accuracy: float = ACCURACY) -> Result:
+    """Return a simulation to the pull-off, without an estimate of its error."""
+    return solve(problem, until="pull-off", accuracy=accuracy, estimate_error=False)
+
+
+def bounds(groups: Groups) -> tuple[float, float]:
+    """Return the forces of the slowest and the fastest pull-off [1.5 pi R dg0], with slack."""
+    mu, k = groups.effective_tabor, groups.modulus_ratio
+    slow = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
+    fast = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
+    return slow * (1 - _SLACK), fast * (1 + _SLACK)
+
+
+def between_limits(groups: Groups) -> Iterator[Finding]:
+    """State that the simulated force lies between the slowest and the fastest pull-off."""
+    result = run(groups)
+    force, (low, high) = pull_off_force(result), bounds(groups)
+    name = "simulation: pull-off between the slow and the fast limit"
+    yield holds(name, low <= force <= high, f"{low:.4g} to {high:.4g}", f"{force:.4g}")
+    residual = result.energy_residual
+    if residual is not None:
+        name = "simulation: the energy audit closes"
+        yield holds(name, abs(residual) < 0.02, "a residual below 0.02", residual)
+
+
+def in_si(groups: Groups, *, modulus: float, poisson_ratio: float) -> Iterator[Finding]:
+    """State that a problem in SI has the dimensionless force."""
+    problem = groups.in_si(
+        radius=2e-3,
+        contact_modulus=modulus / (1 - poisson_ratio**2),
+        work_of_adhesion=0.03,
+        time_unit=0.7,
+        poisson_ratio=poisson_ratio,
+    )
+    found, expected = (pull_off_force(run(p)) for p in (problem, groups))
+    yield same("simulation: SI changes nothing", found, expected, rtol=1e-6)
+
+
+def saved(problem: Any, also: Iterable[type]) -> Iterator[Finding]:
+    """State that a result is saved and loaded."""
+    result, also = run(problem), tuple(also)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "run.npz"
+        save(result, path)
+        back = load(path, also=also)
+    equal = bool(np.array_equal(back.force, result.force)) and back.problem == result.problem
+    yield holds("result: saved and loaded", equal, "the same force and problem", back.problem)
+
+
+def answered(groups: Groups) -> Iterator[Finding]:
+    """State that predictions answer within their limits or refuse in words."""
+    low, high = bounds(groups)
+    where = f"at the Tabor number {groups.tabor:g}"
+    try:
+        found = predict(groups)
+        force, (least, most) = found.value, found.interval
+        holds_it = least <= force <= most and least <= high and most >= low
+        words = f"{force:.4g} in {least:.4g} to {most:.4g} by {found.method}"
+    except Exception as error:
+        holds_it, words = refused(error), f"{type(error).__name__}: {error}"
+    yield holds(f"predict {where}", holds_it, f"{low:.4g} to {high:.4g}, or words", words)
+    try:
+        best = advise(groups).estimates
+        forces = [e.pull_off_force for e in best if e.applies and e.pull_off_force is not None]
+        wrong = [f for f in forces if not low * 0.9 <= f <= high * 1.1]
+        holds_it, words = not wrong, f"{wrong}"
+    except Exception as error:
+        holds_it, words = refused(error), f"{type(error).__name__}: {error}"
+    yield holds(f"advise {where}", holds_it, f"{low:.4g} to {high:.4g}, or words", words)

@@ -1,0 +1,196 @@
+"""What a tier of answers must satisfy: it answers what it lists, with an interval, and no more."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+
+from viscotack.forecast import Prediction
+from viscotack.forecast.prediction import MEASURED, NOT_MEASURED
+from viscotack.geometry import Sphere
+from viscotack.materials import RetardationPowerLaw, StandardSolid
+from viscotack.problem import Groups
+from viscotack.protocol import AtForce
+from viscotack.traction import LennardJones
+
+from . import simulated
+from .findings import Finding, Report, holds, refused, report, same
+
+
+class Tier(Protocol):
+    """One way to an answer: a theory, a surrogate, a simulation.
+
+    Attributes
+    ----------
+    name : str
+        What predictions call it.
+    cost : float
+        Time of an answer [s], order of magnitude.
+    """
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    @property
+    def cost(self) -> float: ...  # noqa: D102
+
+    def covers(self, problem: Any) -> str:
+        """Give the reason why a problem is not covered, "" if it is."""
+        ...
+
+    def answer(self, problem: Any, *, confidence: float = 0.9) -> Prediction:
+        """Predict the pull-off force of a problem that is covered."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnknownSolid(StandardSolid):
+    """A solid that no tier was verified for."""
+
+    word: ClassVar[str] = "unknown-solid"
+
+
+@dataclass(frozen=True)
+class UnknownLaw(LennardJones):
+    """A law that no tier was verified for."""
+
+    word: ClassVar[str] = "unknown-law"
+
+
+@dataclass(frozen=True)
+class UnknownShape(Sphere):
+    """A shape that no tier was verified for."""
+
+    word: ClassVar[str] = "unknown-shape"
+
+
+_SOLID = {"rubbery_modulus": 1.0, "glassy_modulus": 10.0, "tau0": 1.0, "poisson_ratio": 0.0}
+
+
+def problems() -> tuple[Groups, ...]:
+    """Return spheres over the range of the tiers: Tabor numbers, solids and rates."""
+    solids = (StandardSolid(**_SOLID), RetardationPowerLaw(**_SOLID, exponent=0.6))
+    return tuple(
+        Groups(tabor, solid, AtForce(2.0 * max(tabor, 1.0)), rate)
+        for tabor, rate in ((0.05, 1.0), (1.0, 10.0), (4.0, 100.0), (60.0, 1e3), (1e7, 1.0))
+        for solid in solids
+    )
+
+
+def check_tier(
+    tier: Tier,
+    *,
+    cases: Iterable[Any] = (),
+    any_noun: bool = False,
+) -> Report:
+    """Check a tier: what it covers, what it answers, and that it refuses all else in words.
+
+    Parameters
+    ----------
+    tier : Tier
+        With ``name``, ``cost``, ``covers(problem)`` and ``answer(problem, confidence=)``.
+    cases : iterable of Problem or Groups
+        Asked beside those of this module.
+    any_noun : bool
+        Whether it takes laws, solids and shapes that it has never seen, as the simulation does.
+    """
+    return report(tier, (_labels, _answers, _units, _unknown), (*problems(), *cases), any_noun)
+
+
+def _labels(tier: Any, cases: Any, any_noun: bool) -> Iterator[Finding]:
+    """Check name and cost."""
+    yield holds("name is a word", bool(str(tier.name).strip()), "a name", tier.name)
+    yield holds("cost is a time in seconds", 0 < tier.cost < 1e5, "> 0 s", tier.cost)
+
+
+def _covered(tier: Any, cases: Any) -> list[Any]:
+    return [case for case in cases if tier.covers(case) == ""]
+
+
+def _answers(tier: Any, cases: Any, any_noun: bool) -> Iterator[Finding]:
+    """Check answers of the tier."""
+    reasons = [tier.covers(case) for case in cases]
+    words = all(isinstance(r, str) and (r == "" or len(r.split()) >= 2) for r in reasons)
+    yield holds("covers says '' or the reason in words", words, "'' or a reason", reasons)
+    yield holds("covers one of the cases", "" in reasons, "one case or more", "none")
+    for case, reason in zip(cases, reasons, strict=True):
+        where = f"Tabor number {getattr(case, 'tabor', 0):g}, {type(case.material).__name__}"
+        if reason == "":
+            yield from _answer(tier, case, where)
+        else:
+            yield _refusal(tier, case, f"{where} is not covered: answer refuses in words")
+
+
+def _answer(tier: Any, case: Any, where: str) -> Iterator[Finding]:
+    found = tier.answer(case)
+    force = found.value
+    yield holds(
+        f"{where}: the force is a positive number", np.isfinite(force) and force > 0, "> 0", force
+    )
+    low, high = found.interval
+    yield holds(
+        f"{where}: the interval holds the force", low <= force <= high, found.interval, force
+    )
+    band = found.band in (MEASURED, NOT_MEASURED)
+    yield holds(
+        f"{where}: band says whether it was measured", band, (MEASURED, NOT_MEASURED), found.band
+    )
+    yield holds(f"{where}: method says who answers", bool(found.method), "a name", found.method)
+    yield holds(f"{where}: why says it in words", len(found.why.split()) > 2, "words", found.why)
+    if isinstance(case, Groups) and case.effective_tabor < 100:
+        least, most = simulated.bounds(case)
+        meets = low <= most and high >= least
+        yield holds(
+            f"{where}: the interval meets the slow and fast limits",
+            meets,
+            f"{least:.4g} to {most:.4g}",
+            found.interval,
+        )
+    narrow, wide = (tier.answer(case, confidence=c).interval for c in (0.5, 0.9))
+    nested = wide[0] <= narrow[0] * (1 + 1e-12) and narrow[1] <= wide[1] * (1 + 1e-12)
+    yield holds(f"{where}: intervals of more confidence are wider", nested, wide, narrow)
+
+
+def _refusal(tier: Any, case: Any, name: str) -> Finding:
+    try:
+        found = tier.answer(case)
+    except Exception as error:
+        return holds(name, refused(error), "a refusal", f"{type(error).__name__}: {error}")
+    return holds(name, False, "a refusal", f"an answer of {found.value:.4g}")
+
+
+def _units(tier: Any, cases: Any, any_noun: bool) -> Iterator[Finding]:
+    """Check that the same problem in SI has the same answer."""
+    groups = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
+    for case in groups[:2]:
+        problem = case.in_si(
+            radius=1e-3,
+            contact_modulus=2e6,
+            work_of_adhesion=0.05,
+            time_unit=0.3,
+            poisson_ratio=0.5,
+        )
+        reason = tier.covers(problem)
+        yield holds("a problem in SI is covered as without dimensions", reason == "", "''", reason)
+        found, expected = tier.answer(problem).value, tier.answer(case).value
+        yield same(
+            "a problem in SI has the same digits as without dimensions", found, expected, rtol=1e-9
+        )
+
+
+def _unknown(tier: Any, cases: Any, any_noun: bool) -> Iterator[Finding]:
+    """Check that nouns beyond the list are refused."""
+    covered = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
+    if any_noun or not covered:
+        return
+    case = covered[0]
+    strangers = {
+        "solid": replace(case, material=UnknownSolid(**_SOLID)),
+        "law": replace(case, traction=UnknownLaw(1.0, 1.0)),
+        "shape": replace(case, geometry=UnknownShape(1.0)),
+    }
+    for noun, stranger in strangers.items():
+        reason = tier.covers(stranger)
+        name = f"an unknown {noun} is not covered: the list is one of what was verified"
+        yield holds(name, reason != "", "a reason", "covered")
+        yield _refusal(tier, stranger, f"an unknown {noun} is refused by answer")

@@ -1,0 +1,534 @@
+"""Conformance: every noun of the package passes its check, and a broken one of each kind fails."""
+
+import itertools
+from dataclasses import dataclass, replace
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import viscotack as vt
+from viscotack import check
+from viscotack.check import simulated
+from viscotack.forecast.prediction import MEASURED
+from viscotack.geometry import SHAPES
+from viscotack.materials import Modes
+from viscotack.materials.words import MODELS
+from viscotack.problem.nouns import own_nouns
+from viscotack.result import observables
+from viscotack.theory import lennard_jones
+from viscotack.traction import LAWS, Eyring, GentSchultz, Tabulated
+
+OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
+MORSE, COLE_COLE, ROUNDED, LARGEST = own_nouns(
+    OWN / name for name in ("morse.py", "cole_cole.py", "rounded_cone.py")
+)
+PLATEAUS = dict(rubbery_modulus=1.2e6, glassy_modulus=3e7, poisson_ratio=0.4)
+SOLID = PLATEAUS | dict(tau0=2e-3)
+WORK, GAP = 0.05, 1e-6
+LENNARD_JONES = vt.LennardJones(WORK, GAP)
+MATERIALS = {
+    "elastic": vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5),
+    "sls": vt.StandardSolid(**SOLID),
+    "prony": vt.Prony(rubbery_modulus=1e6, branches=[(1e6, 1e-3), (5e6, 1e-5)], poisson_ratio=0.3),
+    "power-law": vt.RetardationPowerLaw(**SOLID, exponent=0.6),
+    "relaxation-power-law": vt.RelaxationPowerLaw(**SOLID, exponent=0.3),
+    "fractional-zener": vt.FractionalZener(**SOLID, order=0.6),
+    "cole-cole": COLE_COLE(**SOLID, order=0.7),
+}
+LAWS_CHECKED = {
+    "lennard-jones": LENNARD_JONES,
+    "dugdale": vt.Dugdale(WORK, GAP, rise=0.05, fall=0.5),
+    "exponential": vt.Exponential(WORK, GAP, decay=0.3),
+    "table": Tabulated.of_points(
+        np.array([1.2, 1.5, 1.8, 2.1, 3.0, 4.5, 8.0]) * 1e-6,
+        [-300e3, -10e3, 60e3, 75e3, 30e3, 4e3, 0.0],
+    ),
+    "gent-schultz": GentSchultz.of(LENNARD_JONES, reference_speed=1e-3, exponent=0.5),
+    "eyring": Eyring.of(LENNARD_JONES, reference_speed=1e-3, sensitivity=0.1),
+    "morse": MORSE(WORK, GAP, 3.0),
+}
+SHAPES_CHECKED = {
+    "sphere": vt.Sphere(1e-3),
+    "cone": vt.Cone(0.1),
+    "profile": vt.PowerLawProfile(1e6, 3.0),
+    "rounded-cone": ROUNDED(0.2, 2e-5),
+}
+BODIES = {
+    "half-space": vt.HalfSpace(),
+    "frictionless": vt.Layer(1e-3),
+    "bonded": vt.Layer(1e-3, vt.Bonded(poisson_ratio=0.3)),
+    "incompressible": vt.Layer(1e-3, vt.Bonded(poisson_ratio=0.5)),
+}
+each_material = pytest.mark.parametrize("material", MATERIALS.values(), ids=MATERIALS)
+each_law = pytest.mark.parametrize("law", LAWS_CHECKED.values(), ids=LAWS_CHECKED)
+each_shape = pytest.mark.parametrize("shape", SHAPES_CHECKED.values(), ids=SHAPES_CHECKED)
+
+
+# --- the nouns of the package, and those of the examples -----------------------------------------
+
+
+def test_no_noun_of_the_package_is_left_out():
+    assert MODELS.keys() <= MATERIALS.keys() and LAWS.keys() <= LAWS_CHECKED.keys()
+    assert SHAPES.keys() - {"punch"} <= SHAPES_CHECKED.keys()
+
+
+@each_material
+def test_materials_pass_the_checks_of_formulas_and_ways_in(material):
+    check.check_material(material, thorough=False).raise_if_failed()
+
+
+@each_law
+def test_laws_pass_the_checks_of_formulas_and_ways_in(law):
+    check.check_law(law, thorough=False).raise_if_failed()
+
+
+@each_shape
+def test_shapes_pass_the_checks_of_formulas_and_ways_in(shape):
+    check.check_shape(shape, thorough=False).raise_if_failed()
+
+
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_bodies_pass(body):
+    check.check_body(body).raise_if_failed()
+
+
+@pytest.mark.slow
+@each_material
+def test_materials_pass_in_simulations_theories_and_campaigns(material):
+    check.check_material(material).raise_if_failed()
+
+
+@pytest.mark.slow
+@each_law
+def test_laws_pass_in_simulations_and_campaigns(law):
+    check.check_law(law).raise_if_failed()
+
+
+@pytest.mark.slow
+@each_shape
+def test_shapes_pass_in_simulations_and_campaigns(shape):
+    check.check_shape(shape).raise_if_failed()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "observable",
+    [
+        LARGEST,
+        vt.Observable("force_of_it", "pull-off force", "force", vt.pull_off_force),
+        vt.Observable("depth_of_it", "depth at pull-off", "depth", vt.pull_off_depth),
+        vt.Observable("work_of_it", "work to pull-off", "work", vt.work_to_pull_off),
+        vt.Observable(
+            "radius_of_it", "radius at pull-off", "radius", observables.contact_radius_at_pull_off
+        ),
+    ],
+    ids=lambda observable: observable.name,
+)
+def test_observables_pass(observable):
+    check.check_observable(observable).raise_if_failed()
+
+
+def solved(problem):
+    """Simulate roughly, to the pull-off."""
+    return simulated.run(problem, accuracy=2e-2)
+
+
+# --- a tier by the interface of tiers ------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Slow:
+    """The slowest pull-off, answered for two solids, one law and one shape at slow rates."""
+
+    name: str = "slow limit"
+    cost: float = 1e-4
+
+    def covers(self, problem: Any) -> str:
+        groups = problem.groups()
+        if type(groups.material) not in (vt.StandardSolid, vt.RetardationPowerLaw):
+            return f"verified for two solids, not {type(groups.material).__name__}"
+        if type(groups.traction) is not vt.LennardJones or type(groups.geometry) is not vt.Sphere:
+            return "verified for Lennard-Jones and spheres alone"
+        slow = groups.rate is not None and groups.rate * groups.material.time_unit <= 1
+        return "" if slow and groups.tabor < 5 else "verified for slow rates, Tabor numbers below 5"
+
+    def answer(self, problem: Any, *, confidence: float = 0.9) -> vt.Prediction:
+        if reason := self.covers(problem):
+            raise vt.OutOfRange(f"{self.name}: {reason}")
+        force = float(np.asarray(lennard_jones.pull_off_ratio(problem.groups().tabor)))
+        return vt.Prediction(
+            value=force,
+            interval=(force * (1 - 0.02 * confidence), force * (1 + confidence)),
+            work_to_pull_off=None,
+            work_interval=None,
+            confidence=confidence,
+            band=MEASURED,
+            method=self.name,
+            inside=False,
+            why="the limit of a slow retraction",
+            curve=None,
+            curve_band=None,
+            problem=problem,
+        )
+
+
+def test_a_tier_that_keeps_to_its_list_passes():
+    check.check_tier(Slow()).raise_if_failed()
+
+
+# --- every pair of nouns meets ------------------------------------------------------------------
+
+LOAD = vt.AtForce(1e-4)
+FACTORS: dict[str, dict[str, Any]] = {
+    "material": MATERIALS,
+    "law": LAWS_CHECKED,
+    "shape": SHAPES_CHECKED,
+    "protocol": {
+        "load": vt.Retraction(LOAD, 1e-4),
+        "depth": vt.Retraction(vt.AtDepth(1e-6), 1e-5),
+        "spring": vt.Retraction(LOAD, 1e-4, stiffness=100.0),
+        "dwell": vt.Retraction(LOAD, 1e-4, (vt.Dwell(0.01),)),
+        "approach": vt.Retraction(vt.Apart(5e-6), 1e-4, (vt.Approach(1e-4, LOAD),)),
+    },
+    "tier": {
+        "solve": solved,
+        "predict": vt.predict,
+        "advise": vt.advise,
+        "crack contact": vt.crack_contact,
+    },
+    "observable": {
+        "force": vt.pull_off_force,
+        "depth": vt.pull_off_depth,
+        "work": vt.work_to_pull_off,
+        "radius": observables.contact_radius_at_pull_off,
+        "own": LARGEST.function,
+    },
+}
+
+
+def covering(sizes, seed=0):
+    """Return rows of places such that each pair of values of any two factors meets in one."""
+    random = np.random.default_rng(seed)
+    pairs = {
+        (i, a, j, b)
+        for i, j in itertools.combinations(range(len(sizes)), 2)
+        for a in range(sizes[i])
+        for b in range(sizes[j])
+    }
+    rows = []
+    while pairs:
+        i, a, j, b = min(pairs)
+        # of some rows that hold one missing pair the one with most of the others
+        drawn = random.integers(0, sizes, (200, len(sizes)))
+        drawn[:, i], drawn[:, j] = a, b
+        met = [
+            {p for p in pairs if row[p[0]] == p[1] and row[p[2]] == p[3]} for row in drawn.tolist()
+        ]
+        best = max(range(len(met)), key=lambda n: len(met[n]))
+        rows.append(tuple(drawn[best].tolist()))
+        pairs -= met[best]
+    return rows
+
+
+ROWS = covering([len(values) for values in FACTORS.values()])
+
+
+def test_each_pair_of_values_meets_in_a_row():
+    for i, j in itertools.combinations(range(len(FACTORS)), 2):
+        met = {(row[i], row[j]) for row in ROWS}
+        sizes = [len(values) for values in FACTORS.values()]
+        assert len(met) == sizes[i] * sizes[j]
+    assert len(ROWS) < 80
+
+
+def answers_or_refuses(row):
+    """Ask a tier for a problem in SI: it answers within limits, or refuses in words."""
+    material, law, shape, protocol, tier, observable = (
+        list(values.values())[place] for values, place in zip(FACTORS.values(), row, strict=True)
+    )
+    try:
+        problem = vt.Problem(material, law, shape, protocol)
+        found = tier(problem)
+    except vt.InputError as error:
+        assert len(str(error).split()) > 3
+        return "refused"
+    if isinstance(found, vt.Result):
+        assert found.energy_residual is None or abs(found.energy_residual) < 0.05
+        assert np.isfinite(observable(found))
+        assert vt.from_dict(vt.to_dict(problem), also=(MORSE, COLE_COLE, ROUNDED)) == problem
+        return "simulated"
+    if isinstance(found, vt.Prediction):
+        low, high = found.interval
+        assert 0 < low <= found.value <= high
+        return "predicted"
+    return "answered"
+
+
+def named(row):
+    return ", ".join(
+        list(values)[place] for values, place in zip(FACTORS.values(), row, strict=True)
+    )
+
+
+# another part of the rows every day
+TODAY = [ROWS[(date.today().toordinal() * 2 + i) % len(ROWS)] for i in range(2)]
+
+
+@pytest.mark.parametrize("row", TODAY, ids=named)
+def test_two_rows_of_the_day_answer_or_refuse_in_words(row):
+    answers_or_refuses(row)
+
+
+@pytest.mark.slow
+def test_all_rows_answer_or_refuse_in_words():
+    kinds = [answers_or_refuses(row) for row in ROWS]
+    # simulation takes every noun
+    solving = [kind for row, kind in zip(ROWS, kinds, strict=True) if row[4] == 0]
+    assert set(solving) == {"simulated"}
+    assert kinds.count("predicted") > 3
+
+
+# --- twenty broken nouns -------------------------------------------------------------------------
+
+
+class Creeping(vt.StandardSolid):
+    """Creep that falls again."""
+
+    def creep(self, time):
+        t = np.asarray(time, dtype=float)
+        return super().creep(t) * (1 - 0.5 * np.exp(-(np.log(t / 5e-3 + 1e-300) ** 2)))
+
+
+class Soft(vt.StandardSolid):
+    """Creep that ends at twice the rubbery compliance."""
+
+    def creep(self, time):
+        return 2 * super().creep(time)
+
+
+class Shear(vt.StandardSolid):
+    """A contact modulus of shear."""
+
+    @property
+    def contact_modulus(self):
+        return self.rubbery_modulus / (2 * (1 + self.poisson_ratio))
+
+
+class Careless(vt.StandardSolid):
+    """Modes whose error is stated a thousand times too small."""
+
+    def retardation_modes(self, *, shortest, longest, tolerance):
+        exact = super().retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
+        times = tuple(1.01 * t for t in exact.times)
+        return Modes(exact.instantaneous, exact.weights, times, 1e-3 * tolerance)
+
+
+class Coarse(vt.StandardSolid):
+    """Modes that are never closer than a tenth."""
+
+    def retardation_modes(self, *, shortest, longest, tolerance):
+        exact = super().retardation_modes(shortest=shortest, longest=longest, tolerance=tolerance)
+        return replace(exact, error=0.1)
+
+
+class Active(vt.StandardSolid):
+    """Energy out of nothing."""
+
+    def complex_modulus(self, omega):
+        return np.conj(super().complex_modulus(omega))
+
+
+class Shifted(vt.StandardSolid):
+    """A complex modulus of another relaxation time, its compliance too."""
+
+    def complex_modulus(self, omega):
+        return super().complex_modulus(2 * np.asarray(omega, dtype=float))
+
+    def complex_compliance(self, omega):
+        return 1 / self.complex_modulus(omega)
+
+
+class Unreduced(vt.StandardSolid):
+    """A reduced twin that keeps its time."""
+
+    def reduced(self):
+        return replace(super().reduced(), tau0=self.tau0)
+
+
+class Factored(vt.LennardJones):
+    """An energy that is off by a tenth."""
+
+    def energy(self, gap):
+        return 1.1 * super().energy(gap)
+
+
+class Wrong(vt.LennardJones):
+    """A stiffness of the wrong sign."""
+
+    def stiffness(self, gap):
+        return -super().stiffness(gap)
+
+
+class Strong(vt.LennardJones):
+    """A strength that is twice the peak."""
+
+    @property
+    def strength(self):
+        return 2 * super().strength
+
+
+class Kilo(vt.LennardJones):
+    """A traction in kPa: consistent in itself, but not in SI."""
+
+    def traction(self, gap):
+        return 1e-3 * super().traction(gap)
+
+
+class Tailless(vt.LennardJones):
+    """An energy beyond a gap that leaves out the tail."""
+
+    def energy_beyond(self, gap):
+        return 0.5 * super().energy_beyond(gap)
+
+
+class Steep(vt.Sphere):
+    """A flank that is not the slope of the gap."""
+
+    def flank(self, position):
+        return 1.5 * super().flank(position)
+
+
+class Lifted(vt.Sphere):
+    """A tip that does not touch."""
+
+    def gap(self, position):
+        return super().gap(position) + 1e-6
+
+
+class Unscaled(vt.Sphere):
+    """A reduced shape that forgets the unit of heights."""
+
+    def reduced(self, along, height):
+        return super().reduced(along, along)
+
+
+@dataclass(frozen=True)
+class Lopsided:
+    """A compliance that is not symmetric."""
+
+    def compliance(self, nodes):
+        x = np.asarray(nodes)
+        return 1 / (1 + np.abs(x[:, None] - x)) * (1 + 0.2 * (x[:, None] > x))
+
+
+@dataclass(frozen=True)
+class Springy:
+    """A compliance of negative energy."""
+
+    def compliance(self, nodes):
+        x = np.asarray(nodes)
+        return 1 - np.exp(-np.abs(x[:, None] - x)) + 0.01 * np.eye(x.size)
+
+
+class Boastful(Slow):
+    """Covers whatever it is given."""
+
+    def covers(self, problem):
+        return ""
+
+
+class Sure(Slow):
+    """An interval beside its force."""
+
+    def answer(self, problem, *, confidence=0.9):
+        found = super().answer(problem, confidence=confidence)
+        return replace(found, interval=(1.2 * found.value, 1.3 * found.value))
+
+
+class Dimensional(Slow):
+    """Another answer in SI."""
+
+    def answer(self, problem, *, confidence=0.9):
+        found = super().answer(problem, confidence=confidence)
+        factor = 1.001 if isinstance(problem, vt.Problem) else 1.0
+        return replace(found, value=factor * found.value)
+
+
+# A solid with a number that says no unit.
+Cardless = dataclass(frozen=True, kw_only=True)(
+    type("Cardless", (vt.StandardSolid,), {"__annotations__": {"extra": float}, "extra": 1.0})
+)
+
+
+def in_newtons(result):
+    return vt.pull_off_force(result) * (1.0 if result.scales is None else result.scales.force)
+
+
+SI_ONLY = vt.Observable("in_newtons", "force in newtons", "force", in_newtons)
+STEPS = vt.Observable("count_of_it", "number of steps", "1", lambda result: len(result.force))
+
+MUTANTS: dict[str, tuple[Any, str]] = {
+    "creep falls": (Creeping(**SOLID), "creep never falls with time"),
+    "wrong end of creep": (Soft(**SOLID), "creep ends at 1/rubbery_modulus"),
+    "contact modulus of shear": (Shear(**SOLID), "contact_modulus is E0/(1 - nu^2)"),
+    "modes stated too well": (Careless(**SOLID), "tolerance 0.01: error: expected <= stated"),
+    "modes too coarse": (Coarse(**SOLID), "tolerance 0.0001: stated error: expected <= 0.0001"),
+    "not passive": (Active(**SOLID), "passive: the loss modulus is not negative"),
+    "another complex modulus": (Shifted(**SOLID), "compliance is the transform of the creep"),
+    "not reduced": (Unreduced(**SOLID), "reduced: rubbery modulus 1, time unit 1"),
+    "without a card": (Cardless(**SOLID), "does not say what extra is measured in"),
+    "energy off by a factor": (Factored(WORK, GAP), "derivative of the energy by the gap"),
+    "stiffness of the wrong sign": (Wrong(WORK, GAP), "stiffness is the derivative"),
+    "strength too large": (Strong(WORK, GAP), "strength is the largest traction"),
+    "traction in kPa": (Kilo(WORK, GAP), "the traction does the work of adhesion"),
+    "no tail": (Tailless(WORK, GAP), "energy_beyond is the integral of the energy"),
+    "flank": (Steep(1e-3), "flank is the derivative of the gap"),
+    "tip apart": (Lifted(1e-3), "gap is 0 at the tip"),
+    "units of heights": (Unscaled(1e-3), "reduced: gap with distances and gaps in other units"),
+    "not reciprocal": (Lopsided(), "reciprocity: compliance is symmetric"),
+    "negative energy": (Springy(), "energy is positive"),
+    "boastful": (Boastful(), "an unknown solid is not covered"),
+    "interval beside the force": (Sure(), "the interval holds the force"),
+    "another answer in SI": (Dimensional(), "same digits as without dimensions"),
+}
+
+
+def checked(noun):
+    if hasattr(noun, "creep"):
+        return check.check_material(noun, thorough=False)
+    if hasattr(noun, "energy_beyond"):
+        return check.check_law(noun, thorough=False)
+    if hasattr(noun, "flank"):
+        return check.check_shape(noun, thorough=False)
+    return check.check_tier(noun) if hasattr(noun, "covers") else check.check_body(noun)
+
+
+@pytest.mark.parametrize(("noun", "words"), MUTANTS.values(), ids=MUTANTS)
+def test_a_broken_noun_fails_in_words_that_name_the_identity(noun, words):
+    found = checked(noun)
+    assert not found.passed and words in str(found)
+    with pytest.raises(check.CheckFailed, match="checks passed"):
+        found.raise_if_failed()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("observable", "words"),
+    [(SI_ONLY, "scale-free: SI changes nothing"), (STEPS, "refinement of steps and nodes")],
+    ids=["in newtons", "number of steps"],
+)
+def test_a_broken_observable_fails_in_words(observable, words):
+    assert words in "\n".join(map(str, check.check_observable(observable).failures))
+
+
+def test_an_exception_in_a_noun_is_a_finding_and_ends_no_other_check():
+    class Broken(vt.StandardSolid):
+        def relaxation(self, time):
+            raise ZeroDivisionError("of my own")
+
+    found = check.check_material(Broken(**SOLID), thorough=False)
+    assert "ZeroDivisionError: of my own" in str(found)
+    assert sum(finding.passed for finding in found.findings) > 20
