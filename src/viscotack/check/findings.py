@@ -109,9 +109,9 @@ def same(
     return Finding(name, f"{y[worst]:.8g}", f"{x[worst]:.8g}", bool(off[worst] <= 0))
 
 
-def holds(name: str, truth: Any, expected: str, found: Any) -> Finding:
+def holds(name: str, truth: Any, expected: Any, found: Any) -> Finding:
     """State a condition; `found` is shown where it does not hold."""
-    return Finding(name, expected, f"{found}", bool(truth))
+    return Finding(name, f"{expected}", f"{found}", bool(truth))
 
 
 def rises(name: str, values: npt.ArrayLike, *, slack: float = 1e-12) -> Finding:

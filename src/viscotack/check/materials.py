@@ -53,9 +53,9 @@ def check_material(material: Any, *, thorough: bool = True) -> Report:
     True
     """
     checks = (
-        _constants, _limits, _elastic_limit, _shapes_of_answers, _in_time, _in_frequency, _modes, _finest_modes,
-        _transforms, _reduced, _units, doors.through_record, _case_file, _flags, _campaign,
-        _passport,
+        _constants, _limits, _elastic_limit, _shapes_of_answers, _in_time, _in_frequency, _modes,
+        _finest_modes, _transforms, _reduced, _units, doors.through_record, _case_file, _flags,
+        _campaign, _passport,
     )  # fmt: skip
     return report(material, checks + ((_contacts, _theories) if thorough else ()))
 

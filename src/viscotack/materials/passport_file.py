@@ -83,7 +83,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
 def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
     """Return the classes of materials by their words, with those of the user's own."""
     own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
-    return MODELS | own
+    return {**MODELS, **own}
 
 
 def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
