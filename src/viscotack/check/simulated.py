@@ -76,7 +76,7 @@ def answered(groups: Groups) -> Iterator[Finding]:
     where = f"at the Tabor number {groups.tabor:g}"
     try:
         found = predict(groups)
-        force, (least, most) = found.value, found.interval
+        force, (least, most) = found.pull_off_force, found.interval
         holds_it = least <= force <= most and least <= high and most >= low
         words = f"{force:.4g} in {least:.4g} to {most:.4g} by {found.method}"
     except Exception as error:
