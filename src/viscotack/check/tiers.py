@@ -87,6 +87,7 @@ def check_tier(
     *,
     cases: Iterable[Any] = (),
     takes: Iterable[str] = (),
+    digits: float = 1e-9,
 ) -> Report:
     """Check a tier: what it covers, what it answers, and that it refuses all else in words.
 
@@ -99,13 +100,16 @@ def check_tier(
     takes : iterable of str
         Kinds of nouns, of "solid", "law" and "shape", of which it answers any: those that it
         compares by their functions, as the simulation does, and not by their class.
+    digits : float
+        Relative agreement of a problem in SI with the same one without dimensions. A simulation
+        chooses steps by comparisons that rounding may turn: 1e-4.
     """
     return report(
-        tier, (_labels, _answers, _units, _unknown), (*problems(), *cases), frozenset(takes)
+        tier, (_labels, _answers, _units, _unknown), (*problems(), *cases), frozenset(takes), digits
     )
 
 
-def _labels(tier: Any, cases: Any, takes: Any) -> Iterator[Finding]:
+def _labels(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
     """Check name and cost."""
     yield holds("name is a word", bool(str(tier.name).strip()), "a name", tier.name)
     yield holds("cost is a time in seconds", 0 < tier.cost < 1e5, "> 0 s", tier.cost)
@@ -115,7 +119,7 @@ def _covered(tier: Any, cases: Any) -> list[Any]:
     return [case for case in cases if tier.covers(case) == ""]
 
 
-def _answers(tier: Any, cases: Any, takes: Any) -> Iterator[Finding]:
+def _answers(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
     """Check answers of the tier."""
     reasons = [tier.covers(case) for case in cases]
     words = all(isinstance(r, str) and (r == "" or len(r.split()) >= 2) for r in reasons)
@@ -181,7 +185,7 @@ def _refusal(tier: Any, case: Any, name: str) -> Finding:
     return holds(name, False, "a refusal", f"an answer of {found.pull_off_force:.4g}")
 
 
-def _units(tier: Any, cases: Any, takes: Any) -> Iterator[Finding]:
+def _units(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
     """Check that the same problem in SI has the same answer."""
     groups = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
     for case in [case for case in groups if _answered(tier, case)][:2]:
@@ -196,11 +200,14 @@ def _units(tier: Any, cases: Any, takes: Any) -> Iterator[Finding]:
         yield holds("a problem in SI is covered as without dimensions", reason == "", "''", reason)
         found, expected = tier.answer(problem).pull_off_force, tier.answer(case).pull_off_force
         yield same(
-            "a problem in SI has the same digits as without dimensions", found, expected, rtol=1e-9
+            "a problem in SI has the same digits as without dimensions",
+            found,
+            expected,
+            rtol=digits,
         )
 
 
-def _unknown(tier: Any, cases: Any, takes: Any) -> Iterator[Finding]:
+def _unknown(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding]:
     """Check that nouns beyond the list are refused."""
     covered = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
     if not covered:
