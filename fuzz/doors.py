@@ -115,7 +115,7 @@ def _predicted(case: Any, confidence: float = 0.9) -> vt.Prediction:
 
 
 def nesting(case: Case, luck: Luck) -> Found:
-    """Intervals of a higher confidence contain those of a lower one, and the value."""
+    """Check that intervals of a higher confidence contain those of a lower one, and the value."""
     answers = [_predicted(case, confidence) for confidence in CONFIDENCES]
     words = []
     for name in ("interval", "work_interval", "zero_force_interval"):
@@ -139,7 +139,7 @@ def nesting(case: Case, luck: Luck) -> Found:
 
 
 def predict_simulate(case: Case, luck: Luck) -> Found:
-    """The interval of the prediction and that of the simulation overlap."""
+    """Check that the interval of the prediction and that of the simulation overlap."""
     found = _predicted(case, 0.98)
     mu = getattr(case, "effective_tabor", 1.0)
     if mu > 25:
@@ -180,7 +180,7 @@ def _apart(what: str, value: float, interval: Any, answer: Any, name: str, band:
 
 
 def crack_simulate(case: Groups, luck: Luck) -> Found:
-    """The band of the contact with a steady crack and that of the simulation overlap."""
+    """Check that the band of the contact with a steady crack and that of the simulation overlap."""
     try:
         found = vt.crack_contact(case)
     except InputError as error:
@@ -201,7 +201,7 @@ def _crackish(luck: Luck) -> Groups:
 
 
 def advise_predict(case: Groups, luck: Luck) -> Found:
-    """Tiers that both claim a problem have intervals that overlap."""
+    """Check that tiers that both claim a problem have intervals that overlap."""
     found = _predicted(case, 0.98)
     try:
         advice = vt.advise(case)
@@ -415,7 +415,7 @@ def _law_words(law: Any) -> str | None:
 
 
 def case_file(case: Case, luck: Luck) -> Found:
-    """A problem in a file, in a record and in JSON is the problem."""
+    """Check that a problem in a file, in a record and in JSON is the problem."""
     problem = in_si(case, luck)
     words = []
     with folder() as where:
@@ -434,7 +434,7 @@ def case_file(case: Case, luck: Luck) -> Found:
 
 
 def command_simulates(case: Case, luck: Luck) -> Found:
-    """The command line prints what Python returns."""
+    """Check that the command line prints what Python returns."""
     until, also = luck.one({"pull-off": 1, "detached": 1}), ()
     options = [f"--accuracy={ACCURACY}", f"--until={until}"]
     given = flags(case)
@@ -463,7 +463,7 @@ def command_simulates(case: Case, luck: Luck) -> Found:
 
 
 def saved(case: Case, luck: Luck) -> Found:
-    """A result that is saved and loaded is the result."""
+    """Check that a result that is saved and loaded is the result."""
     result = solved(in_si(case, luck) if luck.happens(0.5) else case, fields=luck.happens(0.3))
     with folder() as where:
         vt.save(result, where / "x.npz")
@@ -481,7 +481,7 @@ def saved(case: Case, luck: Luck) -> Found:
 
 
 def campaign_row(case: Case, luck: Luck) -> Found:
-    """The row of a campaign has the numbers of the simulation."""
+    """Check that the row of a campaign has the numbers of the simulation."""
     until = luck.one({"pull-off": 1, "detached": 1})
     problem = in_si(case, luck) if luck.happens(0.5) else case
     result = solved(problem, until=until, whole=True, estimate_error=True)
@@ -498,7 +498,7 @@ def campaign_row(case: Case, luck: Luck) -> Found:
 
 
 def watched(case: Case, luck: Luck) -> Found:
-    """What a run tells while it goes on is its result; its progress rises to 1."""
+    """Check that what a run tells while it goes on is its result; its progress rises to 1."""
     points: list[tuple[float, ...]] = []
     shares: list[float] = []
     result = solved(case, watch=lambda *p: points.append(p), progress=shares.append)
@@ -516,7 +516,7 @@ def watched(case: Case, luck: Luck) -> Found:
 
 
 def predict_doors(case: Case, luck: Luck) -> Found:
-    """Python, command line, table and HTTP predict the same digits."""
+    """Check that Python, command line, table and HTTP predict the same digits."""
     found = _predicted(case)
     said = plain(vt.prediction_summary(found))
     words = []
