@@ -570,11 +570,11 @@ def client() -> Any:
 
 
 DOORS: tuple[Relation, ...] = (
-    Relation("nesting", _learned, nesting, 1.5),
-    Relation("predict-simulate", _learned, predict_simulate, 2.0),
-    Relation("crack-simulate", _crackish, crack_simulate, 1.0),
-    Relation("advise-predict", learned_sphere, advise_predict, 1.0),
-    Relation("case-file", cases.contact, case_file, 1.5),
+    Relation("nesting", _learned, nesting, 2.5),
+    Relation("predict-simulate", _learned, predict_simulate, 1.5),
+    Relation("crack-simulate", _crackish, crack_simulate, 0.5),
+    Relation("advise-predict", learned_sphere, advise_predict, 0.7),
+    Relation("case-file", cases.contact, case_file, 2.5),
     Relation("command", cases.contact, command_simulates, 1.0),
     Relation("saved", cases.contact, saved, 1.0),
     Relation("campaign", cases.contact, campaign_row, 1.0),
