@@ -152,9 +152,7 @@ def _allowed(name: str, value: float, found: Any, error: float) -> tuple[float, 
     wide = float(np.ptp(known)) if known.size else np.inf
     scale = float(np.nanmax(np.abs(known))) if known.size else 1.0
     if source == "edge_speed":  # of a punch in another unit than the series
-        wide *= abs(value) / max(
-            scale, 1e-300
-        )
+        wide *= abs(value) / max(scale, 1e-300)
         return 10 * abs(value), 2 * wide
     return (1.0 + _CURVE) * max(abs(value), scale * 0.1), wide
 

@@ -37,6 +37,7 @@ from viscotack import (
 )
 from viscotack.materials import FractionalZener
 from viscotack.materials.conversion import slowed
+from viscotack.result.parts import spans
 from viscotack.traction import grows
 from viscotack.traction.growing import scaled
 
@@ -621,10 +622,9 @@ def observables_of_series(case: Case, luck: Luck) -> Found:
     numbers = said.numbers
     force = numbers.get("pull_off_force", numbers.get("pull_off_stress"))
     words = []
-    part = said.series["move"] == said.series["move"][-1]
     pulled = case.rate is not None and not result.events
     if pulled and force is not None:
-        most = -float(np.min(result.force[part]))
+        most = -float(np.min(result.force[spans(result)[-1].turn :]))
         if abs(force - most) > 2 * ACCURACY * max(abs(most), 0.1):
             words.append(f"pull-off {force:.5g}, largest tension of the retraction {most:.5g}")
     work, whole = numbers.get("work_to_pull_off"), numbers.get("work_of_separation")
