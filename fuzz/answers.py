@@ -175,6 +175,8 @@ def differences(one: Answer, other: Answer, *, factor: float = 1.0) -> list[str]
         a, b = one.numbers.get(name), other.numbers.get(name)
         if a is None and b is None:
             continue
+        if (a is None or b is None) and name == "crack_speed_at_pull_off":
+            continue  # an edge that is gone a step before the pull-off has none
         if a is None or b is None:
             found.append(f"{name} {_text(a)} and {_text(b)}")
             continue

@@ -128,13 +128,13 @@ def nesting(case: Case, luck: Luck) -> Found:
                 words.append(
                     f"{name} of {c} is not within that of the next: {low, high}, {least, most}"
                 )
-    values = {answer.value for answer in answers}
+    values = {answer.pull_off_force for answer in answers}
     if len(values) > 1:
         words.append(f"the value depends on the confidence: {sorted(values)}")
     for answer in answers:
         low, high = answer.interval
-        if not low <= answer.value <= high:
-            words.append(f"value {answer.value} not in its interval {low, high}")
+        if not low <= answer.pull_off_force <= high:
+            words.append(f"value {answer.pull_off_force} not in its interval {low, high}")
     return words
 
 
@@ -147,7 +147,7 @@ def predict_simulate(case: Case, luck: Luck) -> Found:
     answer = by_simulation(case, until="pull-off", estimate=True)
     name = "pull_off_stress" if isinstance(case, PunchGroups) else "pull_off_force"
     words = _apart(
-        f"force by {found.method}", found.value, found.interval, answer, name, found.band
+        f"force by {found.method}", found.pull_off_force, found.interval, answer, name, found.band
     )
     if found.work_interval is not None and found.work_to_pull_off is not None:
         words += _apart(
@@ -544,7 +544,7 @@ def _by_table(case: Case, found: vt.Prediction) -> Found:
     columns |= {"modulus_ratio": [case.modulus_ratio], "rate": [case.rate]}
     row = vt.predict_table(columns | {names[type(case.start)]: [value]})
     name = "pull_off_stress" if isinstance(case, PunchGroups) else "pull_off_force"
-    expected = {"": found.value, "_low": found.interval[0], "_high": found.interval[1]}
+    expected = {"": found.pull_off_force, "_low": found.interval[0], "_high": found.interval[1]}
     # rows are evaluated together, in another order of additions
     return [
         f"table {name}{tail}: {row[name + tail][0]} and {value}"
