@@ -215,7 +215,9 @@ def _apart(one: Mapping[str, Array], other: Mapping[str, Array], name: str) -> f
             # a run may end a little sooner than another: compare what both have
             until = min(a[-1, 0], b[-1, 0])
             a, b = a[a[:, 0] <= until], b[b[:, 0] <= until + np.ptp(b[:, 0]) * 0.2]
-        long = max(float(np.ptp(b[:, 0])) if len(b) else 0.0, 1e-300)
+        long = float(np.ptp(b[:, 0])) if len(b) else 0.0
+        if long <= 1e-9 * float(np.ptp(other["time"])):
+            continue  # a move that has nothing to do
         a, b = a[np.isfinite(a[:, 1])], b[np.isfinite(b[:, 1])]
         if len(a) == 0 or len(b) < 2:
             continue
