@@ -482,7 +482,7 @@ def long_dwell(case: Case, luck: Luck) -> Found:
     """Check that a contact is the relaxed one long after it was pressed from a light touch."""
     if isinstance(case.start, Apart) or isinstance(case, Groups) and case.tabor > _SPHERE_TABOR:
         return []
-    case = replace(case, material=standard(luck), moves=(), stiffness=None)
+    case = replace(case, material=standard(luck), moves=(), stiffness=None, rate=case.rate or 1.0)
     depth = float(by_simulation(case).series["depth"][0])
     if depth <= 0:
         return []
@@ -490,9 +490,7 @@ def long_dwell(case: Case, luck: Luck) -> Found:
         case,
         start=AtDepth(depth * luck.within(0.3, 0.8)),
         moves=(Approach(luck.decades(1e-2, 10) * (1 + depth), AtDepth(depth)), Dwell(200.0)),
-        rate=case.rate or 1.0,
     )
-    case = replace(case, rate=pressed.rate)
     one, other = by_simulation(case), by_simulation(pressed)
     names = ("pull_off_force", "pull_off_stress", "pull_off_depth", "contact_radius_at_pull_off")
     names += ("ligament_at_pull_off", "work_to_pull_off", "work_of_separation")
