@@ -56,11 +56,13 @@ mutants: $(VENV)/.installed
 	$(INSTALL) --editable ".[mutants]"
 	$(BIN)/python benchmarks/mutants.py --seed $(SEED) --log out/mutants-$(SEED).jsonl
 
-# Relations that need no reference, between answers to random problems: as many as fit in MINUTES, about
-# 100 a minute of one core. Ends with 1 where one does not hold; a log lets it go on where it was stopped.
-MINUTES ?= 25
+# Relations that need no reference, between answers to random problems: CHECKS of them or what fits in
+# MINUTES; 80 to 100 a minute of one quiet core. Ends with 1 where one does not hold; what was stopped
+# goes on by its log.
+MINUTES ?= 45
+CHECKS ?= 3000
 fuzz: $(VENV)/.installed
-	$(BIN)/python -m fuzz --seed $(SEED) --minutes $(MINUTES) --log out/fuzz-$(SEED).jsonl
+	$(BIN)/python -m fuzz --seed $(SEED) --minutes $(MINUTES) --checks $(CHECKS) --log out/fuzz-$(SEED).jsonl
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -429,6 +429,8 @@ def split_retraction(case: Case, luck: Luck, crack: bool = False) -> Found:
     one = ask(case)
     depth = one.series["depth"]
     last = np.flatnonzero(one.series["move"] == len(case.moves))
+    if not np.isfinite(one.series["contact_radius"][last[:1]]).any():
+        return []  # it has let go before
     begin, end = depth[max(last[0] - 1, 0)], depth[last[-1]]
     to = AtDepth(float(begin + luck.within(0.1, 0.9) * (end - begin)))
     other = ask(replace(case, moves=(*case.moves, Retract(case.rate, to))))
