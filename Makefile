@@ -10,7 +10,7 @@ export OMP_NUM_THREADS = 1
 export OPENBLAS_NUM_THREADS = 1
 export MKL_NUM_THREADS = 1
 
-.PHONY: demo test test-slow test-outside test-processors lint types bench mutants verification clean
+.PHONY: demo test test-slow test-outside test-processors lint types bench mutants fuzz verification clean
 
 # What the demo needs: the package and what it stands on. Python compiles of it what is used, when it
 # is used; all of it would be half of the time of the install.
@@ -55,6 +55,14 @@ SEED ?= 1
 mutants: $(VENV)/.installed
 	$(INSTALL) --editable ".[mutants]"
 	$(BIN)/python benchmarks/mutants.py --seed $(SEED) --log out/mutants-$(SEED).jsonl
+
+# Relations that need no reference, between answers to random problems: CHECKS of them or what fits in
+# MINUTES; 80 to 100 a minute of one quiet core. Ends with 1 where one does not hold; what was stopped
+# goes on by its log.
+MINUTES ?= 45
+CHECKS ?= 3000
+fuzz: $(VENV)/.installed
+	$(BIN)/python -m fuzz --seed $(SEED) --minutes $(MINUTES) --checks $(CHECKS) --log out/fuzz-$(SEED).jsonl
 
 bench: $(VENV)/.installed
 	$(BIN)/python benchmarks/bench.py

@@ -9,7 +9,20 @@ import pytest
 
 import synthetic
 import viscotack.campaign
-from viscotack import InputError, pull_off, pull_off_force, run_id, solve, to_dict
+from viscotack import (
+    Apart,
+    Approach,
+    AtDepth,
+    Elastic,
+    Groups,
+    InputError,
+    Retract,
+    pull_off,
+    pull_off_force,
+    run_id,
+    solve,
+    to_dict,
+)
 from viscotack.campaign import CaseSettings, measure
 from viscotack.campaign.case import (
     KEY_SHARES,
@@ -183,3 +196,20 @@ def test_a_case_that_marches_too_long_ends_by_itself():
 def test_impossible_settings_are_refused(changed, words):
     with pytest.raises(ValueError, match=words):
         CaseSettings(**changed)
+
+
+@pytest.mark.parametrize("deeper_first", [True, False])
+def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
+    depths = (4.0, 2.0) if deeper_first else (2.0, 4.0)
+    first, last = (Approach(20.0, AtDepth(depth)) for depth in depths)
+    groups = Groups(
+        tabor=0.5,
+        material=Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        start=Apart(15.0),
+        moves=(first, Retract(1.0, AtDepth(-14.0)), last),
+        rate=1.0,
+    )
+    row = measure(groups, QUICK)
+    assert row["trajectory_depth"][0] == pytest.approx(depths[1])
+    assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["pull_off_depth"])
+    assert np.all(np.diff(row["trajectory_depth"]) < 0)

@@ -22,6 +22,7 @@ from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
 from viscotack.result.observables import PullOff, pull_off, summary
+from viscotack.result.parts import spans
 
 from ..result import Outcome, Result
 from .identity import identity, words
@@ -233,13 +234,17 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
 
 
 def retraction(result: Result) -> tuple[Array, Array, Array]:
-    """Return depth [h0], force and contact radius at the steps of a run, from the deepest one on.
+    """Return depth [h0], force and contact radius at the steps of the last opening of a run.
 
-    The depth falls from step to step: where the curve jumps it stands still, and the state after
-    the jump is kept. Force and radius are dimensionless as in `Result`.
+    From its deepest step on; the depth falls from step to step. Where the curve jumps it stands
+    still, and the state after the jump is kept. Force and radius are dimensionless as in `Result`.
     """
-    first = int(np.flatnonzero(result.depth == result.depth.max())[-1])
-    moved = first + np.flatnonzero(np.append(np.diff(result.depth[first:]) < 0, True))
+    turn = spans(result)[-1].turn
+    depth = result.depth[turn:]
+    first = int(np.flatnonzero(depth == depth.max())[-1])
+    later = np.maximum.accumulate(depth[::-1])[::-1]
+    falls = np.append(depth[:-1] > later[1:], True)
+    moved = turn + first + np.flatnonzero(falls[first:])
     return result.depth[moved], result.force[moved], result.contact_radius[moved]
 
 

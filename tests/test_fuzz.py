@@ -1,0 +1,87 @@
+"""The fuzzer: relations hold of a few cases, and a planted defect is found, shrunk and repeated."""
+
+import json
+import shlex
+
+import numpy as np
+import pytest
+
+from fuzz import __main__ as fuzz
+from fuzz.cases import Luck, contact, of_text
+from fuzz.shrinking import shrunk
+from viscotack import AtForce, Groups, LennardJones, PunchGroups, Sphere, StandardSolid
+from viscotack.result import Result
+
+QUICK = ("passive", "split-material", "one-arm-material", "law", "case-file", "nesting")
+SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+CASE = Groups(tabor=0.5, material=SOLID, start=AtForce(0.0), rate=10.0)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_relations_of_materials_laws_and_doors_hold(name, capsys):
+    assert fuzz.main(["--seed", "3", "--checks", "4", "--only", name]) == 0
+    assert "4 checks" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["si-scale", "split-retraction", "rest", "energy", "until"])
+def test_relations_of_a_simulation_hold(name):
+    assert fuzz.judge(fuzz.RELATIONS[name], CASE, draw=5) == []
+
+
+def test_cases_are_those_of_their_seed_and_their_text():
+    cases = [contact(Luck(4, number)) for number in range(20)]
+    assert cases == [contact(Luck(4, number)) for number in range(20)]
+    assert [of_text(repr(case)) for case in cases] == cases
+
+
+def test_a_planted_defect_is_found_shrunk_logged_and_repeated(monkeypatch, tmp_path, capsys):
+    right = StandardSolid.creep
+
+    def wrong(self, time):
+        return right(self, np.asarray(time) * (1.1 if self.glassy_modulus > 100 else 1.0))
+
+    monkeypatch.setattr(StandardSolid, "creep", wrong)
+    log = tmp_path / "log.jsonl"
+    given = ["--seed", "1", "--checks", "20", "--only", "one-arm-material", "--log", str(log)]
+    assert fuzz.main(given) == 1
+    found = [json.loads(line) for line in log.read_text().splitlines()]
+    findings, (end,) = [f for f in found if "command" in f], [f for f in found if "next" in f]
+    assert end["next"] == 20 and findings and findings[0]["wrong"][0].startswith("creep apart by")
+    modulus = of_text(shlex.split(findings[0]["command"])[-1]).glassy_modulus
+    assert modulus > 100 and float(f"{modulus:.0e}") == modulus
+    # the command stands alone: it repeats the finding, and holds where the defect is mended
+    words = shlex.split(findings[0]["command"])[3:]
+    assert fuzz.main(words) == 1
+    monkeypatch.undo()
+    assert fuzz.main(words) == 0
+    # a log that is complete is not run again, and still says that something was found
+    capsys.readouterr()
+    assert fuzz.main(given) == 1
+    assert "20 checks" in capsys.readouterr().out
+
+
+def test_a_wrong_scale_of_a_series_is_found(monkeypatch):
+    plain = fuzz.RELATIONS["stiff-spring"]
+    assert fuzz.judge(plain, CASE, draw=0) == []
+    checked = Result.__post_init__
+
+    def scaled(self):
+        if self.problem.groups().stiffness is not None:
+            object.__setattr__(self, "contact_radius", 1.3 * np.asarray(self.contact_radius))
+        checked(self)
+
+    monkeypatch.setattr(Result, "__post_init__", scaled)
+    assert any("contact_radius" in words for words in fuzz.judge(plain, CASE, draw=0))
+
+
+def test_a_case_is_shrunk_to_what_makes_it_fail():
+    case = next(
+        case
+        for case in (contact(Luck(9, number)) for number in range(99))
+        if case.stiffness is not None and len(case.moves) > 1 and isinstance(case, Groups)
+    )
+    small = shrunk(case, lambda simpler: simpler.stiffness is not None and simpler.tabor > 0.01)
+    assert small.moves == () or small.rate is None
+    assert small.traction == LennardJones(1.0, 1.0) and small.geometry == Sphere(1.0)
+    assert small.start == AtForce(0.0) and not isinstance(small, PunchGroups)
+    assert float(f"{small.stiffness:.0e}") == small.stiffness
