@@ -15,11 +15,10 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+import viscotack as vt
 from fuzz.cases import OWN, Luck, contact
 from fuzz.doors import client, in_words, learned_punch, learned_sphere
 from fuzz.relations import in_si
-
-import viscotack as vt
 from viscotack.app.engine.asks import ask_verdict
 from viscotack.app.engine.quick import quick
 from viscotack.app.engine.state import state_of_toml
