@@ -220,11 +220,11 @@ def _headline(advice: Advice) -> str:
     """Return the best answer in words."""
     if advice.pull_off_force is None or advice.interval is None:
         return ""
-    low, high = advice.interval
+    scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
+    force, low, high = (scale * x for x in (advice.pull_off_force, *advice.interval))
     return (
-        f" Pull-off force {advice.pull_off_force:.4g} x 1.5 pi R dg0 ({low:.4g} to {high:.4g} in "
-        f"nine of ten cases, by the tier {advice.use!r}): {advice.amplification:.3g} times the "
-        "slow force."
+        f" Pull-off force {force:.4g} {unit} ({low:.4g} to {high:.4g} in nine of ten cases, by the "
+        f"tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
     )
 
 
