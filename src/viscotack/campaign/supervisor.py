@@ -132,9 +132,10 @@ class LocalCrew:
     def dismiss(self, *, at_once: bool) -> None:
         """End the processes: when they have seen that nobody needs them, or at once."""
         for worker in self._workers:
-            worker.line.close()
             if at_once or worker.number is not None:
+                # before its line closes, or it might end by itself first
                 worker.process.kill()
+            worker.line.close()
         until = monotonic() + _PATIENCE
         for worker in self._workers:
             try:
