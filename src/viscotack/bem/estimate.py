@@ -32,13 +32,13 @@ from viscotack.result.parts import move_numbers, moves_of, waits
 # The companion of a run is less accurate by this factor.
 COARSER = 4.0
 # The difference to the companion over COARSER - 1 counts so many times ...
-_MARGIN = {"force": 3.0, "work": 3.0, "time": 3.4, "depth": 3.0}
+_MARGIN = {"force": 3.0, "work": 3.5, "time": 3.4, "depth": 3.3}
 # ... and these parts of the accuracy count at least, as errors may cancel in the difference: of the
 # number, and of the travel in tension for the depth.
 _FLOOR = {"force": 0.2, "work": 0.4, "time": 1.0, "depth": 0.4}
 # An error of the force moves its minimum, and what the drive does beside it is lost or won. So many
 # times the accuracy is taken for that error where it changes over the depths of the contact.
-_MOVED = {"work": 0.3, "depth": 0.3}
+_MOVED = {"work": 0.85, "depth": 0.5}
 # Of an elastic solid all of that counts so many times: nothing but the nodes holds its edge, whose
 # places on them have errors that do not fall with the second order.
 _ELASTIC = 1.6
