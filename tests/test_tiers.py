@@ -114,6 +114,10 @@ def test_a_larger_budget_brings_the_simulation_in_where_no_surrogate_answers():
     result = vt.solve(case, until="pull-off")
     assert exact.pull_off_force == vt.pull_off_force(result) == simulated.pull_off_force
     assert exact.work_to_pull_off == vt.work_to_pull_off(result)
+    assert exact.curve.depth[-1] == pytest.approx(vt.pull_off(result).depth, rel=1e-12)
+    assert exact.curve.force[-1] == -exact.pull_off_force
+    low, high = exact.depth_interval
+    assert low < exact.curve.depth[-1] < high
     # a surrogate that covers the problem needs no budget
     assert vt.predict(groups(), budget=10.0).method == "surrogate"
 

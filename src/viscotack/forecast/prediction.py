@@ -59,7 +59,7 @@ class Prediction:
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
         retraction, shape (24,) each; of a punch, as in a :class:`viscotack.Result`, mean stress
         [sigma0], compression positive, and half length of the contact [a0]. The last point is the
-        pull-off. None where a theory or a simulation answers.
+        pull-off. None where a theory answers.
     curve_band : float or None
         How far the force in tension is off at worst, at the same travel from zero force (or from a
         start in tension), with that confidence [1.5 pi R dg0]; None without a curve.

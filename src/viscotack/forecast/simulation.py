@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from viscotack.bem.crack_band import not_measured
+from viscotack.campaign.case import curve
 from viscotack.errors import InputError, OutOfRange
 from viscotack.result import Outcome, Result
-from viscotack.result.observables import pull_off_force, work_to_pull_off
+from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
+from viscotack.surrogate.line import Curves
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .question import Question
@@ -29,7 +33,8 @@ def by_simulation(asked: Question) -> Prediction:
     stated = result.error_estimate or {}
     if result.outcome is Outcome.STOPPED or "force" not in stated:
         raise OutOfRange(f"no simulation whose error is known: {result.status}")
-    force, work = pull_off_force(result), _work(result)
+    found, work = pull_off(result), _work(result)
+    force, depth = found.force, stated.get("depth")
     handed_over = result.method != SIMULATION
     measured = not (handed_over and not_measured(asked.groups))
     return Prediction(
@@ -42,10 +47,22 @@ def by_simulation(asked: Question) -> Prediction:
         method=result.method,
         inside=not handed_over,
         why=result.status,
-        curve=None,
+        curve=_curve(result, found),
         curve_band=None,
         problem=asked.problem,
+        depth_interval=None if depth is None else (found.depth - depth, found.depth + depth),
     )
+
+
+def _curve(result: Result, found: PullOff) -> Curves:
+    """Return the unloading curve to the pull-off at the points of a predicted one."""
+    row, kind, groups = curve(result, found), result.problem.outputs, result.groups
+    load, edge = (
+        np.array(row[f"trajectory_{kind.name_of(name)}"], dtype=float)
+        / kind.of(name).factor(groups)
+        for name in ("force", "contact_radius")
+    )
+    return Curves(np.array(row["trajectory_depth"]), load, edge)
 
 
 def _work(result: Result) -> float | None:
