@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.bem.crack_band import not_measured
 from viscotack.campaign.case import curve
@@ -13,6 +14,8 @@ from viscotack.surrogate.line import Curves
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .question import Question
+
+Array = npt.NDArray[np.float64]
 
 SIMULATION = "simulation"
 
@@ -57,12 +60,13 @@ def by_simulation(asked: Question) -> Prediction:
 def _curve(result: Result, found: PullOff) -> Curves:
     """Return the unloading curve to the pull-off at the points of a predicted one."""
     row, kind, groups = curve(result, found), result.problem.outputs, result.groups
-    load, edge = (
-        np.array(row[f"trajectory_{kind.name_of(name)}"], dtype=float)
-        / kind.of(name).factor(groups)
-        for name in ("force", "contact_radius")
-    )
-    return Curves(np.array(row["trajectory_depth"]), load, edge)
+
+    def column(name: str) -> Array:
+        values = np.array(row[f"trajectory_{kind.name_of(name)}"], dtype=float)
+        return values / kind.of(name).factor(groups)
+
+    depth = np.array(row["trajectory_depth"])
+    return Curves(depth, column("force"), column("contact_radius"))
 
 
 def _work(result: Result) -> float | None:
