@@ -62,7 +62,8 @@ class Prediction:
         pull-off. None where a theory answers.
     curve_band : float or None
         How far the force in tension is off at worst, at the same travel from zero force (or from a
-        start in tension), with that confidence [1.5 pi R dg0]; None without a curve, and of a simulation.
+        start in tension), with that confidence [1.5 pi R dg0]; None without a curve, and of a
+        simulation.
     zero_force_depth : float or None
         Depth at which the force of a pressed start is zero [h0]; None for starts in tension, and
         without a curve.
