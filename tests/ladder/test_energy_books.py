@@ -1,16 +1,21 @@
 """Energy books on the ladder: each term derived a second way, from series, law and spring."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from viscotack.bem import solve
+from viscotack.bem import Settings, solve
+from viscotack.bem.body import Body, State
+from viscotack.bem.machine import Hold
+from viscotack.bem.solver import contact_of
 from viscotack.geometry import Cone
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
+from viscotack.traction import Exponential
 
 sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
 from energy_books import compared  # noqa: E402
@@ -133,3 +138,36 @@ def test_each_energy_is_what_a_second_derivation_gives(groups):
     names = ("drive", "spring", "interface", "elastic", "heat", "mode", "missing")
     within = 1e-3 * found["at_indenter"]  # which no soft spring can enlarge
     assert {name: found[name] for name in names if not found[name] < within} == {}
+
+
+DEEPER = sphere(
+    Approach(3.0, AtForce(5.0)),
+    start=AtForce(1.0),
+    tabor=5.0,
+    material=replace(POWER_LAW, glassy_modulus=80.0),
+    traction=Exponential(1.0, 1.0, decay=0.157),
+)
+
+
+def test_a_mesh_that_grows_with_the_depth_stores_nothing_beyond_the_old_one():
+    energy = run(DEEPER).energy
+    assert np.max(np.abs(energy.transfer)) < 2e-4 * np.ptp(energy.elastic)
+
+
+def test_new_nodes_beyond_the_last_need_no_force():
+    contact = contact_of(DEEPER)
+    settings = Settings.for_accuracy(0.01)
+    start = contact.relaxed(DEEPER.start, settings)
+    modes = DEEPER.material.retardation_modes(shortest=1e-3, longest=1.0, tolerance=1e-3)
+    body = Body(contact, modes, np.asarray(modes.weights))
+    first, old = body.first(start), start.surface.position
+    nodes = contact.grading(settings, 4 * start.depth).nodes(start.edge, start.lattice)
+    assert nodes[-1] > 1.2 * old[-1]
+    moved = body.remeshed(first, nodes, Hold(np.inf, depth=start.depth))
+    assert isinstance(moved, State)
+    beyond = nodes > old[-1]
+    held = np.max(np.abs(first.memory.force))
+    assert np.max(np.abs(moved.memory.force[:, beyond])) < 1e-9 * held
+    assert moved.memory.stored(body.weights) == pytest.approx(
+        first.memory.stored(body.weights), rel=2e-3, abs=0
+    )

@@ -196,21 +196,25 @@ class Body:
         def carried(fields: npt.NDArray) -> npt.NDArray:
             return CubicSpline(old, fields, axis=-1)(nodes)
 
-        d = carried(state.memory.displacement)
+        d = _free_beyond(old[-1], surface, carried(state.memory.displacement))
         memory = Memory(d, d @ surface.stiffness)
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
         guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
         opening = None if state.extra is None else state.extra.opening.carried(carried)
-        machine, balance = self.net(hold, state), None
+        machine, balance, speed = self.net(hold, state), None, None
+        law: Any = self.law(opening)
         if opening is not None and opening.length:
-            again = Stepped.again(self.contact.law, self.growing, guess, opening)
-            balance, speed = driven(surface, again, free, c, guess, machine)
-            opening = opening if speed is None else replace(opening, speed=speed)
+            # speeds must change with the gaps: frozen ones attract what closes as if it opened
+            law = Stepped.again(self.contact.law, self.growing, guess, opening)
+            balance, speed = driven(surface, law, free, c, guess, machine)
         if balance is None:
-            balance = descend(surface, self.law(opening), free, c, guess, machine)
+            balance = descend(surface, law, free, c, guess, machine)
         if not balance.stable:
             return balance
+        if opening is not None and opening.length:
+            speed = law.speed(balance.gap) if speed is None else speed
+            opening = replace(opening, speed=speed)
         e = (balance.gap - free + balance.depth) / c
         rates = state.rates
         rates = replace(
@@ -289,6 +293,29 @@ class Body:
 def _at_rest(gap: npt.NDArray) -> Rates:
     zero = np.zeros_like(gap)
     return Rates(zero, 0.0, zero, known=False)
+
+
+def _free_beyond(last: float, surface: Surface, displacement: npt.NDArray) -> npt.NDArray:
+    r"""Return displacements [h0] that need no force on the nodes beyond the last loaded one.
+
+    With i the nodes up to there and o those beyond, :math:`S_{oo} d_o = -S_{oi} d_i`: the surface
+    beyond the load. A spline that is drawn on instead puts forces there, which slow modes store.
+
+    Parameters
+    ----------
+    last : float
+        Last loaded place [unit of the mesh].
+    surface : Surface
+        The nodes.
+    displacement : ndarray, shape (M, N)
+        Displacements of the relaxed solid [h0], positive outwards; those beyond do not matter.
+    """
+    beyond = surface.position > last
+    if not beyond.any():
+        return displacement
+    rows, d = surface.stiffness[beyond], displacement.copy()
+    d[:, beyond] = -np.linalg.solve(rows[:, beyond], rows[:, ~beyond] @ d[:, ~beyond].T).T
+    return d
 
 
 def _shifted(state: State, distance: float) -> npt.NDArray:
