@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings, jumps, solve
 from viscotack.bem.body import Body, State
 from viscotack.bem.machine import Hold
 from viscotack.bem.solver import contact_of
@@ -171,3 +171,26 @@ def test_new_nodes_beyond_the_last_need_no_force():
     assert moved.memory.stored(body.weights) == pytest.approx(
         first.memory.stored(body.weights), rel=2e-3, abs=0
     )
+
+
+def test_a_step_that_would_create_energy_is_cut():
+    # the load changes by a sixth of the pull-off force in the first step of its ramp
+    loaded = sphere(
+        LoadTo(-824.3, 3.864e-3),
+        start=AtForce(0.0),
+        tabor=1.378,
+        material=replace(POWER_LAW, glassy_modulus=798.8, exponent=1.489),
+    )
+    energy = solve(loaded, estimate_error=False).energy
+    assert np.min(np.diff(energy.jumps)) > -1e-3 * abs(energy.interface[0])
+
+
+def test_new_nodes_that_would_tip_a_contact_uphill_are_not_taken(monkeypatch):
+    def tipped(run, at):
+        seen = replace(at.seen, force=at.seen.force - 1.0)
+        return replace(at, state=replace(at.state, seen=seen)), -1.0
+
+    monkeypatch.setattr(jumps, "_chased", tipped)
+    result = run(sphere(rate=20.0, tabor=2.0, material=SOLID), until="pull-off")
+    assert result.statistics["meshes"] == 1 and not result.events
+    assert np.max(np.abs(result.energy.jumps)) < 1e-9

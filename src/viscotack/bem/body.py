@@ -196,7 +196,7 @@ class Body:
         def carried(fields: npt.NDArray) -> npt.NDArray:
             return CubicSpline(old, fields, axis=-1)(nodes)
 
-        d = _free_beyond(old[-1], surface, carried(state.memory.displacement))
+        d = surface.free_beyond(old[-1], carried(state.memory.displacement))
         memory = Memory(d, d @ surface.stiffness)
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
@@ -293,29 +293,6 @@ class Body:
 def _at_rest(gap: npt.NDArray) -> Rates:
     zero = np.zeros_like(gap)
     return Rates(zero, 0.0, zero, known=False)
-
-
-def _free_beyond(last: float, surface: Surface, displacement: npt.NDArray) -> npt.NDArray:
-    r"""Return displacements [h0] that need no force on the nodes beyond the last loaded one.
-
-    With i the nodes up to there and o those beyond, :math:`S_{oo} d_o = -S_{oi} d_i`: the surface
-    beyond the load. A spline that is drawn on instead puts forces there, which slow modes store.
-
-    Parameters
-    ----------
-    last : float
-        Last loaded place [unit of the mesh].
-    surface : Surface
-        The nodes.
-    displacement : ndarray, shape (M, N)
-        Displacements of the relaxed solid [h0], positive outwards; those beyond do not matter.
-    """
-    beyond = surface.position > last
-    if not beyond.any():
-        return displacement
-    rows, d = surface.stiffness[beyond], displacement.copy()
-    d[:, beyond] = -np.linalg.solve(rows[:, beyond], rows[:, ~beyond] @ d[:, ~beyond].T).T
-    return d
 
 
 def _shifted(state: State, distance: float) -> npt.NDArray:

@@ -29,12 +29,18 @@ _LOOKS = 8
 # What is lost on new nodes after a step that has lost nothing is a jump from so many times the
 # tolerated imbalance on.
 _CLEARLY = 5.0
+# A step that creates more energy than so many times what may go missing is no jump, but too long:
+# it is made so much shorter, so many times.
+_CREATED, _CUT, _MOST_CUTS = 25.0, 0.4, 8
 # After a jump the edge may be far from the fine nodes: so many meshes go after it.
 _MOST_MESHES = 200
 
 
-def shortest_step(run: Run, at: Place, s: Step) -> Place:
-    """Return where a step leads that can be no shorter: where that is too far, it is a jump."""
+def shortest_step(run: Run, at: Place, s: Step, cuts: int = _MOST_CUTS) -> Place:
+    """Return where a step leads that can be no shorter: where that is too far, it is a jump.
+
+    A jump loses energy. A step that creates some is cut after all, up to so many times.
+    """
     s, trial = _way_down(run, at, s)
     if trial.released:
         _let_go(run, at.seen, trial.after.seen.time)
@@ -45,6 +51,13 @@ def shortest_step(run: Run, at: Place, s: Step) -> Place:
         run.history.outcome = "shut" if run.history.pressed else "lost"
         return at
     attempt = weighed(run, at, s, trial)
+    if attempt.missing < -_CREATED * attempt.tolerated:
+        run.history.rejected += 1
+        if cuts == 0:
+            run.history.outcome = "lost"
+            return at
+        shorter = replace(at, dt=_CUT * at.dt)
+        return shortest_step(run, shorter, step(run.body.modes, shorter.dt), cuts - 1)
     after = _jumped(run, at, attempt) if attempt.too_long else arrived(at, attempt)
     run.keep(after)
     return after
@@ -54,7 +67,8 @@ def followed(run: Run, at: Place) -> Place:
     """Return the march with the fine nodes around its edge, what that costs being booked.
 
     Coarse nodes may hold an edge that has run out of the fine ones where nothing else does, behind
-    a soft spring for example. New nodes then tip it over the brink, and it is a jump.
+    a soft spring for example. New nodes then tip it over the brink, and it is a jump. Where that
+    would create energy, the march goes on with the nodes it has.
     """
     moved, gone = _chased(run, at)
     now, then = at.seen, moved.seen
@@ -62,6 +76,8 @@ def followed(run: Run, at: Place) -> Place:
     tipped = abs(then.force - now.force) > force_change(run, moved)
     if not (tipped or _went_far(run, moved, now)):
         return replace(moved, books=replace(books, transfer=books.transfer + gone))
+    if gone < -_CREATED * run.settings.imbalance * run.history.measure(books, now):
+        return _staying(at)
     # it lies behind the step that is kept, and before the next
     behind = replace(then, time=float(np.nextafter(now.time, np.inf)))
     run.history.events.append(_event(now, behind, gone))
@@ -153,6 +169,11 @@ def _on_new_nodes(run: Run, at: Place) -> Place:
         return moved
     if moved.released:  # a dead load had nothing left that holds it
         _let_go(run, at.seen, at.seen.time)
+    return _staying(at)
+
+
+def _staying(at: Place) -> Place:
+    """Return the march on the nodes it has, which count as those around its edge."""
     return replace(at, mesh=replace(at.mesh, edge=at.seen.edge))
 
 

@@ -49,6 +49,27 @@ class Surface:
     whole: float
     interface: Interface
 
+    def free_beyond(self, last: float, displacement: npt.NDArray) -> npt.NDArray:
+        r"""Return displacements [h0] that need no force on the nodes beyond the last loaded one.
+
+        With i the nodes up to there and o those beyond, :math:`S_{oo} d_o = -S_{oi} d_i`: the
+        surface beyond the load. A spline that is drawn on puts forces there, which slow modes
+        store.
+
+        Parameters
+        ----------
+        last : float
+            Last loaded place [unit of the mesh].
+        displacement : ndarray, shape (M, N)
+            Displacements of the relaxed solid [h0], positive outwards; those beyond do not matter.
+        """
+        beyond = self.position > last
+        if not beyond.any():
+            return displacement
+        rows, d = self.stiffness[beyond], displacement.copy()
+        d[:, beyond] = -np.linalg.solve(rows[:, beyond], rows[:, ~beyond] @ d[:, ~beyond].T).T
+        return d
+
     def nodal(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
         """Return the nodal forces, compression positive."""
         return -self.interface.at(law, gap).tension()

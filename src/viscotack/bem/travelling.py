@@ -201,7 +201,7 @@ class _Nodes:
         if mesh.left_by(there):
             mesh = mesh.around(there, opening(state, body.contact))
             surface = body.contact.surface(mesh.nodes())
-            d = CubicSpline(old, d, axis=-1)(surface.position)
+            d = surface.free_beyond(old[-1], CubicSpline(old, d, axis=-1)(surface.position))
         return cls(
             mesh,
             surface,
