@@ -135,6 +135,17 @@ def test_a_jump_within_tension_does_not_end_the_count():
     assert work_to_pull_off(result) == pytest.approx(9.1, rel=1e-12)
 
 
+def test_a_jump_is_found_among_steps_of_the_same_time():
+    """Before a runaway steps are so short that the clock shows the same time for several."""
+    x = np.array([-0.5, 0.0, 0.5, 1.0, 1.5, 900.0, 900.5])
+    force = np.array([1.0, 0.0, -1.0, -0.9, -0.8, -0.1, 0.0])
+    time = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.1])
+    jump = Event("jump", time=3.0, depth=-900.0, force=-0.8, energy=300)
+    work = work_of_separation(plain(-x, force, time=time, events=(jump,)))
+    # triangle and trapezium before the jump, a triangle behind it
+    assert work == pytest.approx(0.25 + 0.9 + 0.025, abs=0.05)
+
+
 def test_a_minimum_at_a_jump_is_not_drawn_past_it():
     x = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 4.0])
     force = np.array([1.0, -1.0, -3.0, -5.0, -0.5, -0.3])

@@ -15,7 +15,7 @@ from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
 from viscotack.protocol import Dwell, LoadTo
 
-from . import Outcome, Result
+from . import Event, Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
 
 Array = npt.NDArray[np.float64]
@@ -275,7 +275,7 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
 def _pieces(result: Result, span: Span) -> list[_Piece]:
     """Return the opening part of a cycle as runs of steps between jumps, stops and turns."""
     part = np.arange(span.turn, span.last + 1)
-    depth, time = result.depth, result.time
+    depth = result.depth
     first = span.turn + int(np.flatnonzero(depth[part] == depth[part].max())[-1])
     moves, number = moves_of(result), move_numbers(result)
     waiting = np.array([waits(move) for move in moves])[number]
@@ -284,7 +284,7 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
     jumped = np.zeros(len(broken), dtype=bool)
     for event in result.events:
         if event.kind.startswith("jump"):
-            jumped |= (time[:-1] < event.time) & (event.time <= time[1:])
+            jumped |= _jump(result, event)
     # where the drive goes on, and only the clock stands still, it is a jump as well
     goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
     jumped |= (np.diff(depth) == 0) & goes_on
@@ -306,6 +306,17 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
             begin = end + (not bends)
             starts = bool(jumped[end]) and bool(np.isfinite(result.contact_radius[begin]))
     return pieces
+
+
+def _jump(result: Result, event: Event) -> npt.NDArray[np.bool_]:
+    """Return of each step but the last whether an event lies between it and the next one.
+
+    Many steps may have the time of a jump to the last digit: the depth tells which one it led to.
+    A jump on the way to a step that is kept later has a time of its own.
+    """
+    time, depth = result.time, result.depth
+    reached = (time[1:] == event.time) & (depth[1:] == event.depth)
+    return reached if reached.any() else (time[:-1] < event.time) & (event.time <= time[1:])
 
 
 def _nearest(x: Array, i: int) -> slice:
