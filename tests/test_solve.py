@@ -7,9 +7,10 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
+from viscotack.geometry import Cone
 from viscotack.materials import Elastic, Material, StandardSolid
 from viscotack.problem import Groups, PunchGroups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (
     pull_off_depth,
     pull_off_force,
@@ -280,3 +281,14 @@ def test_a_runaway_behind_a_soft_spring_adds_no_work():
     groups = replace(start, traction=law, stiffness=2e-5)
     result = solve(groups, accuracy=0.01, estimate_error=False, throw=False)
     assert work_to_pull_off(result) < work_of_separation(result) < 10
+
+
+def test_a_dwell_at_a_start_beyond_the_force_minimum_changes_no_pull_off():
+    sphere = case(AtDepth(0.3), tabor=0.2, rate=4.0, material=ELASTIC)
+    alone = replace(sphere, geometry=Cone(slope=1.0))
+    waits = replace(alone, moves=(Dwell(1.0),))
+    forces = [
+        pull_off_force(solve(each, accuracy=0.01, estimate_error=False, throw=False))
+        for each in (alone, waits)
+    ]
+    assert forces == pytest.approx([11.0118, 11.0118], rel=1e-4)

@@ -55,8 +55,8 @@ class _Piece:
     """Steps over which the depth falls without a break.
 
     A force that is least at its end is a minimum where it `snaps` there, and one that is least
-    at its beginning where it `starts` there: with the test itself, or after a jump that left some
-    contact. Where the machine turns or stops, it is not.
+    at its beginning where it `starts` there: with the test itself, behind dwells at its relaxed
+    start, or after a jump that left some contact. Where the machine turns or stops, it is not.
     """
 
     steps: npt.NDArray[np.intp]
@@ -289,9 +289,11 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
     goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
     jumped |= (np.diff(depth) == 0) & goes_on
     stopped = (number[1:] != number[:-1]) & (waiting[1:] | waiting[:-1])
-    stopped[:first] = False
+    stopped[: first + 1] = False
     ends = [i for i in range(first, span.last) if broken[i] or jumped[i] or stopped[i]]
-    pieces, begin, starts = [], first, first == 0
+    # a dwell at the relaxed start changes nothing: the test begins behind it
+    rested = all(waits(moves[i]) for i in np.unique(number[1 : first + 1]))
+    pieces, begin, starts = [], first, rested and not jumped[:first].any()
     for end in [*ends, span.last]:
         over = end == len(depth) - 1
         snaps = result.outcome is Outcome.JUMPED if over else end < span.last and bool(jumped[end])
