@@ -8,7 +8,7 @@ import pytest
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
 from viscotack.geometry import Cone
-from viscotack.materials import Elastic, Material, StandardSolid
+from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (
@@ -292,3 +292,20 @@ def test_a_dwell_at_a_start_beyond_the_force_minimum_changes_no_pull_off():
         for each in (alone, waits)
     ]
     assert forces == pytest.approx([11.0118, 11.0118], rel=1e-4)
+
+
+def test_the_stated_error_of_the_work_holds_under_a_growing_load():
+    """Companions may let go at the same depth by chance, and finer runs elsewhere."""
+    solid = RelaxationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=5.0, exponent=1.0, tau0=1.0, poisson_ratio=0.0
+    )
+    rest = case(AtForce(0.0), tabor=0.18, material=solid)
+    pulled = replace(rest, rate=None, moves=(LoadTo(force=-5.8, duration=0.055),))
+    runs = [solve(pulled, accuracy=accuracy) for accuracy in (0.01, 0.005, 0.0025, 0.001)]
+    work = np.array([work_to_pull_off(each) for each in runs])
+    error = work * [each.error_estimate["work"] for each in runs]
+    depth = np.array([pull_off_depth(each) for each in runs])
+    shift = np.array([each.error_estimate["depth"] for each in runs])
+    assert np.all(np.abs(work - work[-1]) <= error)
+    assert np.all(np.abs(depth - depth[-1]) <= shift)
+    assert np.all(error < 0.2 * work)

@@ -130,9 +130,33 @@ def lost_beside(result: Result, span: Span) -> float:
     x, force = -result.depth[steps], result.force[steps]
     if not 0 < i < len(x) - 1 or _smooth(move_numbers(result)[steps], i) is None:
         return 0.0
-    before, after = np.diff(force[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
-    curvature = 2 * (after - before) / (x[i + 1] - x[i - 1])
-    return float(force[i] ** 2 / curvature)
+    return float(force[i] ** 2 / _curvature(x, force, i))
+
+
+def reach_of_fold(result: Result, span: Span) -> float:
+    r"""Return over which depths a growing load finds a contact on the brink [h0].
+
+    Under a load that grows the contact lets go at a fold, where the force :math:`P` of equilibrium
+    has no slope over the depth. A march with an error :math:`\epsilon P` ends anywhere where the
+    force is that near to the largest one:
+
+    .. math:: \Delta \delta = \sqrt{2 \epsilon P / P''}
+
+    Returned for :math:`\epsilon = 1`, with the curvature of the last three steps; 0 where the
+    contact does not let go under such a load.
+    """
+    steps, i = _valley_of(result, span)
+    moves, number = moves_of(result), move_numbers(result)
+    if i < 2 or i < len(steps) - 1 or not isinstance(moves[number[steps[i]]], LoadTo):
+        return 0.0
+    curvature = _curvature(-result.depth[steps], result.force[steps], i - 1)
+    return float(np.sqrt(-2 * result.force[steps[i]] / curvature)) if curvature > 0 else 0.0
+
+
+def _curvature(x: Array, y: Array, i: int) -> float:
+    """Return the second derivative of the parabola through a point and its neighbours."""
+    before, after = np.diff(y[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
+    return float(2 * (after - before) / (x[i + 1] - x[i - 1]))
 
 
 def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
