@@ -33,6 +33,8 @@ from viscotack.theory import (
 from viscotack.traction import LennardJones, effective_range, softening
 from viscotack.traction.growing import check_of_gap_alone
 
+from .allow_list import at_least, at_most
+
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
@@ -379,7 +381,7 @@ def _change(
     Two things do: a start that is hardly larger than the contact at pull-off is short of force, and
     a larger one takes longer, so that the bulk relaxes more and the edge is slower.
     """
-    if here is None or pressed is None or groups.tabor < _PRESSED_TABOR:
+    if here is None or pressed is None or not at_least(groups.tabor, _PRESSED_TABOR):
         return None
     factor = pressed.amplification * pressed.part / (here.amplification * here.part)
     band = next(band for least, band in _PRESSED if here.margin >= least)
@@ -434,18 +436,19 @@ def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None)
         )
         return Estimate(name, None, None, False, why)
     force = slowest * curve.pull_off_force / _JKR_FORCE
-    if mu < 1:
+    if not at_least(mu, 1):
         why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
         return Estimate(name, force, None, False, why)
-    if haste > _NEARLY:
+    if not at_most(haste, _NEARLY):
         why = (
             f"the bulk has no time to relax: {haste:.3g} contact heights are retracted in the "
             f"mean retardation time, and the theory holds to about {_RELAXED:g}"
         )
         return Estimate(name, force, None, False, why)
-    error = 0.2 if haste > _RELAXED else 0.05 if mu >= _JKR else 0.12
+    relaxed = at_most(haste, _RELAXED)
+    error = 0.2 if not relaxed else 0.05 if at_least(mu, _JKR) else 0.12
     why = "the bulk relaxes while the edge moves as a crack"
-    if haste > _RELAXED:
+    if not relaxed:
         why = "the bulk hardly relaxes while the edge moves; the force is up to 20 % low"
     return Estimate(name, force, error, True, why)
 
@@ -459,15 +462,15 @@ def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
         return Estimate(name, None, None, False, why)
     force = slowest * state.amplification
     for least, needed, error in _DETACHMENT:
-        if mu >= least and state.margin >= needed:
+        if at_least(mu, least) and at_least(state.margin, needed):
             why = "the edge moves as a crack, and the bulk answers with the creep up to then"
             return Estimate(name, force, error, True, why)
-    if mu < 1:
+    if not at_least(mu, 1):
         why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
     else:
         why = (
             f"the start is only {state.margin:.3g} times the contact radius at pull-off; it needs "
-            f"{1.2 if mu >= 2 else 2:g} times"
+            f"{1.2 if at_least(mu, 2) else 2:g} times"
         )
     return Estimate(name, force, None, False, why)
 
@@ -481,7 +484,7 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
     force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
     if abs(np.log(mu / rate.FITTED_TABOR)) > np.log(1.25):
         why = f"Eq. 4.24 was fitted at a Tabor number of 3.24 alone, this one is {mu:.3g}"
-    elif not 0.01 <= k <= 0.1 * (1 + 1e-9):
+    elif not (at_least(k, 0.01) and at_most(k, 0.1)):
         why = f"Eq. 4.24 was fitted for modulus ratios from 0.01 to 0.1, this one is {k:.3g}"
     elif preload == "raises":
         why = "Eq. 4.24 was fitted to preloads that were heavy enough"
