@@ -110,7 +110,7 @@ class ClosedForms:
     start_radius : float or None
         Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)].
     regime : str
-        "quasi-static", "rate-dependent" or "glassy".
+        "quasi-static", "rate-dependent" or "glassy"; "unknown" where no theory answers.
     preload : str
         As in :class:`viscotack.Advice`.
     preload_change : tuple of float or None
@@ -133,9 +133,9 @@ class ClosedForms:
     def regime_of(self, force: float) -> str:
         """Return the regime of a retraction whose pull-off force is known [1.5 pi R dg0]."""
         slow = force / self.slowest - 1 < _SLOW
-        if slow or self.regime != "quasi-static":
-            return "quasi-static" if slow else self.regime
-        return "rate-dependent"
+        if slow:
+            return "quasi-static"
+        return "glassy" if self.regime == "glassy" else "rate-dependent"
 
 
 def closed_forms(asked: Groups) -> ClosedForms:
@@ -160,6 +160,35 @@ def closed_forms(asked: Groups) -> ClosedForms:
     start = None
     if depth is not None:
         start = float(np.asarray(jkr.contact_radius_at_depth(depth, **_UNIT))) / _TIP
+    try:
+        return _by_theory(asked, groups, slowest, fastest, start)
+    except ValueError as error:  # a material has no modes as fine as a theory asks for
+        return _without_theory(str(error), slowest, fastest, start)
+
+
+_NAMES = ("elastic", "unloading", "detachment", "rate-fit", "glassy")
+
+
+def _without_theory(why: str, slowest: float, fastest: float, start: float | None) -> ClosedForms:
+    """Return the limits alone, where the theories have no answer for a material."""
+    limits = {"elastic": slowest, "glassy": fastest}
+    return ClosedForms(
+        slowest=slowest,
+        fastest=fastest,
+        start_radius=start,
+        regime="unknown",
+        preload="unknown",
+        preload_change=None,
+        edge_speed=None,
+        estimates=tuple(Estimate(name, limits.get(name), None, False, why) for name in _NAMES),
+    )
+
+
+def _by_theory(
+    asked: Groups, groups: Groups, slowest: float, fastest: float, start: float | None
+) -> ClosedForms:
+    """Evaluate the theories of a moving edge."""
+    depth = start_depth(groups)
     # where JKR has no such start the regime is that of a pull from no load
     free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
     curve = _unloading(groups, free if depth is None else depth)

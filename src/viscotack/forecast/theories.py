@@ -89,6 +89,8 @@ def crack_of(asked: Question) -> CrackContact | InputError:
         return crack_contact(asked.problem)
     except InputError as error:
         return error
+    except ValueError as error:  # of a material of the user's
+        return InputError(str(error))
 
 
 def estimate_of(asked: Question, name: str) -> Estimate:
