@@ -135,6 +135,36 @@ def test_a_jump_within_tension_does_not_end_the_count():
     assert work_to_pull_off(result) == pytest.approx(9.1, rel=1e-12)
 
 
+def test_a_jump_is_found_among_steps_of_the_same_time():
+    """Before a runaway steps are so short that the clock shows the same time for several."""
+    x = np.array([-0.5, 0.0, 0.5, 1.0, 1.5, 900.0, 900.5])
+    force = np.array([1.0, 0.0, -1.0, -0.9, -0.8, -0.1, 0.0])
+    time = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 3.0, 3.1])
+    jump = Event("jump", time=3.0, depth=-900.0, force=-0.8, energy=300)
+    work = work_of_separation(plain(-x, force, time=time, events=(jump,)))
+    # triangle and trapezium before the jump, a triangle behind it
+    assert work == pytest.approx(0.25 + 0.9 + 0.025, abs=0.05)
+
+
+def test_a_dwell_at_the_relaxed_start_keeps_the_pull_off_there():
+    """A start beyond the force minimum: the force is least where the retraction begins."""
+    from viscotack.protocol import Dwell
+
+    force = np.array([-1.0, -0.9, -0.7, -0.4, -0.1])
+    depth = -np.arange(5.0)
+    wait = replace(GROUPS, moves=(Dwell(2.0),))
+    held = dict(problem=wait, move=[0, 0, 0, 1, 1, 1, 1])
+    rested = plain(np.append([0.0, 0.0], depth), np.append([-1.0, -1.0], force), **held)
+    assert pull_off(rested).force == pull_off(plain(depth, force)).force == 1
+    assert work_of_separation(rested) == work_of_separation(plain(depth, force))
+    # a dwell at that force during which the contact jumps is no relaxed start
+    borne = replace(wait, moves=(Dwell(2.0, hold="force"),))
+    jump = Event("jump", time=1 / 6, depth=0.0, force=-1.0, energy=1)
+    held |= dict(problem=borne, events=(jump,))
+    with pytest.raises(ValueError, match="least where the machine turned or stopped"):
+        pull_off(plain(np.append([-3.0, 0.0], depth), np.append([-1.0, -1.0], force), **held))
+
+
 def test_a_minimum_at_a_jump_is_not_drawn_past_it():
     x = np.array([0.0, 1.0, 2.0, 3.0, 3.0, 4.0])
     force = np.array([1.0, -1.0, -3.0, -5.0, -0.5, -0.3])

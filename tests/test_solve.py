@@ -7,16 +7,18 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
-from viscotack.materials import Elastic, Material, StandardSolid
+from viscotack.geometry import Cone
+from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
-from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, LoadTo
+from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (
     pull_off_depth,
     pull_off_force,
     summary,
+    work_of_separation,
     work_to_pull_off,
 )
-from viscotack.traction import Exponential
+from viscotack.traction import Exponential, Eyring, LennardJones
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 
@@ -270,3 +272,40 @@ def test_the_stated_errors_hold_the_errors_at_the_pull_off(problem):
     # of the travel in tension, about the work over the force
     off = abs(pull_off_depth(result) - pull_off_depth(finer))
     assert off < stated["depth"] < 0.1 * work_to_pull_off(finer) / pull_off_force(finer)
+
+
+def test_a_runaway_behind_a_soft_spring_adds_no_work():
+    """Steps before the jump have one time to the last digit; F0^2/2K is 63,000."""
+    law = Eyring(1.0, 1.0, reference_speed=10.0, sensitivity=0.5, base=LennardJones(1.0, 1.0))
+    start = case(AtDepth(1.0), tabor=0.2, rate=1e5, material=ELASTIC)
+    groups = replace(start, traction=law, stiffness=2e-5)
+    result = solve(groups, accuracy=0.01, estimate_error=False, throw=False)
+    assert work_to_pull_off(result) < work_of_separation(result) < 10
+
+
+def test_a_dwell_at_a_start_beyond_the_force_minimum_changes_no_pull_off():
+    sphere = case(AtDepth(0.3), tabor=0.2, rate=4.0, material=ELASTIC)
+    alone = replace(sphere, geometry=Cone(slope=1.0))
+    waits = replace(alone, moves=(Dwell(1.0),))
+    forces = [
+        pull_off_force(solve(each, accuracy=0.01, estimate_error=False, throw=False))
+        for each in (alone, waits)
+    ]
+    assert forces == pytest.approx([11.0118, 11.0118], rel=1e-4)
+
+
+def test_the_stated_error_of_the_work_holds_under_a_growing_load():
+    """Companions may let go at the same depth by chance, and finer runs elsewhere."""
+    solid = RelaxationPowerLaw(
+        rubbery_modulus=1.0, glassy_modulus=5.0, exponent=1.0, tau0=1.0, poisson_ratio=0.0
+    )
+    rest = case(AtForce(0.0), tabor=0.18, material=solid)
+    pulled = replace(rest, rate=None, moves=(LoadTo(force=-5.8, duration=0.055),))
+    runs = [solve(pulled, accuracy=accuracy) for accuracy in (0.01, 0.005, 0.0025, 0.001)]
+    work = np.array([work_to_pull_off(each) for each in runs])
+    error = work * [each.error_estimate["work"] for each in runs]
+    depth = np.array([pull_off_depth(each) for each in runs])
+    shift = np.array([each.error_estimate["depth"] for each in runs])
+    assert np.all(np.abs(work - work[-1]) <= error)
+    assert np.all(np.abs(depth - depth[-1]) <= shift)
+    assert np.all(error < 0.2 * work)

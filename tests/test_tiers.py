@@ -216,3 +216,40 @@ def test_the_best_tier_is_one_that_covers_the_problem_and_advice_agrees():
         if found.method in {t.name for t in LEARNED}:
             assert vt.predict(case, budget=AT_ONCE).pull_off_force == found.pull_off_force
     assert len(methods) >= 4
+
+
+def test_a_tabor_number_at_the_end_of_a_range_is_answered_however_it_is_rounded():
+    in_groups = groups(1.0, standard(0.1), vt.AtDepth(20.0), rate=0.5)
+    # mu = (R w^2/(E0*^2 h0^3))^(1/3) = 1
+    radius, modulus, work = 1e-3, 1e6, 0.05
+    length = (radius * work**2 / modulus**2) ** (1 / 3)
+    problem = vt.Problem(
+        material=vt.StandardSolid(
+            rubbery_modulus=modulus * 0.75,
+            glassy_modulus=modulus * 7.5,
+            tau0=0.1,
+            poisson_ratio=0.5,
+        ),
+        traction=vt.LennardJones(work_of_adhesion=work, equilibrium_gap=length),
+        geometry=vt.Sphere(radius=radius),
+        protocol=vt.Retraction(start=vt.AtDepth(20 * length), speed=0.5 * length / 0.1),
+    )
+    assert problem.groups().tabor < 1
+    unloading = next(tier for tier in THEORIES if tier.name == "unloading")
+    found = unloading.answer(problem).pull_off_force
+    assert found == pytest.approx(unloading.answer(in_groups).pull_off_force, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", [vt.InputError, ValueError])
+def test_a_material_that_refuses_fine_modes_is_the_reason_of_the_theories(kind):
+    class Coarse(vt.StandardSolid):
+        def retardation_modes(self, *, shortest, longest, tolerance):
+            raise kind("no modes as fine as that")
+
+    own = Coarse(**UNIT, glassy_modulus=10.0, tau0=1.0)
+    for case in (groups(3.24, own), groups(50.0, own)):
+        advice = vt.advise(case)
+        assert len(advice.sentences) > 5
+        crack = next(e for e in advice.estimates if e.tier == "crack contact")
+        assert not crack.applies
+    assert "no modes as fine as that" in crack.why

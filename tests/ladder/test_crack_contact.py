@@ -1,5 +1,7 @@
 """Contacts whose edge is a steady crack: limits, twins, published physics, simulation."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -298,3 +300,28 @@ def test_a_history_that_takes_too_many_steps_is_out_of_range(monkeypatch):
     long = Groups(tabor=100, material=ELASTIC, start=AtDepth(100), rate=100, moves=(press,))
     with pytest.raises(OutOfRange, match="more than 5 steps"):
         crack_contact(long)
+
+
+@pytest.mark.parametrize("speed", [3.0, 1.0])
+def test_a_retraction_in_two_moves_takes_the_work_of_one(speed):
+    """Of an elastic solid, whatever the speed of the first; the last one begins in tension."""
+    rest = Groups(tabor=200.0, material=ELASTIC, start=AtForce(0.0), rate=3.0)
+    split = replace(rest, moves=(Retract(speed, AtDepth(40.0)),))
+    one, two = crack_contact(rest), crack_contact(split)
+    assert two.pull_off_force == pytest.approx(one.pull_off_force, rel=1e-4)
+    # its place, at a flat minimum, is known to a step
+    assert two.work_to_pull_off == pytest.approx(one.work_to_pull_off, rel=0.02)
+
+
+def test_a_stop_on_the_way_out_is_no_pull_off_and_ends_no_work():
+    """Pulled fast, stopped, and pulled off slowly: the tension is largest at the stop."""
+    moves = (Retract(300.0, AtDepth(-200.0)), Dwell(300.0))
+    groups = Groups(tabor=100.0, material=standard(), start=AtDepth(300.0), moves=moves, rate=0.3)
+    found = crack_contact(groups)
+    at_stop = -found.force[found.move == 0][-1]
+    slowly = found.force[found.move == 2]
+    assert at_stop > 2 * found.pull_off_force
+    assert found.pull_off_force == pytest.approx(-slowly.min(), rel=1e-4)
+    pulled = (found.move > 0) & (found.depth > found.pull_off_depth)
+    alone = np.trapezoid(-found.force[pulled], -found.depth[pulled])
+    assert found.work_to_pull_off > 1.2 * alone

@@ -24,6 +24,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart, Dwell
 from viscotack.result.loops import Loop, returned, work_at_indenter
+from viscotack.result.parts import Span, all_moves, spans_of, waits
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
     Contact,
@@ -75,7 +76,7 @@ class CrackContact:
     status : str
         "detached" or "still in contact".
     pull_off_force, pull_off_depth, pull_off_time : float or None
-        At the largest tension of the last retraction; None without one.
+        At the largest tension of the last opening; None without one.
     contact_radius_at_pull_off, crack_speed_at_pull_off, amplification_at_pull_off : float or None
         There.
     work_to_pull_off : float or None
@@ -299,7 +300,7 @@ def _answer(
 ) -> CrackContact:
     """Return the record of a history."""
     status = "detached" if detached else "still in contact"
-    pull_off = _pull_off(series)
+    pull_off = _pull_off(groups, series)
     at: dict[str, Any] = pull_off if pull_off is not None else dict.fromkeys(_AT_PULL_OFF)
     energy = float(at["amplification_at_pull_off"] or np.max(series["amplification"]))
     interface = _interface_work(groups, crack, at)
@@ -402,21 +403,26 @@ def _begun(series: dict[str, Any]) -> float:
     return float(series["time"][before[-1]]) if before.size else 0.0
 
 
-def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the state at the largest tension of the last retraction, between steps."""
+def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
+    """Return the state at the largest tension of the last opening, between steps."""
     force, depth = series["force"], series["depth"]
-    number = series["move"]
-    steps = np.flatnonzero(number == number[-1])
-    first = max(int(steps[0]) - 1, 0)
-    low = first + int(np.argmin(force[first:]))
-    last = force.size - 1
-    if force[low] > -_NOTHING or (low == last and series["contact_radius"][-1] > 0):
+    span = spans_of(groups, series["move"], depth, force)[-1]
+    detached = not series["contact_radius"][-1] > 0
+    low, run = -1, None
+    for pulled in _runs(groups, series, span):
+        i = int(pulled[np.argmin(force[pulled])])
+        begins, ends = i == pulled[0] > span.turn, i == pulled[-1]
+        pulls_off = not begins and (not ends or (i == span.last and detached))
+        if force[i] <= -_NOTHING and pulls_off and (run is None or force[i] < force[low]):
+            low, run = i, pulled
+    if run is None:
         return None
+    first, last = span.turn, run[-1]
     place = np.zeros(1)
     weights = np.array([1.0])
     # the first step is one of an edge at rest: no parabola goes through it
     x = series["time"][low - 1 : low + 2]
-    inside = first + 1 < low < last and series["contact_radius"][low + 1] > 0
+    inside = run[0] + 1 < low < last and series["contact_radius"][low + 1] > 0
     if inside and float(np.min(np.diff(x))) > _NEAR * (x[2] - x[0]):
         y = force[low - 1 : low + 2]
         u = (x - x[1]) / (x[2] - x[0])
@@ -438,6 +444,16 @@ def _pull_off(series: dict[str, Any]) -> dict[str, Any] | None:
     values = (-at["force"], at["depth"], at["time"], at["contact_radius"])
     values = (*values, at["edge_speed"], at["amplification"], work)
     return dict(zip(_AT_PULL_OFF, values, strict=True))
+
+
+def _runs(groups: Groups, series: dict[str, Any], span: Span) -> list[npt.NDArray[np.intp]]:
+    """Return the steps of an opening between stops: where the machine waits, nothing is pulled."""
+    waiting = np.array([waits(move) for move in all_moves(groups)])[series["move"]]
+    steps = np.arange(span.turn, span.last + 1 if span.opens else span.turn)
+    pulled = steps[~waiting[steps] | (steps == span.turn)]
+    runs = np.split(pulled, np.flatnonzero(np.diff(pulled) > 1) + 1)
+    # behind a stop the curve goes on from its end
+    return [run if run[0] == span.turn else np.append(run[0] - 1, run) for run in runs if run.size]
 
 
 def _hysteresis(

@@ -22,6 +22,7 @@ from viscotack.result.observables import (
     PullOff,
     depth_shift,
     equal_peak,
+    fold_shift,
     peaks,
     pull_off,
     work_lost,
@@ -113,18 +114,25 @@ def _of_pull_off(
     size = {"work": abs(work), "depth": abs(work) / energy}
     slope, more = accuracy / travel, _ELASTIC if result.groups.modulus_ratio == 1 else 1.0
     shift = {"work": work_lost(result, slope), "depth": depth_shift(result, slope)}
+    share = abs(found.force - alike.force) / found.force
+    force = more * _from_difference("force", share, accuracy)
+    # under a growing load both end by chance near the largest force, and may end at one place
+    fold = fold_shift(result, force)
+    chance = {"work": fold * energy, "depth": fold}
     error = {
-        name: more
-        * hypot(
-            _MARGIN[name] * off[name] / (COARSER - 1),
-            _FLOOR[name] * accuracy * size[name],
-            _MOVED[name] * shift[name],
+        name: hypot(
+            chance[name],
+            more
+            * hypot(
+                _MARGIN[name] * off[name] / (COARSER - 1),
+                _FLOOR[name] * accuracy * size[name],
+                _MOVED[name] * shift[name],
+            ),
         )
         for name in off
     }
-    share = abs(found.force - alike.force) / found.force
     return {
-        "force": more * _from_difference("force", share, accuracy),
+        "force": force,
         # without a way to the minimum nothing is known of the work on it
         "work": min(error["work"] / abs(work), _ALL) if work else _ALL,
         "depth": error["depth"],

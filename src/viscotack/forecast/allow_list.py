@@ -10,6 +10,8 @@ from viscotack.problem import Groups, PunchGroups
 
 # Of `Verified.solids`: any linear solid.
 ANY: tuple[type, ...] = ()
+# Rounding of a number at the end of a range.
+_ROUNDED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -74,6 +76,19 @@ class Verified:
         return ""
 
 
+def at_least(value: float, least: float) -> bool:
+    """Return whether a positive number reaches the lower end of a range, however it was rounded.
+
+    A number in SI comes back from its groups with another last digit.
+    """
+    return value >= least * (1 - _ROUNDED)
+
+
+def at_most(value: float, most: float) -> bool:
+    """Return whether a positive number stays within the upper end, however it was rounded."""
+    return value <= most * (1 + _ROUNDED)
+
+
 def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
     """Return the values outside of their ranges in words, or an empty string.
 
@@ -85,8 +100,7 @@ def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float
     found = []
     for name, value in values.items():
         least, most = ranges[name]
-        # the ends themselves, whichever way they were rounded
-        if not least * (1 - 1e-9) <= value <= most * (1 + 1e-9):
+        if not (at_least(value, least) and at_most(value, most)):
             found.append(f"{name} is {value:.4g}, verified from {least:g} to {most:g}")
     return "; ".join(found)
 

@@ -33,6 +33,8 @@ from viscotack.theory import (
 from viscotack.traction import LennardJones, effective_range, softening
 from viscotack.traction.growing import check_of_gap_alone
 
+from .allow_list import at_least, at_most
+
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
@@ -108,7 +110,7 @@ class ClosedForms:
     start_radius : float or None
         Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)].
     regime : str
-        "quasi-static", "rate-dependent" or "glassy".
+        "quasi-static", "rate-dependent" or "glassy"; "unknown" where no theory answers.
     preload : str
         As in :class:`viscotack.Advice`.
     preload_change : tuple of float or None
@@ -131,9 +133,9 @@ class ClosedForms:
     def regime_of(self, force: float) -> str:
         """Return the regime of a retraction whose pull-off force is known [1.5 pi R dg0]."""
         slow = force / self.slowest - 1 < _SLOW
-        if slow or self.regime != "quasi-static":
-            return "quasi-static" if slow else self.regime
-        return "rate-dependent"
+        if slow:
+            return "quasi-static"
+        return "glassy" if self.regime == "glassy" else "rate-dependent"
 
 
 def closed_forms(asked: Groups) -> ClosedForms:
@@ -158,6 +160,35 @@ def closed_forms(asked: Groups) -> ClosedForms:
     start = None
     if depth is not None:
         start = float(np.asarray(jkr.contact_radius_at_depth(depth, **_UNIT))) / _TIP
+    try:
+        return _by_theory(asked, groups, slowest, fastest, start)
+    except ValueError as error:  # a material has no modes as fine as a theory asks for
+        return _without_theory(str(error), slowest, fastest, start)
+
+
+_NAMES = ("elastic", "unloading", "detachment", "rate-fit", "glassy")
+
+
+def _without_theory(why: str, slowest: float, fastest: float, start: float | None) -> ClosedForms:
+    """Return the limits alone, where the theories have no answer for a material."""
+    limits = {"elastic": slowest, "glassy": fastest}
+    return ClosedForms(
+        slowest=slowest,
+        fastest=fastest,
+        start_radius=start,
+        regime="unknown",
+        preload="unknown",
+        preload_change=None,
+        edge_speed=None,
+        estimates=tuple(Estimate(name, limits.get(name), None, False, why) for name in _NAMES),
+    )
+
+
+def _by_theory(
+    asked: Groups, groups: Groups, slowest: float, fastest: float, start: float | None
+) -> ClosedForms:
+    """Evaluate the theories of a moving edge."""
+    depth = start_depth(groups)
     # where JKR has no such start the regime is that of a pull from no load
     free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
     curve = _unloading(groups, free if depth is None else depth)
@@ -379,7 +410,7 @@ def _change(
     Two things do: a start that is hardly larger than the contact at pull-off is short of force, and
     a larger one takes longer, so that the bulk relaxes more and the edge is slower.
     """
-    if here is None or pressed is None or groups.tabor < _PRESSED_TABOR:
+    if here is None or pressed is None or not at_least(groups.tabor, _PRESSED_TABOR):
         return None
     factor = pressed.amplification * pressed.part / (here.amplification * here.part)
     band = next(band for least, band in _PRESSED if here.margin >= least)
@@ -434,18 +465,19 @@ def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None)
         )
         return Estimate(name, None, None, False, why)
     force = slowest * curve.pull_off_force / _JKR_FORCE
-    if mu < 1:
+    if not at_least(mu, 1):
         why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
         return Estimate(name, force, None, False, why)
-    if haste > _NEARLY:
+    if not at_most(haste, _NEARLY):
         why = (
             f"the bulk has no time to relax: {haste:.3g} contact heights are retracted in the "
             f"mean retardation time, and the theory holds to about {_RELAXED:g}"
         )
         return Estimate(name, force, None, False, why)
-    error = 0.2 if haste > _RELAXED else 0.05 if mu >= _JKR else 0.12
+    relaxed = at_most(haste, _RELAXED)
+    error = 0.2 if not relaxed else 0.05 if at_least(mu, _JKR) else 0.12
     why = "the bulk relaxes while the edge moves as a crack"
-    if haste > _RELAXED:
+    if not relaxed:
         why = "the bulk hardly relaxes while the edge moves; the force is up to 20 % low"
     return Estimate(name, force, error, True, why)
 
@@ -459,15 +491,15 @@ def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
         return Estimate(name, None, None, False, why)
     force = slowest * state.amplification
     for least, needed, error in _DETACHMENT:
-        if mu >= least and state.margin >= needed:
+        if at_least(mu, least) and at_least(state.margin, needed):
             why = "the edge moves as a crack, and the bulk answers with the creep up to then"
             return Estimate(name, force, error, True, why)
-    if mu < 1:
+    if not at_least(mu, 1):
         why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
     else:
         why = (
             f"the start is only {state.margin:.3g} times the contact radius at pull-off; it needs "
-            f"{1.2 if mu >= 2 else 2:g} times"
+            f"{1.2 if at_least(mu, 2) else 2:g} times"
         )
     return Estimate(name, force, None, False, why)
 
@@ -481,7 +513,7 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
     force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
     if abs(np.log(mu / rate.FITTED_TABOR)) > np.log(1.25):
         why = f"Eq. 4.24 was fitted at a Tabor number of 3.24 alone, this one is {mu:.3g}"
-    elif not 0.01 <= k <= 0.1 * (1 + 1e-9):
+    elif not (at_least(k, 0.01) and at_most(k, 0.1)):
         why = f"Eq. 4.24 was fitted for modulus ratios from 0.01 to 0.1, this one is {k:.3g}"
     elif preload == "raises":
         why = "Eq. 4.24 was fitted to preloads that were heavy enough"

@@ -21,7 +21,7 @@ from viscotack.traction import (
     softening,
 )
 
-from .allow_list import ANY, Verified, outside
+from .allow_list import ANY, Verified, at_least, outside
 from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike, start_depth
 from .prediction import Prediction, of_theory
 from .question import Question
@@ -89,6 +89,8 @@ def crack_of(asked: Question) -> CrackContact | InputError:
         return crack_contact(asked.problem)
     except InputError as error:
         return error
+    except ValueError as error:  # of a material of the user's
+        return InputError(str(error))
 
 
 def estimate_of(asked: Question, name: str) -> Estimate:
@@ -159,7 +161,7 @@ def crack_limits(asked: Question) -> str:
     """Return why the band of a contact with a crack at its edge does not hold, if so."""
     groups = asked.groups
     simple = not groups.moves and groups.stiffness is None and isinstance(groups.geometry, Sphere)
-    if simple and groups.effective_tabor < _CRACK_TABOR:
+    if simple and not at_least(groups.effective_tabor, _CRACK_TABOR):
         return (
             f"the cohesive zone is too large for this theory: effective Tabor number "
             f"{groups.effective_tabor:.3g}, evaluated from {_CRACK_TABOR:g} on"

@@ -98,13 +98,21 @@ class Tier:
         reasons = [each.refuses(asked.groups) for each in self.verified]
         if reasons and all(reasons):
             return reasons[0]
-        return self.limits(asked)
+        try:
+            return self.limits(asked)
+        except ValueError as error:
+            return str(error)
 
     def ask(self, asked: Question) -> Prediction:
         """Return :meth:`answer` to a problem of which more is known."""
         if reason := self.refuses(asked):
             raise OutOfRange(reason)
-        return self.reply(asked)
+        try:
+            return self.reply(asked)
+        except ValueError as error:
+            if not self.verified:
+                raise  # what the simulation of any problem refuses is bad input
+            raise OutOfRange(str(error)) from error
 
 
 def _no_limits(asked: Question) -> str:

@@ -16,7 +16,7 @@ from viscotack.theory.punch.curve import thin_layer_surface_energy
 from . import Outcome, Result
 from .cycles import cycle_rows
 from .dead_load import time_held
-from .opening import PullOff, lost_beside, peaks_in, pull_off_in, tension_work
+from .opening import PullOff, lost_beside, peaks_in, pull_off_in, reach_of_fold, tension_work
 from .parts import spans
 
 # A work to pull-off whose stated error is larger than this part of it means nothing.
@@ -204,6 +204,24 @@ def depth_shift(result: Result, force_error: float) -> float:
     """
     found = pull_off(result)
     return force_error * lost_beside(result, spans(result)[-1]) / found.force
+
+
+def fold_shift(result: Result, force_error: float) -> float:
+    """Return by how much an error of the force moves a pull-off under a growing load [h0].
+
+    Parameters
+    ----------
+    result : Result
+        The simulation.
+    force_error : float
+        Relative error of the pull-off force.
+
+    Returns
+    -------
+    float
+        Zero where the machine sets no load: :func:`depth_shift` has what an error does there.
+    """
+    return force_error**0.5 * reach_of_fold(result, spans(result)[-1])
 
 
 def work_of_separation(result: Result) -> float:

@@ -15,7 +15,7 @@ from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
 from viscotack.protocol import Dwell, LoadTo
 
-from . import Outcome, Result
+from . import Event, Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
 
 Array = npt.NDArray[np.float64]
@@ -55,8 +55,8 @@ class _Piece:
     """Steps over which the depth falls without a break.
 
     A force that is least at its end is a minimum where it `snaps` there, and one that is least
-    at its beginning where it `starts` there: with the test itself, or after a jump that left some
-    contact. Where the machine turns or stops, it is not.
+    at its beginning where it `starts` there: with the test itself, behind dwells at its relaxed
+    start, or after a jump that left some contact. Where the machine turns or stops, it is not.
     """
 
     steps: npt.NDArray[np.intp]
@@ -130,9 +130,33 @@ def lost_beside(result: Result, span: Span) -> float:
     x, force = -result.depth[steps], result.force[steps]
     if not 0 < i < len(x) - 1 or _smooth(move_numbers(result)[steps], i) is None:
         return 0.0
-    before, after = np.diff(force[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
-    curvature = 2 * (after - before) / (x[i + 1] - x[i - 1])
-    return float(force[i] ** 2 / curvature)
+    return float(force[i] ** 2 / _curvature(x, force, i))
+
+
+def reach_of_fold(result: Result, span: Span) -> float:
+    r"""Return over which depths a growing load finds a contact on the brink [h0].
+
+    Under a load that grows the contact lets go at a fold, where the force :math:`P` of equilibrium
+    has no slope over the depth. A march with an error :math:`\epsilon P` ends anywhere where the
+    force is that near to the largest one:
+
+    .. math:: \Delta \delta = \sqrt{2 \epsilon P / P''}
+
+    Returned for :math:`\epsilon = 1`, with the curvature of the last three steps; 0 where the
+    contact does not let go under such a load.
+    """
+    steps, i = _valley_of(result, span)
+    moves, number = moves_of(result), move_numbers(result)
+    if i < 2 or i < len(steps) - 1 or not isinstance(moves[number[steps[i]]], LoadTo):
+        return 0.0
+    curvature = _curvature(-result.depth[steps], result.force[steps], i - 1)
+    return float(np.sqrt(-2 * result.force[steps[i]] / curvature)) if curvature > 0 else 0.0
+
+
+def _curvature(x: Array, y: Array, i: int) -> float:
+    """Return the second derivative of the parabola through a point and its neighbours."""
+    before, after = np.diff(y[i - 1 : i + 2]) / np.diff(x[i - 1 : i + 2])
+    return float(2 * (after - before) / (x[i + 1] - x[i - 1]))
 
 
 def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
@@ -275,7 +299,7 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
 def _pieces(result: Result, span: Span) -> list[_Piece]:
     """Return the opening part of a cycle as runs of steps between jumps, stops and turns."""
     part = np.arange(span.turn, span.last + 1)
-    depth, time = result.depth, result.time
+    depth = result.depth
     first = span.turn + int(np.flatnonzero(depth[part] == depth[part].max())[-1])
     moves, number = moves_of(result), move_numbers(result)
     waiting = np.array([waits(move) for move in moves])[number]
@@ -284,14 +308,16 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
     jumped = np.zeros(len(broken), dtype=bool)
     for event in result.events:
         if event.kind.startswith("jump"):
-            jumped |= (time[:-1] < event.time) & (event.time <= time[1:])
+            jumped |= _jump(result, event)
     # where the drive goes on, and only the clock stands still, it is a jump as well
     goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
     jumped |= (np.diff(depth) == 0) & goes_on
     stopped = (number[1:] != number[:-1]) & (waiting[1:] | waiting[:-1])
-    stopped[:first] = False
+    stopped[: first + 1] = False
     ends = [i for i in range(first, span.last) if broken[i] or jumped[i] or stopped[i]]
-    pieces, begin, starts = [], first, first == 0
+    # a dwell at the relaxed start changes nothing: the test begins behind it
+    rested = all(waits(moves[i]) for i in np.unique(number[1 : first + 1]))
+    pieces, begin, starts = [], first, rested and not jumped[:first].any()
     for end in [*ends, span.last]:
         over = end == len(depth) - 1
         snaps = result.outcome is Outcome.JUMPED if over else end < span.last and bool(jumped[end])
@@ -306,6 +332,17 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
             begin = end + (not bends)
             starts = bool(jumped[end]) and bool(np.isfinite(result.contact_radius[begin]))
     return pieces
+
+
+def _jump(result: Result, event: Event) -> npt.NDArray[np.bool_]:
+    """Return of each step but the last whether an event lies between it and the next one.
+
+    Many steps may have the time of a jump to the last digit: the depth tells which one it led to.
+    A jump on the way to a step that is kept later has a time of its own.
+    """
+    time, depth = result.time, result.depth
+    reached = (time[1:] == event.time) & (depth[1:] == event.depth)
+    return reached if reached.any() else (time[:-1] < event.time) & (event.time <= time[1:])
 
 
 def _nearest(x: Array, i: int) -> slice:

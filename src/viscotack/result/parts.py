@@ -10,9 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
 
 from . import Outcome, Result
+
+Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,11 @@ class Span:
 
 def moves_of(result: Result) -> tuple[Move | None, ...]:
     """Return the moves of a test; None is the retraction after them."""
-    groups = result.groups
+    return all_moves(result.groups)
+
+
+def all_moves(groups: Groups | PunchGroups) -> tuple[Move | None, ...]:
+    """Return the moves that a problem asks for; None is the retraction after them."""
     return (*groups.moves, *((None,) if groups.rate is not None else ()))
 
 
@@ -81,15 +88,23 @@ def touches(result: Result, span: Span) -> bool:
 
 def spans(result: Result) -> list[Span]:
     """Return the cycles of a test; one that only pulls is one cycle."""
-    moves, number = moves_of(result), move_numbers(result)
-    end = len(number) - 1
     if result.move is None:
+        end = len(result.depth) - 1
         deepest = int(np.flatnonzero(result.depth == result.depth.max())[-1])
-        return [Span(0, deepest, end, closes=deepest > 0, opens=not waits(moves[-1]))]
+        opens = not waits(moves_of(result)[-1])
+        return [Span(0, deepest, end, closes=deepest > 0, opens=opens)]
+    return spans_of(result.groups, result.move, result.depth, result.force)
+
+
+def spans_of(
+    groups: Groups | PunchGroups, number: npt.NDArray[np.intp], depth: Array, force: Array
+) -> list[Span]:
+    """Return the cycles of a history, by the number of the move that led to each step."""
+    moves, end = all_moves(groups), len(number) - 1
     found, first, turn, closes = [], 0, -1, False
     for move in np.unique(number):
         begin = max(int(np.searchsorted(number, move)) - 1, 0)
-        way = _way(result, moves[move], begin)
+        way = _way(groups, moves[move], float(depth[begin]), float(force[begin]))
         if way > 0 and turn >= 0:
             found.append(Span(first, turn, begin, closes, opens=True))
             first, turn, closes = begin, -1, True
@@ -100,18 +115,20 @@ def spans(result: Result) -> list[Span]:
     return [*found, Span(first, turn if opens else end, end, closes, opens)]
 
 
-def _way(result: Result, move: Move | None, begin: int) -> float:
-    """Return a positive number for a move into the solid, a negative one for one out of it."""
+def _way(groups: Groups | PunchGroups, move: Move | None, depth: float, force: float) -> float:
+    """Return a positive number for a move into the solid, a negative one for one out of it.
+
+    Depth and force are those in which it begins.
+    """
     match move:
         case Approach():
             return 1.0
         case Retract() | None:
             return -1.0
         case MoveTo():
-            k = result.groups.stiffness
-            bent = 0.0 if k is None else float(result.force[begin]) / k
-            return move.depth - (float(result.depth[begin]) + bent)
+            k = groups.stiffness
+            return move.depth - (depth + (0.0 if k is None else force / k))
         case LoadTo():
-            return move.force - float(result.force[begin])
+            return move.force - force
         case Dwell():
             return 0.0
