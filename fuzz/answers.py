@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from viscotack import CrackContact, InputError, Outcome, Result, crack_contact, solve, summary
 from viscotack.bem.by_crack import summary as crack_summary
-from viscotack.result.parts import spans
+from viscotack.result.loops import Loop, loop_of, lost_in, returned
+from viscotack.result.parts import Span, spans
 
 from .cases import Case
 
@@ -26,6 +27,8 @@ _FORCES = ("pull_off_force", "pull_off_stress")
 _WORKS = ("work_to_pull_off", "work_of_separation", "hysteresis")
 _SERIES = ("depth", "force", "contact_radius")
 _OF_EDGE = ("crack_speed_at_pull_off", "contact_radius_at_pull_off", "ligament_at_pull_off")
+# A word that a tolerance decides is in doubt up to this factor from the tolerance.
+_DOUBT = 3.0
 # Work has up to five times the error of the force (`solve`), series follow within three times.
 _WORK, _CURVE = 5.0, 3.0
 _SI_TAILS = ("_N", "_J", "_m", "_Pa", "_s", "_m_per_s", "_J_per_m2")
@@ -51,6 +54,8 @@ class Answer:
         Time, depth, force and radius, and the number of the move.
     error : float
         Relative error of the force.
+    words : mapping
+        Words by name: those that the tolerance behind each could choose.
     """
 
     numbers: Mapping[str, float | None]
@@ -59,6 +64,7 @@ class Answer:
     series: Mapping[str, Array]
     error: float
     result: Any = field(default=None, repr=False)
+    words: Mapping[str, frozenset[str]] = field(default_factory=dict)
 
 
 def by_simulation(case: Any, *, estimate: bool = False, **options: Any) -> Answer:
@@ -94,7 +100,10 @@ def of_crack(found: CrackContact) -> Answer:
     """Return the answer of the contact with a steady crack; its steps are of first order."""
     numbers = {n: v for n, v in crack_summary(found).items() if isinstance(v, float)}
     numbers = {n: v for n, v in numbers.items() if n not in ("band", "zones")}
-    return _answer(numbers, found, ACCURACY)
+    closes = {f: returned(found.depth, f * 1e-3) for f in (1 / _DOUBT, _DOUBT)}
+    doubtful = found.loop is not Loop.APART and len(set(closes.values())) > 1
+    loops = {found.loop, Loop.OPEN, Loop.DEPTH} if doubtful else {found.loop}
+    return _answer(numbers, found, ACCURACY, {"loop": frozenset(map(str, loops))})
 
 
 def of_result(result: Result, error: float) -> Answer:
@@ -107,19 +116,43 @@ def of_result(result: Result, error: float) -> Answer:
         if name not in inputs and not isinstance(said[name], str)
     }
     for row in said["cycles"]:
-        numbers |= {f"cycle {row['cycle']} {n}": v for n, v in row.items() if n != "cycle"}
+        kept = {n: v for n, v in row.items() if n not in ("cycle", "loop", "hysteresis_error")}
+        numbers |= {f"cycle {row['cycle']} {n}": v for n, v in kept.items()}
     numbers = {n: v for n, v in numbers.items() if not n.endswith(_SI_TAILS)}
-    return _answer(numbers, result, error)
+    words = {f"cycle {i} loop": loops_of(result, span) for i, span in enumerate(spans(result), 1)}
+    return _answer(numbers, result, error, words)
 
 
-def _answer(numbers: Mapping[str, float | None], found: Any, error: float) -> Answer:
+def loops_of(result: Result, span: Span) -> frozenset[str]:
+    """Return the words for the loop of a cycle at a third of its tolerances, and at three times."""
+    within = max(1e-3, result.accuracy or 0.0)
+    loops = {
+        loop_of(replace(result, accuracy=within * factor), span)
+        for factor in (1 / _DOUBT, 1.0, _DOUBT)
+    }
+    energy = result.energy
+    if loops & {Loop.CLOSED, Loop.DEPTH} and energy is not None:
+        stored = energy.elastic + energy.interface
+        left = abs(float(stored[span.last] - stored[span.first]))
+        lost = abs(lost_in(result, span, Loop.CLOSED))
+        if 0.02 / _DOUBT * lost < left < 0.02 * _DOUBT * lost:
+            loops |= {Loop.CLOSED, Loop.DEPTH}
+    return frozenset(map(str, loops))
+
+
+def _answer(
+    numbers: Mapping[str, float | None],
+    found: Any,
+    error: float,
+    words: Mapping[str, frozenset[str]],
+) -> Answer:
     """Return an answer with what each of its numbers may differ by."""
     spread, floor = {}, {}
     for name, value in numbers.items():
         if value is not None:
             spread[name], floor[name] = _allowed(name, value, found, error)
     series = {n: np.asarray(getattr(found, n)) for n in ("time", "move", *_SERIES)}
-    return Answer(numbers, spread, floor, series, error, found)
+    return Answer(numbers, spread, floor, series, error, found, words)
 
 
 def _allowed(name: str, value: float, found: Any, error: float) -> tuple[float, float]:
@@ -171,13 +204,19 @@ def _valley(found: Any, error: float) -> Array:
 def differences(one: Answer, other: Answer, *, factor: float = 1.0) -> list[str]:
     """Return what differs between two answers by more than both their errors, in words."""
     error = factor * (one.error + other.error)
-    found = []
+    found = [
+        f"{name} {'/'.join(sorted(one.words[name]))} and {'/'.join(sorted(other.words[name]))}"
+        for name in sorted(set(one.words) & set(other.words))
+        if not one.words[name] & other.words[name]
+    ]
     for name in sorted(set(one.numbers) | set(other.numbers)):
         a, b = one.numbers.get(name), other.numbers.get(name)
         if a is None and b is None:
             continue
         if (a is None or b is None) and name in _OF_EDGE:
             continue  # an edge may be gone a step before the pull-off, or a step after it
+        if (a is None or b is None) and name.endswith("hysteresis") and _doubted(name, one, other):
+            continue
         if a is None or b is None:
             found.append(f"{name} {_text(a)} and {_text(b)}")
             continue
@@ -186,6 +225,14 @@ def differences(one: Answer, other: Answer, *, factor: float = 1.0) -> list[str]
         if not abs(a - b) <= allowed:
             found.append(f"{name} {a:.6g} and {b:.6g}, allowed {allowed:.2g}")
     return found + curves_apart(one, other, _CURVE * error)
+
+
+def _doubted(name: str, one: Answer, other: Answer) -> bool:
+    """Return whether a tolerance could leave the loop of a hysteresis open."""
+    loop = name.removesuffix("hysteresis") + "loop"
+    return any(str(Loop.OPEN) in found.words.get(loop, ()) for found in (one, other)) and any(
+        len(found.words.get(loop, ())) > 1 for found in (one, other)
+    )
 
 
 def curves_apart(one: Answer, other: Answer, allowed: float) -> list[str]:

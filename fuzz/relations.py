@@ -502,7 +502,8 @@ def long_dwell(case: Case, luck: Luck) -> Found:
 def _only(answer: Answer, names: tuple[str, ...]) -> Answer:
     numbers = {n: v for n, v in answer.numbers.items() if n in names}
     move = np.full(1, -1)
-    return replace(answer, numbers=numbers, series=dict(answer.series) | {"move": move})
+    series = dict(answer.series) | {"move": move}
+    return replace(answer, numbers=numbers, series=series, words={})
 
 
 def until(case: Case, luck: Luck) -> Found:
@@ -512,7 +513,7 @@ def until(case: Case, luck: Luck) -> Found:
 
     def early(answer: Answer) -> Answer:
         kept = {n: v for n, v in answer.numbers.items() if not n.endswith(late)}
-        return replace(answer, numbers=kept)
+        return replace(answer, numbers=kept, words={})
 
     found = differences(early(whole), early(part))
     return [f"until detached and until pull-off: {words}" for words in found]

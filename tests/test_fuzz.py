@@ -2,14 +2,26 @@
 
 import json
 import shlex
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from fuzz import __main__ as fuzz
+from fuzz.answers import by_simulation, differences
 from fuzz.cases import Luck, contact, of_text
 from fuzz.shrinking import shrunk
-from viscotack import AtForce, Groups, LennardJones, PunchGroups, Sphere, StandardSolid
+from viscotack import (
+    Approach,
+    AtDepth,
+    AtForce,
+    Groups,
+    LennardJones,
+    PunchGroups,
+    Retract,
+    Sphere,
+    StandardSolid,
+)
 from viscotack.result import Result
 
 QUICK = ("passive", "split-material", "one-arm-material", "law", "case-file", "nesting")
@@ -72,6 +84,22 @@ def test_a_wrong_scale_of_a_series_is_found(monkeypatch):
 
     monkeypatch.setattr(Result, "__post_init__", scaled)
     assert any("contact_radius" in words for words in fuzz.judge(plain, CASE, draw=0))
+
+
+def test_words_of_loops_are_compared_except_where_a_tolerance_decides_them():
+    moves = (Approach(10.0, AtDepth(1.0)), Retract(10.0, AtDepth(0.0)))
+    back = replace(CASE, rate=None, moves=moves)
+    closed, opened = by_simulation(replace(back, start=AtDepth(0.0))), by_simulation(back)
+    name = "cycle 1 loop"
+    assert closed.words[name] <= {"closed", "closed in depth only"}
+    assert opened.words[name] == {"open"}
+    assert f"{name} closed in depth only and open" in differences(closed, opened)
+    at_threshold = replace(
+        closed,
+        numbers=closed.numbers | {"cycle 1 hysteresis": None},
+        words={name: frozenset({"open", "closed in depth only"})},
+    )
+    assert differences(closed, at_threshold) == []
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
