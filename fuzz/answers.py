@@ -38,6 +38,10 @@ class Unjudged(Exception):
     """The case cannot be judged: refused by the package, or too long."""
 
 
+class TooLong(Unjudged):
+    """The simulation was not done within `TIME_LIMIT`, which depends on the load of the machine."""
+
+
 @dataclass(frozen=True)
 class Answer:
     """What a tier returns for a case; dimensionless.
@@ -81,10 +85,14 @@ def solved(case: Any, **options: Any) -> Result:
     try:
         result = solve(case, throw=False, time_limit=TIME_LIMIT, **options)
     except InputError as error:
-        raise Unjudged(f"refused: {error}") from None
+        raise _unjudged(f"refused: {error}") from None
     if result.outcome is Outcome.STOPPED:
-        raise Unjudged(result.status)
+        raise _unjudged(result.status)
     return result
+
+
+def _unjudged(why: str) -> Unjudged:
+    return (TooLong if "the time limit of" in why else Unjudged)(why)
 
 
 def by_crack(case: Any) -> Answer:
@@ -311,9 +319,14 @@ def compared(case: Case, partner: Any, *, crack: bool = False, factor: float = 1
 
 
 def _partner(case: Any, **options: Any) -> Answer:
-    """Return the answer for the partner; that it is refused alone is a difference."""
+    """Return the answer for the partner; that it is refused alone is a difference.
+
+    That it takes too long is none: a run at the limit is stopped now and then.
+    """
     try:
         return by_simulation(case, **options)
+    except TooLong:
+        raise
     except Unjudged as why:
         raise Broken(f"the partner {case!r} has no answer: {why}") from None
 

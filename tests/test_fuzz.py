@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from fuzz import __main__ as fuzz
+from fuzz import answers
 from fuzz.answers import by_simulation, differences
 from fuzz.cases import Luck, contact, of_text
 from fuzz.shrinking import shrunk
@@ -100,6 +101,13 @@ def test_words_of_loops_are_compared_except_where_a_tolerance_decides_them():
         words={name: frozenset({"open", "closed in depth only"})},
     )
     assert differences(closed, at_threshold) == []
+
+
+def test_a_partner_that_takes_too_long_is_not_judged(monkeypatch):
+    slow = replace(CASE, tabor=4.0)
+    monkeypatch.setattr(answers, "TIME_LIMIT", 1e-6)
+    with pytest.raises(answers.TooLong):
+        answers._partner(slow)
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
