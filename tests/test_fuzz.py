@@ -2,6 +2,7 @@
 
 import json
 import shlex
+import signal
 from dataclasses import replace
 
 import numpy as np
@@ -108,6 +109,17 @@ def test_a_partner_that_takes_too_long_is_not_judged(monkeypatch):
     monkeypatch.setattr(answers, "TIME_LIMIT", 1e-6)
     with pytest.raises(answers.TooLong):
         answers._partner(slow)
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGALRM"), reason="a system without an alarm")
+def test_a_check_without_an_end_is_not_judged(monkeypatch):
+    def endless(case, luck):
+        while True:
+            pass
+
+    monkeypatch.setattr(fuzz, "_PATIENCE", 0.05)
+    with pytest.raises(answers.TooLong, match="of a check"):
+        fuzz.judge(replace(fuzz.RELATIONS["rest"], check=endless), CASE, draw=0)
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
