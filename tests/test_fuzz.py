@@ -19,6 +19,7 @@ from viscotack import (
     AtForce,
     Groups,
     LennardJones,
+    MoveTo,
     PunchGroups,
     Retract,
     Sphere,
@@ -120,6 +121,14 @@ def test_a_check_without_an_end_is_not_judged(monkeypatch):
     monkeypatch.setattr(fuzz, "_PATIENCE", 0.05)
     with pytest.raises(answers.TooLong, match="of a check"):
         fuzz.judge(replace(fuzz.RELATIONS["rest"], check=endless), CASE, draw=0)
+
+
+def test_a_dent_gives_back_what_an_earlier_cycle_left_in_it():
+    moves = (MoveTo(11.0, 0.154), MoveTo(12.8, 0.063), MoveTo(-2.1, 87.0))
+    solid = replace(SOLID, glassy_modulus=90.0)
+    case = Groups(tabor=2.0, material=solid, start=AtDepth(20.0), rate=40.0, moves=moves)
+    assert by_simulation(case).numbers["cycle 2 hysteresis"] < 0
+    assert fuzz.judge(fuzz.RELATIONS["hysteresis"], case, draw=0) == []
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
