@@ -205,7 +205,8 @@ def _valley(found: Any, error: float) -> Array:
     first = 0 if part is None else part.turn
     force = found.force[first:]
     low = first + int(np.argmin(force))
-    near = np.flatnonzero(force <= found.force[low] * (1 - 3 * error)) + first
+    # also of a contact that is pushed throughout
+    near = np.flatnonzero(force <= found.force[low] + 3 * error * abs(found.force[low])) + first
     return np.arange(max(near.min() - 1, 0), min(near.max() + 2, len(found.force)))
 
 

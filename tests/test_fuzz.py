@@ -131,6 +131,12 @@ def test_a_dent_gives_back_what_an_earlier_cycle_left_in_it():
     assert fuzz.judge(fuzz.RELATIONS["hysteresis"], case, draw=0) == []
 
 
+def test_a_contact_that_is_pushed_throughout_is_an_answer():
+    pushed = replace(CASE, rate=None, start=AtForce(1.0), moves=(Approach(10.0, AtDepth(2.0)),))
+    answer = by_simulation(pushed)
+    assert float(np.min(answer.series["force"])) > 0 and differences(answer, answer) == []
+
+
 def test_a_case_is_shrunk_to_what_makes_it_fail():
     case = next(
         case
