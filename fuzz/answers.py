@@ -29,6 +29,8 @@ _SERIES = ("depth", "force", "contact_radius")
 _OF_EDGE = ("crack_speed_at_pull_off", "contact_radius_at_pull_off", "ligament_at_pull_off")
 # A word that a tolerance decides is in doubt up to this factor from the tolerance.
 _DOUBT = 3.0
+# Of a history of twenty thousand steps so many points are compared.
+_MOST_POINTS = 500
 # Work has up to five times the error of the force (`solve`), series follow within three times.
 _WORK, _CURVE = 5.0, 3.0
 _SI_TAILS = ("_N", "_J", "_m", "_Pa", "_s", "_m_per_s", "_J_per_m2")
@@ -293,12 +295,17 @@ def _part(series: Mapping[str, Array], name: str, move: int) -> Array:
 
 
 def _distance(points: Array, line: Array) -> Array:
-    """Return how far points are from a polyline."""
+    """Return how far points are from a polyline, of many points every so many."""
     begin, way = line[:-1], np.diff(line, axis=0)
     length = np.maximum(np.sum(way**2, axis=1), 1e-300)
-    to = points[:, None, :] - begin
-    share = np.clip(np.sum(to * way, axis=2) / length, 0, 1)
-    return np.sqrt(np.min(np.sum((to - share[..., None] * way) ** 2, axis=2), axis=1))
+    some = points[:: 1 + len(points) // _MOST_POINTS]
+
+    def nearest(point: Array) -> float:
+        to = point - begin
+        share = np.clip(np.sum(to * way, axis=1) / length, 0, 1)
+        return float(np.min(np.sum((to - share[:, None] * way) ** 2, axis=1)))
+
+    return np.sqrt([nearest(point) for point in some])
 
 
 def _text(value: float | None) -> str:

@@ -3,6 +3,7 @@
 import json
 import shlex
 import signal
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -135,6 +136,16 @@ def test_a_contact_that_is_pushed_throughout_is_an_answer():
     pushed = replace(CASE, rate=None, start=AtForce(1.0), moves=(Approach(10.0, AtDepth(2.0)),))
     answer = by_simulation(pushed)
     assert float(np.min(answer.series["force"])) > 0 and differences(answer, answer) == []
+
+
+def test_long_series_are_compared_in_bounded_memory():
+    time = np.linspace(0, 1, 20_000)
+    line = np.column_stack([time, time**2])
+    tracemalloc.start()
+    apart = answers._distance(line + [0.0, 0.1], line)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 20e6 and np.max(apart) == pytest.approx(0.1, rel=0.01)
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
