@@ -29,6 +29,8 @@ _SERIES = ("depth", "force", "contact_radius")
 _OF_EDGE = ("crack_speed_at_pull_off", "contact_radius_at_pull_off", "ligament_at_pull_off")
 # A word that a tolerance decides is in doubt up to this factor from the tolerance.
 _DOUBT = 3.0
+# Forces of surfaces that never come near each other are far tails, or round-off.
+_FAINT = 1e-3
 # Of a history of twenty thousand steps so many points are compared.
 _MOST_POINTS = 500
 # Work has up to five times the error of the force (`solve`), series follow within three times.
@@ -265,6 +267,8 @@ def _apart(one: Mapping[str, Array], other: Mapping[str, Array], name: str) -> f
     known = values[np.isfinite(values)]
     scale = float(np.ptp(known)) if known.size else 0.0
     if scale <= 1e-9 * max(float(np.max(np.abs(known), initial=0.0)), 1e-300):
+        return 0.0
+    if name == "force" and scale < _FAINT:
         return 0.0
     worst = 0.0
     shared = sorted(set(one["move"].tolist()) & set(other["move"].tolist()))

@@ -373,8 +373,12 @@ def table_of_law(case: Case, luck: Luck) -> Found:
     if grows(law) or isinstance(law, Tabulated):
         return []
     near = float(law.edge_gap)
+    # a law that repels softly presses surfaces closer
+    least = 0.6 if -float(law.traction(0.6)) > 10 * law.strength else 0.05
     gap = np.unique(
-        np.concatenate([np.linspace(0.6, 2 * near, 600), np.geomspace(2 * near, 60.0, 400), [1.0]])
+        np.concatenate(
+            [np.linspace(least, 2 * near, 600), np.geomspace(2 * near, 60.0, 400), [1.0]]
+        )
     )
     traction = law.traction(gap)
     traction[-1] = 0.0

@@ -15,9 +15,11 @@ from fuzz.answers import by_simulation, differences
 from fuzz.cases import Luck, contact, of_text
 from fuzz.shrinking import shrunk
 from viscotack import (
+    Apart,
     Approach,
     AtDepth,
     AtForce,
+    Dugdale,
     Groups,
     LennardJones,
     MoveTo,
@@ -146,6 +148,12 @@ def test_long_series_are_compared_in_bounded_memory():
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert most < 20e6 and np.max(apart) == pytest.approx(0.1, rel=0.01)
+
+
+def test_the_round_off_of_a_force_between_surfaces_apart_is_not_compared():
+    law = Dugdale(1.0, 1.0, rise=0.29, fall=0.6)
+    case = Groups(tabor=4.0, material=SOLID, start=Apart(36.6), rate=70.0, traction=law)
+    assert fuzz.judge(fuzz.RELATIONS["stiff-spring"], case, draw=0) == []
 
 
 def test_a_case_is_shrunk_to_what_makes_it_fail():
