@@ -9,18 +9,21 @@ TEXT`` repeats one check: a finding is printed as such a command.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import shlex
+import signal
 import sys
 import time
 import traceback
 import warnings
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from .answers import Broken, Unjudged
+from .answers import Broken, TooLong, Unjudged
 from .cases import Luck, of_text
 from .doors import DOORS
 from .relations import PHYSICS, Relation
@@ -28,6 +31,8 @@ from .shrinking import shrunk
 
 RELATIONS = {relation.name: relation for relation in (*PHYSICS, *DOORS)}
 _EVERY = 20
+# A check that takes longer than this [s] is not judged: not every tier has a limit of time.
+_PATIENCE = 60.0
 
 
 @dataclass(frozen=True)
@@ -40,12 +45,32 @@ class Finding:
     command: str
 
 
+@contextlib.contextmanager
+def limited(seconds: float) -> Iterator[None]:
+    """End what runs longer than this as TooLong, on systems that have an alarm."""
+
+    def ring(*_: Any) -> None:
+        raise TooLong(f"the time limit of {seconds:g} s of a check was met")
+
+    if not hasattr(signal, "SIGALRM"):
+        yield
+        return
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def judge(relation: Relation, case: Any, draw: int) -> list[str]:
     """Return what is wrong with a case, in words; a defect of the package is wrong as well."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            return relation.check(case, Luck(draw))
+            with limited(_PATIENCE):
+                return relation.check(case, Luck(draw))
     except Unjudged:
         raise
     except Broken as broken:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from viscotack import CrackContact, InputError, Outcome, Result, crack_contact, solve, summary
 from viscotack.bem.by_crack import summary as crack_summary
-from viscotack.result.parts import spans
+from viscotack.result.loops import Loop, loop_of, lost_in, returned
+from viscotack.result.parts import Span, spans
 
 from .cases import Case
 
@@ -26,6 +27,12 @@ _FORCES = ("pull_off_force", "pull_off_stress")
 _WORKS = ("work_to_pull_off", "work_of_separation", "hysteresis")
 _SERIES = ("depth", "force", "contact_radius")
 _OF_EDGE = ("crack_speed_at_pull_off", "contact_radius_at_pull_off", "ligament_at_pull_off")
+# A word that a tolerance decides is in doubt up to this factor from the tolerance.
+_DOUBT = 3.0
+# Forces of surfaces that never come near each other are far tails, or round-off.
+_FAINT = 1e-3
+# Of a history of twenty thousand steps so many points are compared.
+_MOST_POINTS = 500
 # Work has up to five times the error of the force (`solve`), series follow within three times.
 _WORK, _CURVE = 5.0, 3.0
 _SI_TAILS = ("_N", "_J", "_m", "_Pa", "_s", "_m_per_s", "_J_per_m2")
@@ -33,6 +40,10 @@ _SI_TAILS = ("_N", "_J", "_m", "_Pa", "_s", "_m_per_s", "_J_per_m2")
 
 class Unjudged(Exception):
     """The case cannot be judged: refused by the package, or too long."""
+
+
+class TooLong(Unjudged):
+    """The simulation was not done within `TIME_LIMIT`, which depends on the load of the machine."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +62,8 @@ class Answer:
         Time, depth, force and radius, and the number of the move.
     error : float
         Relative error of the force.
+    words : mapping
+        Words by name: those that the tolerance behind each could choose.
     """
 
     numbers: Mapping[str, float | None]
@@ -59,6 +72,7 @@ class Answer:
     series: Mapping[str, Array]
     error: float
     result: Any = field(default=None, repr=False)
+    words: Mapping[str, frozenset[str]] = field(default_factory=dict)
 
 
 def by_simulation(case: Any, *, estimate: bool = False, **options: Any) -> Answer:
@@ -75,10 +89,14 @@ def solved(case: Any, **options: Any) -> Result:
     try:
         result = solve(case, throw=False, time_limit=TIME_LIMIT, **options)
     except InputError as error:
-        raise Unjudged(f"refused: {error}") from None
+        raise _unjudged(f"refused: {error}") from None
     if result.outcome is Outcome.STOPPED:
-        raise Unjudged(result.status)
+        raise _unjudged(result.status)
     return result
+
+
+def _unjudged(why: str) -> Unjudged:
+    return (TooLong if "the time limit of" in why else Unjudged)(why)
 
 
 def by_crack(case: Any) -> Answer:
@@ -94,7 +112,10 @@ def of_crack(found: CrackContact) -> Answer:
     """Return the answer of the contact with a steady crack; its steps are of first order."""
     numbers = {n: v for n, v in crack_summary(found).items() if isinstance(v, float)}
     numbers = {n: v for n, v in numbers.items() if n not in ("band", "zones")}
-    return _answer(numbers, found, ACCURACY)
+    closes = {f: returned(found.depth, f * 1e-3) for f in (1 / _DOUBT, _DOUBT)}
+    doubtful = found.loop is not Loop.APART and len(set(closes.values())) > 1
+    loops = {found.loop, Loop.OPEN, Loop.DEPTH} if doubtful else {found.loop}
+    return _answer(numbers, found, ACCURACY, {"loop": frozenset(map(str, loops))})
 
 
 def of_result(result: Result, error: float) -> Answer:
@@ -107,19 +128,43 @@ def of_result(result: Result, error: float) -> Answer:
         if name not in inputs and not isinstance(said[name], str)
     }
     for row in said["cycles"]:
-        numbers |= {f"cycle {row['cycle']} {n}": v for n, v in row.items() if n != "cycle"}
+        kept = {n: v for n, v in row.items() if n not in ("cycle", "loop", "hysteresis_error")}
+        numbers |= {f"cycle {row['cycle']} {n}": v for n, v in kept.items()}
     numbers = {n: v for n, v in numbers.items() if not n.endswith(_SI_TAILS)}
-    return _answer(numbers, result, error)
+    words = {f"cycle {i} loop": loops_of(result, span) for i, span in enumerate(spans(result), 1)}
+    return _answer(numbers, result, error, words)
 
 
-def _answer(numbers: Mapping[str, float | None], found: Any, error: float) -> Answer:
+def loops_of(result: Result, span: Span) -> frozenset[str]:
+    """Return the words for the loop of a cycle at a third of its tolerances, and at three times."""
+    within = max(1e-3, result.accuracy or 0.0)
+    loops = {
+        loop_of(replace(result, accuracy=within * factor), span)
+        for factor in (1 / _DOUBT, 1.0, _DOUBT)
+    }
+    energy = result.energy
+    if loops & {Loop.CLOSED, Loop.DEPTH} and energy is not None:
+        stored = energy.elastic + energy.interface
+        left = abs(float(stored[span.last] - stored[span.first]))
+        lost = abs(lost_in(result, span, Loop.CLOSED))
+        if 0.02 / _DOUBT * lost < left < 0.02 * _DOUBT * lost:
+            loops |= {Loop.CLOSED, Loop.DEPTH}
+    return frozenset(map(str, loops))
+
+
+def _answer(
+    numbers: Mapping[str, float | None],
+    found: Any,
+    error: float,
+    words: Mapping[str, frozenset[str]],
+) -> Answer:
     """Return an answer with what each of its numbers may differ by."""
     spread, floor = {}, {}
     for name, value in numbers.items():
         if value is not None:
             spread[name], floor[name] = _allowed(name, value, found, error)
     series = {n: np.asarray(getattr(found, n)) for n in ("time", "move", *_SERIES)}
-    return Answer(numbers, spread, floor, series, error, found)
+    return Answer(numbers, spread, floor, series, error, found, words)
 
 
 def _allowed(name: str, value: float, found: Any, error: float) -> tuple[float, float]:
@@ -164,20 +209,27 @@ def _valley(found: Any, error: float) -> Array:
     first = 0 if part is None else part.turn
     force = found.force[first:]
     low = first + int(np.argmin(force))
-    near = np.flatnonzero(force <= found.force[low] * (1 - 3 * error)) + first
+    # also of a contact that is pushed throughout
+    near = np.flatnonzero(force <= found.force[low] + 3 * error * abs(found.force[low])) + first
     return np.arange(max(near.min() - 1, 0), min(near.max() + 2, len(found.force)))
 
 
 def differences(one: Answer, other: Answer, *, factor: float = 1.0) -> list[str]:
     """Return what differs between two answers by more than both their errors, in words."""
     error = factor * (one.error + other.error)
-    found = []
+    found = [
+        f"{name} {'/'.join(sorted(one.words[name]))} and {'/'.join(sorted(other.words[name]))}"
+        for name in sorted(set(one.words) & set(other.words))
+        if not one.words[name] & other.words[name]
+    ]
     for name in sorted(set(one.numbers) | set(other.numbers)):
         a, b = one.numbers.get(name), other.numbers.get(name)
         if a is None and b is None:
             continue
         if (a is None or b is None) and name in _OF_EDGE:
             continue  # an edge may be gone a step before the pull-off, or a step after it
+        if (a is None or b is None) and name.endswith("hysteresis") and _doubted(name, one, other):
+            continue
         if a is None or b is None:
             found.append(f"{name} {_text(a)} and {_text(b)}")
             continue
@@ -186,6 +238,14 @@ def differences(one: Answer, other: Answer, *, factor: float = 1.0) -> list[str]
         if not abs(a - b) <= allowed:
             found.append(f"{name} {a:.6g} and {b:.6g}, allowed {allowed:.2g}")
     return found + curves_apart(one, other, _CURVE * error)
+
+
+def _doubted(name: str, one: Answer, other: Answer) -> bool:
+    """Return whether a tolerance could leave the loop of a hysteresis open."""
+    loop = name.removesuffix("hysteresis") + "loop"
+    return any(str(Loop.OPEN) in found.words.get(loop, ()) for found in (one, other)) and any(
+        len(found.words.get(loop, ())) > 1 for found in (one, other)
+    )
 
 
 def curves_apart(one: Answer, other: Answer, allowed: float) -> list[str]:
@@ -207,6 +267,8 @@ def _apart(one: Mapping[str, Array], other: Mapping[str, Array], name: str) -> f
     known = values[np.isfinite(values)]
     scale = float(np.ptp(known)) if known.size else 0.0
     if scale <= 1e-9 * max(float(np.max(np.abs(known), initial=0.0)), 1e-300):
+        return 0.0
+    if name == "force" and scale < _FAINT:
         return 0.0
     worst = 0.0
     shared = sorted(set(one["move"].tolist()) & set(other["move"].tolist()))
@@ -237,12 +299,17 @@ def _part(series: Mapping[str, Array], name: str, move: int) -> Array:
 
 
 def _distance(points: Array, line: Array) -> Array:
-    """Return how far points are from a polyline."""
+    """Return how far points are from a polyline, of many points every so many."""
     begin, way = line[:-1], np.diff(line, axis=0)
     length = np.maximum(np.sum(way**2, axis=1), 1e-300)
-    to = points[:, None, :] - begin
-    share = np.clip(np.sum(to * way, axis=2) / length, 0, 1)
-    return np.sqrt(np.min(np.sum((to - share[..., None] * way) ** 2, axis=2), axis=1))
+    some = points[:: 1 + len(points) // _MOST_POINTS]
+
+    def nearest(point: Array) -> float:
+        to = point - begin
+        share = np.clip(np.sum(to * way, axis=1) / length, 0, 1)
+        return float(np.min(np.sum((to - share[:, None] * way) ** 2, axis=1)))
+
+    return np.sqrt([nearest(point) for point in some])
 
 
 def _text(value: float | None) -> str:
@@ -264,9 +331,14 @@ def compared(case: Case, partner: Any, *, crack: bool = False, factor: float = 1
 
 
 def _partner(case: Any, **options: Any) -> Answer:
-    """Return the answer for the partner; that it is refused alone is a difference."""
+    """Return the answer for the partner; that it is refused alone is a difference.
+
+    That it takes too long is none: a run at the limit is stopped now and then.
+    """
     try:
         return by_simulation(case, **options)
+    except TooLong:
+        raise
     except Unjudged as why:
         raise Broken(f"the partner {case!r} has no answer: {why}") from None
 

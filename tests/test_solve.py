@@ -225,6 +225,19 @@ def test_what_watches_a_run_is_told_its_curve_and_ends_it():
         solve(case(), watch=enough)
 
 
+def test_what_watches_a_run_is_not_told_a_step_that_was_not_found():
+    steps = []
+    pulled = Groups(
+        tabor=3.0,
+        material=ELASTIC,
+        start=AtForce(0.0),
+        rate=None,
+        moves=(LoadTo(force=-1.4, duration=0.001),),  # more than the contact bears
+    )
+    result = solve(pulled, watch=lambda *step: steps.append(step), accuracy=0.01)
+    np.testing.assert_array_equal([time for time, *_ in steps], result.time[1:])
+
+
 def test_progress_goes_from_zero_to_one():
     seen = []
     solve(case(), progress=seen.append, estimate_error=False)

@@ -74,13 +74,15 @@ def march(
     try:
         at = _begun(run, at, 0)
         while not history.outcome:
+            told = len(history.snapshots)
             at = _stepped(run, at)
             if not history.outcome:
                 at = _judged(run, at, until)
             if progress is not None:
                 progress(_share(run, at))
             if watch is not None:
-                watch(history.snapshots[-1])
+                for snapshot in history.snapshots[told:]:  # none where no further step was found
+                    watch(snapshot)
     except TimeUp as limit:
         history.outcome, history.reason = "time", str(limit)
     return history
