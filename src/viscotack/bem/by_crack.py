@@ -24,6 +24,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart, Dwell
 from viscotack.result.loops import Loop, returned, work_at_indenter
+from viscotack.result.opening import least_between
 from viscotack.result.parts import Span, all_moves, spans_of, waits
 from viscotack.theory import SteadyCrack, lennard_jones
 from viscotack.theory.crack.contact import (
@@ -392,7 +393,7 @@ def _zones(
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
     if way < LEAST_ZONES * zone:
         flat = np.flatnonzero(series["force"] < -(1 - _FLAT) * at["pull_off_force"])
-        further = radius[last] - radius[flat[-1]]
+        further = radius[last] - radius[flat[-1]] if flat.size else 0.0
         way = further if further > _FAR * zone else way
     return max(way, 0.0) / zone
 
@@ -429,8 +430,10 @@ def _pull_off(groups: Groups, series: dict[str, Any]) -> dict[str, Any] | None:
         slope = np.linalg.solve(np.vander(u, increasing=True), y)
         top = -slope[1] / (2 * slope[2]) if slope[2] > 0 else 0.0
         top = float(np.clip(top, u[0], u[2]))
-        weights = np.array([1, top, top**2]) @ np.linalg.inv(np.vander(u, increasing=True))
-        place = np.arange(-1, 2)
+        least = least_between(series["time"], force, low, float(x[1] + top * (x[2] - x[0])))
+        if slope @ [1, top, top**2] >= least:
+            weights = np.array([1, top, top**2]) @ np.linalg.inv(np.vander(u, increasing=True))
+            place = np.arange(-1, 2)
     at = {name: float(weights @ series[name][low + place.astype(int)]) for name in series}
     rows = np.arange(first, low + 1)
     compressed = np.flatnonzero(force[rows] > 0)

@@ -23,6 +23,8 @@ Array = npt.NDArray[np.float64]
 _EQUAL = 1 + 1e-9
 # A force that has risen by this part of its minimum and of the unit of force has left it.
 _RISEN = 0.03
+# A force of the march is rough by about this part of itself.
+_ROUGH = 1e-3
 # Steps after the pull-off within which an edge that is gone counts as running out.
 _GONE = 3
 
@@ -274,8 +276,8 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
     """Return the integral of -force over the travel in tension around the pull-off."""
     total, tension = 0.0, True
     # Backwards from the end, so that the first crossing met before the minimum is the last one.
-    for piece in reversed(_pieces(result, span)):
-        steps = piece.steps
+    parts = [part for piece in _pieces(result, span) for part in _moves_of(result, piece.steps)]
+    for steps in reversed(parts):
         if len(steps) < 2:
             continue  # a single step between two jumps spans no work
         x, force = -result.depth[steps], result.force[steps]
@@ -294,6 +296,17 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
         if begin < end:
             total -= float(curve.integrate(begin, end))
     return total
+
+
+def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[np.intp]]:
+    """Return the steps of a piece move by move: where the speed changes, the curve has a kink.
+
+    A move begins at the last step of the one before.
+    """
+    ends = np.flatnonzero(np.diff(move_numbers(result)[steps])) + 1
+    begins = np.maximum(ends - 1, 0)
+    cuts = zip([0, *begins], [*ends, len(steps)], strict=True)
+    return [steps[begin:end] for begin, end in cuts]
 
 
 def _pieces(result: Result, span: Span) -> list[_Piece]:
@@ -360,17 +373,29 @@ def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
     """Return where the curve is lowest, near the lowest of its points i, and its value there."""
     if 0 < i < len(x) - 1:
         scale = x[i + 1] - x[i - 1]
-        # where the force breaks off, a curve would go far below the steps
-        least = 2 * y[i] - max(y[i - 1], y[i + 1])
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
             u = (x[points] - x[i]) / scale
             taylor = np.linalg.solve(np.vander(u, increasing=True), y[points])
             at = _valley(*taylor[1:])
             if (x[i - 1] - x[i]) / scale < at < (x[i + 1] - x[i]) / scale:
                 value = float(np.polynomial.polynomial.polyval(at, taylor))
-                if value >= least:
-                    return float(x[i] + scale * at), value
+                place = float(x[i] + scale * at)
+                if value >= least_between(x, y, i, place):
+                    return place, value
     return float(x[i]), float(y[i])
+
+
+def least_between(x: Array, y: Array, i: int, place: float) -> float:
+    """Return the least value that a curve may have beside its lowest point i.
+
+    A valley lies above the line through the two points before the place. Where the force breaks off
+    behind the lowest step, a parabola or a cubic would go far below that line.
+    """
+    last = i if place > x[i] else i - 1
+    if last < 1:
+        return float(2 * y[i] - max(y[i - 1], y[i + 1]))
+    slope = (y[last] - y[last - 1]) / (x[last] - x[last - 1])
+    return float(y[last] + slope * (place - x[last]) - _ROUGH * abs(y[i]))
 
 
 def _valley(c: float, b: float, a: float = 0.0) -> float:
