@@ -13,6 +13,7 @@ from viscotack.campaign import read_plan
 from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.files.toml import toml_value
+from viscotack.files.whole import write_whole
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.record import from_dict, to_dict
@@ -75,7 +76,7 @@ def through_case_file(noun: Any, part: str, tables: Mapping[str, Mapping[str, An
     """State a noun in a case file and compare what is read with it."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "case.toml"
-        path.write_text(case_text(**tables), encoding="utf-8")
+        write_whole(path, case_text(**tables).encode())
         back = getattr(read_case(path, also=classes_of(noun)), part)
     # a power-law profile is stated by a height, which rounds its coefficient
     name = "case file: the tables state the noun"
@@ -113,10 +114,10 @@ def through_campaign(noun: Any, tables: Mapping[str, Mapping[str, Any]]) -> Iter
             return  # the class does not stand in a file of its own, which a plan needs
         files.append(str(source))
     with tempfile.TemporaryDirectory() as folder:
-        (Path(folder) / "case.toml").write_text(case_text(**tables), encoding="utf-8")
+        write_whole(Path(folder) / "case.toml", case_text(**tables).encode())
         plan = Path(folder) / "plan.toml"
         own = f"with = {toml_value(files)}\n" if files else ""
         text = f'problem = "case.toml"\n{own}[[grid]]\nprotocol.speed = [1e-5, 2e-5]\n'
-        plan.write_text(text, encoding="utf-8")
+        write_whole(plan, text.encode())
         cases = len(read_plan(plan).cases)
     yield holds("campaign: a plan has a row for each value", cases == 2, "2 rows", cases)
