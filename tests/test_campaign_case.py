@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import synthetic
+import viscotack as vt
 import viscotack.campaign
 from viscotack import (
     Apart,
@@ -213,3 +214,18 @@ def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
     assert row["trajectory_depth"][0] == pytest.approx(depths[1])
     assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["pull_off_depth"])
     assert np.all(np.diff(row["trajectory_depth"]) < 0)
+
+
+def test_a_pull_off_at_the_start_of_the_retraction_has_a_curve_of_one_point():
+    groups = vt.Groups(
+        tabor=0.3,
+        material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        start=vt.AtRadius(2.0),
+        rate=4e4,
+        traction=vt.Exponential(1.0, 1.0, 2.0),
+    )
+    # crashed: "x must contain only finite values"
+    row = measure(groups, CaseSettings(accuracy=0.01))
+    assert row["travel_to_pull_off"] == 0
+    assert set(row["trajectory_force"]) == {-row["pull_off_force"]}
+    assert vt.predict(groups, exact=True).curve.force[-1] < 0

@@ -210,23 +210,27 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     depths, steps, edge = retraction(result)
     start = float(depths[0])
     travel = start - found.depth
-    x = (start - depths) / travel
+    # a retraction that begins at its force minimum has no travel, and its curve is one point
+    x, whole = (start - depths) / (travel or 1.0), float(travel > 0)
     force = PchipInterpolator(x, steps)
     outputs, groups = result.problem.outputs, result.groups
     pull, width = outputs.of("force"), outputs.of("contact_radius")
     sign, scale = pull.factor(groups), width.factor(groups)
     load, edge_name = outputs.name_of("force"), outputs.name_of("contact_radius")
     row: dict[str, Any] = {"travel_to_pull_off": travel}
-    row |= {f"{load}_at_{name}": sign * float(force(share)) for name, share in KEY_SHARES.items()}
+    row |= {
+        f"{load}_at_{name}": sign * float(force(whole * share))
+        for name, share in KEY_SHARES.items()
+    }
     pressing = np.flatnonzero((steps > 0) & (x < 1))
     zero = _crossing(force, x, pressing[-1]) if pressing.size else 0.0
     shares = trajectory.shares(zero)
-    forces = force(shares)
+    forces = force(whole * shares)
     # The force minimum is located between steps; the last point is that very number.
     forces[-1] = -found.force
     row["trajectory_depth"] = (start - shares * travel).tolist()
     row[f"trajectory_{load}"] = (sign * forces).tolist()
-    radii = np.interp(shares, x, edge)
+    radii = np.interp(whole * shares, x, edge)
     radii[-1] = found.contact_radius
     radii = scale * radii
     row[f"trajectory_{edge_name}"] = [a if np.isfinite(a) else None for a in radii.tolist()]
