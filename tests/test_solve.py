@@ -7,7 +7,7 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
 from viscotack.bem.twins.plain import plain_solve
-from viscotack.geometry import Cone
+from viscotack.geometry import Cone, PowerLawProfile
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
@@ -322,3 +322,18 @@ def test_the_stated_error_of_the_work_holds_under_a_growing_load():
     assert np.all(np.abs(work - work[-1]) <= error)
     assert np.all(np.abs(depth - depth[-1]) <= shift)
     assert np.all(error < 0.2 * work)
+
+
+def test_progress_never_falls_behind_a_soft_spring():
+    groups = Groups(
+        tabor=2.57,
+        material=ELASTIC,
+        start=Apart(30.0),
+        rate=None,
+        moves=(Approach(3e5, AtDepth(6.0)),),
+        stiffness=0.003,
+        geometry=PowerLawProfile(coefficient=0.5227391531625719, exponent=1.913),
+    )
+    shares = []
+    solve(groups, accuracy=0.01, progress=shares.append, estimate_error=False)
+    assert np.all(np.diff(shares) >= 0) and 0 <= shares[0] and shares[-1] == 1

@@ -242,8 +242,18 @@ def _handed_over(problem: Problem | Groups, accuracy: float, began: float) -> Re
 
 
 def _part(progress: Progress, begin: float, end: float) -> Progress:
-    """Return what tells the progress of a part of the work."""
-    return None if progress is None else lambda done: progress(begin + (end - begin) * done)
+    """Return what reports the progress of a part of the work, which never falls."""
+    if progress is None:
+        return None
+    reached = begin
+
+    def tell(done: float) -> None:
+        # behind a soft spring the contact may jump ahead of the way that is left
+        nonlocal reached
+        reached = max(reached, begin + (end - begin) * done)
+        progress(reached)
+
+    return tell
 
 
 def has_start(problem: Case) -> bool:
