@@ -50,18 +50,15 @@ def slow(monkeypatch, seconds=0.01):
 
 def test_a_run_that_meets_its_time_limit_stops_and_keeps_what_there_is(monkeypatch):
     slow(monkeypatch, 0.03)
-    began = perf_counter()
-    result = solve(SPHERE, time_limit=0.3, throw=False)
-    assert perf_counter() - began < 1.5  # of some four seconds
+    result = solve(SPHERE, time_limit=1.0, throw=False)
+    # of more than a hundred steps, however slow the machine
+    assert 2 < len(result.time) < 60
     assert result.outcome is Outcome.STOPPED
-    assert result.status.startswith(
-        "stopped because the time limit of 0.3 s was met at a depth of "
-    )
+    assert result.status.startswith("stopped because the time limit of 1 s was met at a depth of ")
     assert "give more time" in result.status
     assert result.error_estimate is None
-    assert len(result.time) > 2
-    with pytest.raises(SimulationError, match="time limit of 0.3 s") as failure:
-        solve(SPHERE, time_limit=0.3)
+    with pytest.raises(SimulationError, match="time limit of 1 s") as failure:
+        solve(SPHERE, time_limit=1.0)
     assert len(failure.value.result.time) > 2
 
 
