@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from viscotack.bem import Settings, SimulationError, solve
+from viscotack.bem.mesh import Grading
 from viscotack.bem.twins.plain import plain_solve
 from viscotack.geometry import Cone, PowerLawProfile
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
@@ -337,3 +338,20 @@ def test_progress_never_falls_behind_a_soft_spring():
     shares = []
     solve(groups, accuracy=0.01, progress=shares.append, estimate_error=False)
     assert np.all(np.diff(shares) >= 0) and 0 <= shares[0] and shares[-1] == 1
+
+
+def test_nodes_that_do_not_grow_fill_a_length_up_to_rounding():
+    # twenty-five equal distances, whose sum is longer by rounding: a ValueError of the mesh
+    spacing = 0.026316314960723692
+    grading = Grading(
+        spacing=spacing,
+        half_width=spacing,
+        growth_inside=0.05,
+        growth_outside=0.1,
+        outer_radius=10.0,
+        scar_spacing=spacing,
+        scar_half_width=0.0,
+    )
+    length = float(np.nextafter(25 * spacing, np.inf))
+    distances = grading._inwards(length, 0.6608758794647904 + spacing)
+    assert distances[-1] == pytest.approx(length, rel=1e-12) and np.all(np.diff(distances) > 0)

@@ -121,7 +121,8 @@ class Grading:
             grown = np.minimum(np.arange(1, many + 1) * np.log1p(growth), np.log(largest / h))
             return np.cumsum(h * np.exp(grown))
 
-        if many * largest <= length or many * h >= length:
+        # as the sum of distances rounds, or the root has no bracket
+        if many * largest <= length or away(0.0)[-1] >= length:
             return length * np.arange(1, many + 1) / many
         growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, xtol=1e-12)
         points = away(float(growth))  # type: ignore[arg-type]
