@@ -127,8 +127,12 @@ def advise(problem: Problem | Groups) -> Advice:
     >>> f"{advice.use}: {advice.rate_regime}; pressing harder: {advice.preload}"
     'surrogate: rate-dependent; pressing harder: same'
     """
-    asked = Question(problem)
-    groups = asked.groups
+    return advice_on(Question(problem))
+
+
+def advice_on(asked: Question) -> Advice:
+    """Return :func:`advise` of a question of which more is known."""
+    problem, groups = asked.problem, asked.groups
     check_retraction(groups)
     forms = asked.once(forms_of)
     try:

@@ -11,6 +11,9 @@ from viscotack.bem.by_crack import METHOD
 from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict, prediction_summary
+from viscotack.forecast.advice import advice_on
+from viscotack.forecast.question import Question
+from viscotack.forecast.tiers import SOON, best
 from viscotack.geometry import FlatPunch
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_words import in_words
@@ -121,13 +124,14 @@ def ask_verdict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, An
     :func:`viscotack.predict` alone.
     """
     problem = State(asked["tables"], also).problem
-    numbers, refused = [], ""
+    # one question, so that the theories are evaluated once
+    question, numbers, refused = Question(problem), [], ""
     try:
-        numbers = numbers_of(predict(problem))
+        numbers = numbers_of(best(question, SOON))
     except InputError as error:
         refused = f"{str(error)[:1].upper()}{str(error)[1:]}."
     try:
-        advice = advise(problem)
+        advice = advice_on(question)
     except InputError:
         crack = not isinstance(problem.geometry, FlatPunch)
         use = numbers[0]["method"] if numbers else "simulation"
