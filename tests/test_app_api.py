@@ -11,8 +11,8 @@ import pytest
 
 from viscotack.app.api import application
 from viscotack.app.api.guard import Guard, Rules
-from viscotack.app.engine.examples import EXAMPLES, FIRST
 from viscotack.app.engine.jobs import Engine, Limits, _harmless
+from viscotack.operations.parts.examples import EXAMPLES, FIRST
 
 ROOT = Path(__file__).parents[1]
 DMA = ROOT / "examples/from_dma/pdms_dma.csv"

@@ -68,7 +68,7 @@ def test_a_material_in_a_file_of_its_own_goes_into_the_link(tmp_path):
         "work_of_adhesion = '50 mJ/m^2'\nequilibrium_gap = '1 um'\n[sphere]\nradius = '1 mm'\n"
         "[protocol]\npreload_depth = '1 um'\nspeed = '10 um/s'\n"
     )
-    from viscotack.app.engine.state import state_of_query
+    from viscotack.operations.declare.state import state_of_query
     from viscotack.problem.case_file import read_case
 
     query = _query(tmp_path / "case.toml", ())

@@ -8,15 +8,15 @@ import pytest
 
 import viscotack as vt
 from viscotack.app.engine.asks import ask_state, material_table, problem_of
-from viscotack.app.engine.examples import EXAMPLES, FIRST
 from viscotack.app.engine.forms import forms
-from viscotack.app.engine.plain import plain
 from viscotack.app.engine.quick import quick
-from viscotack.app.engine.state import State, state_of_query, state_of_toml
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
 from viscotack.forecast.closed_forms import closed_forms, edge_curve
 from viscotack.forecast.tiers import AT_ONCE
+from viscotack.operations.declare.state import State, state_of_query, state_of_toml
+from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.plain import plain
 from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.record import to_dict
 from viscotack.theory import lennard_jones

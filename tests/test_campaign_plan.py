@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from viscotack import AtDepth, StandardSolid, read_case
-from viscotack.app import questions
 from viscotack.campaign import CaseSettings, read_plan
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import METHODS, Tally, accepted, fill, grid
 from viscotack.campaign.running import expected_costs
+from viscotack.operations.declare import questions
 from viscotack.problem import PunchGroups
 from viscotack.problem.record import from_dict, run_id, to_dict
 

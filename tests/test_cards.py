@@ -9,10 +9,10 @@ from typer.testing import CliRunner
 
 import viscotack as vt
 from viscotack.app.cli import application
-from viscotack.app.questions import PROFILE, PUNCH, SPHERE
 from viscotack.cards import Pairs, Quantity, cards, conform
 from viscotack.geometry import SHAPES
 from viscotack.materials.words import MODELS
+from viscotack.operations.declare.questions import PROFILE, PUNCH, SPHERE
 from viscotack.problem.schema import schema, words
 from viscotack.traction import LAWS
 

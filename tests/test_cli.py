@@ -13,8 +13,8 @@ import viscotack
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
 from viscotack import bem
-from viscotack.app import questions
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.operations.declare import questions
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.result import load
@@ -357,11 +357,12 @@ def test_surfaces_that_did_not_touch_are_not_called_detached(capsys):
     assert "pull-off" not in words and "detached" not in words
 
 
-def test_options_of_the_run_are_passed_on(fake):
+def test_options_of_the_run_are_passed_on(fake, capsys):
     assert exit_status([*SPHERE, *ELASTIC, "--until", "pull-off", "--accuracy", "1e-2"]) == 0
     assert fake["until"] == "pull-off"
     assert fake["accuracy"] == 1e-2
-    assert fake["progress"] is None  # nobody looks at the standard error of a test
+    fake["progress"](0.5)
+    assert capsys.readouterr().err == ""  # nobody looks at the standard error of a test
 
 
 def test_a_saved_run_can_be_shown(fake, capsys, tmp_path):

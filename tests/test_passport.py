@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
-from viscotack.app import questions
 from viscotack.campaign import read_plan
 from viscotack.forecast import predict
 from viscotack.materials import (
@@ -24,6 +23,7 @@ from viscotack.materials.passport import Evidence, Origin, Passport
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
+from viscotack.operations.declare import questions
 from viscotack.problem.case_file import read_case, shift_deviation
 
 LAW = dict(rubbery_modulus=1e6 / 3, glassy_modulus=1e9 / 7, tau0=0.1 / 3, poisson_ratio=0.4)

@@ -11,7 +11,8 @@ import viscotack as vt
 from command_line import exit_status
 from synthetic import jkr_result
 from viscotack import bem
-from viscotack.app.cli import predict_table
+from viscotack.app.cli import reading
+from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
@@ -257,12 +258,12 @@ def test_a_table_is_refused_before_anything_is_predicted(tmp_path, monkeypatch, 
     out = tmp_path / "out.csv"
     assert "has the columns why already" in wrong(capsys, again, "--csv", out)
     for same in (cases, tmp_path / "." / "cases.CSV", link):
-        assert "is the table of cases itself" in wrong(capsys, cases, "--csv", same)
+        assert "is the file that is read" in wrong(capsys, cases, "--csv", same)
     assert cases.read_text() == text and not out.exists()
 
 
 def test_an_ending_in_capitals_and_the_count_of_rows(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(predict_table, "_LINES", -1.0)
+    monkeypatch.setattr(reading, "LINES", -1.0)
     cases, out = tmp_path / "CASES.CSV", tmp_path / "out.csv"
     rows = "1,0.1,0.8,5,10\n1,0.1,0.8,5,-1\n1,0.1,0.8,5,-2\n"
     cases.write_text("tabor,modulus_ratio,exponent,preload,rate\n" + rows)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from command_line import exit_status
-from viscotack.app import questions
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.operations.declare import questions
 from viscotack.problem import Problem, PunchGroups
 from viscotack.problem.case_file import read_case
 from viscotack.problem.record import from_dict, run_id

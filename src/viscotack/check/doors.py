@@ -8,12 +8,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from viscotack.app.questions import SPHERE, stated
 from viscotack.campaign import read_plan
 from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.files.toml import toml_value
 from viscotack.files.whole import write_whole
+from viscotack.operations.declare.questions import SPHERE, stated
 from viscotack.problem.case_file import read_case
 from viscotack.problem.nouns import known, own_nouns
 from viscotack.problem.record import from_dict, to_dict

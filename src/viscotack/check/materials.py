@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.app.questions import material_numbers
 from viscotack.cards import cards, check_carded
 from viscotack.materials.conversion import slowed
 from viscotack.materials.interconversion import reciprocal
@@ -22,6 +21,7 @@ from viscotack.materials.modes import FINEST, voigt
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.scaling import scaled
+from viscotack.operations.declare.questions import material_numbers
 from viscotack.problem import Groups
 from viscotack.protocol import AtForce
 from viscotack.traction import LennardJones

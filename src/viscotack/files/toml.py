@@ -74,7 +74,7 @@ def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def toml_value(value: Any) -> str:
-    """Return a value as TOML writes it: text, a number, or a list of them or of lists.
+    """Return a value as TOML writes it: text, a number, true or false, a list, a table in a line.
 
     Examples
     --------
@@ -85,9 +85,12 @@ def toml_value(value: Any) -> str:
         return "[\n" + "".join(f"    {toml_value(row)},\n" for row in value) + "]"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(toml_value(entry) for entry in value) + "]"
+    if isinstance(value, dict):
+        entries = (f"{toml_value(str(key))} = {toml_value(entry)}" for key, entry in value.items())
+        return "{" + ", ".join(entries) + "}"
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return repr(value)
+    return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
 def _place(words: str, text: str) -> tuple[str, int]:

@@ -6,16 +6,12 @@ from typing import Any
 
 # Each of these modules adds its commands to the one application.
 _COMMANDS = (
-    "predict",
     "theory",
     "steady_crack",
     "crack_contact",
     "edge_energy",
     "punch",
     "material",
-    "tack",
-    "identify",
-    "forecast",
     "campaign",
     "schema",
     "page",
@@ -28,7 +24,9 @@ def application() -> Any:
     The library of the command line takes a while to import; ``import viscotack`` never pays it.
     """
     from .commands import application
+    from .reading import add_commands
 
+    add_commands()
     for name in _COMMANDS:
         import_module(f"viscotack.app.cli.{name}")
     return application

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
-from viscotack.app.questions import Question
+from viscotack.operations.declare.questions import Question
 
 _ANSWERS = "viscotack.answers"
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any
 
 from typer import Option
 
-from viscotack.app.questions import SPHERE
+from viscotack.operations.declare.questions import SPHERE
 
 
 def flag(name: str, metavar: str, words: str) -> Any:

@@ -9,11 +9,11 @@ from typing import Annotated, Any
 import numpy as np
 from typer import Option
 
-from viscotack.app.questions import PUNCH, material_from, require
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded, FlatPunch, Frictionless
 from viscotack.materials import Elastic, Material
 from viscotack.materials.passport_file import read_passport
+from viscotack.operations.declare.questions import PUNCH, material_from, require
 from viscotack.pictures import plot
 from viscotack.problem.case_file import read_case
 from viscotack.problem.units import material_in_si

@@ -6,8 +6,8 @@ from typing import Annotated, Any
 import numpy as np
 from typer import Option
 
-from viscotack.app.questions import SCALES, SPHERE, material_from, require
 from viscotack.errors import InputError
+from viscotack.operations.declare.questions import SCALES, SPHERE, material_from, require
 from viscotack.problem.law_table import law_from_words
 from viscotack.theory.crack.steady import Comparison, SteadyCrack, compared
 from viscotack.theory.crack.steady.comparison import THESIS_RATIO

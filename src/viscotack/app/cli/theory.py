@@ -1,7 +1,6 @@
 """The commands that answer at once: ``viscotack theory jkr ...`` and ``viscotack advise ...``."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -9,23 +8,17 @@ import numpy as np
 import typer
 from typer import Option
 
-from viscotack.app.questions import SPHERE, material_from
 from viscotack.errors import InputError
-from viscotack.problem import Groups, Problem
+from viscotack.operations.declare.questions import material_from
 from viscotack.theory import jkr, maugis, tabulated_modulus
 from viscotack.theory.crack.law import THEORIES
 from viscotack.theory.crack.modulus_file import read_modulus
 from viscotack.units import parse, positive
 
-from .asking import asking
 from .commands import (
     AsJson,
-    CaseFile,
     PlotFile,
-    With,
     application,
-    say_deviation,
-    stated_problem,
     wrong_input,
 )
 from .options import Exponent, Ratio
@@ -216,31 +209,6 @@ def theory_greenwood(
     """
     flags = {"material": material, "modulus-ratio": modulus_ratio, "exponent": exponent}
     _crack("greenwood", flags, speed, (modulus_table, rubbery_modulus), plot_file, as_json)
-
-
-@application.command("advise", cls=asking(SPHERE.questions))
-def _advise(
-    context: typer.Context, case: CaseFile = None, own: With = None, as_json: AsJson = False
-) -> None:
-    """Say which regime a contact is in, and which answer to trust.
-
-    The problem is stated as for simulate sphere, by flags or by a file in SI.
-
-    Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
-    --rate 316.23
-    """
-    from viscotack.forecast.advice import advise
-
-    with wrong_input():
-        problem = stated_problem(case, context, SPHERE, own)
-        say_deviation(case, context, own)
-        assert isinstance(problem, Problem | Groups)
-        advice = advise(problem)
-    if as_json:
-        found = asdict(advice) | {"sentences": advice.sentences}
-        typer.echo(json.dumps(found, indent=2, allow_nan=False))
-    else:
-        typer.echo("\n".join(advice.sentences))
 
 
 def _sphere(radius: str, contact_modulus: str, work_of_adhesion: str) -> dict[str, float]:

@@ -18,14 +18,14 @@ from viscotack.geometry import FlatPunch
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_words import in_words
 from viscotack.materials.words import word_of
+from viscotack.operations.declare.state import State, state_of_query, state_of_toml
+from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.plain import drawn, plain
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.problem.record import from_dict
 
-from .examples import EXAMPLES, FIRST
 from .forms import forms
-from .plain import drawn, plain
 from .quick import numbers_of, quick
-from .state import State, state_of_query, state_of_toml
 
 Tell = Callable[[dict[str, Any]], None]
 Asked = Mapping[str, Any]

@@ -13,7 +13,6 @@ import numpy as np
 
 from viscotack import __version__
 from viscotack.app.cli.superposing import Shifting, stepped, swept
-from viscotack.app.records import rates_record, slow_record, tests_record
 from viscotack.errors import InputError
 from viscotack.files.toml import parse_toml
 from viscotack.identify import fitted_force, identify_rates, identify_slow, pull_offs, slow_test
@@ -23,11 +22,12 @@ from viscotack.lab.tack import Survey, survey
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import TabulatedShift
+from viscotack.operations.parts.examples import FIRST
+from viscotack.operations.parts.plain import drawn, plain
+from viscotack.operations.parts.records import rates_record, slow_record, tests_record
 from viscotack.units import parse
 
 from .asks import Asked, Tell, material_table, problem_of
-from .examples import FIRST
-from .plain import drawn, plain
 
 # Points of a fitted curve, of a measured one, and how far it is drawn beyond [decades].
 _CURVE, _MOST, _BEYOND = 120, 1500, 0.5

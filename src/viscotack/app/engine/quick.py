@@ -23,6 +23,8 @@ from viscotack.forecast.table import predict_table
 from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
+from viscotack.operations.declare.state import State
+from viscotack.operations.parts.plain import drawn, plain
 from viscotack.problem import Groups, Problem, PunchScales
 from viscotack.problem.outputs import PLANE, REVOLUTION
 from viscotack.problem.problem import PunchGroups
@@ -31,9 +33,6 @@ from viscotack.surrogate import store
 from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.theory.elastic import indenter
 from viscotack.theory.punch import Pad, unloading
-
-from .plain import drawn, plain
-from .state import State
 
 Array = npt.NDArray[np.float64]
 # Speeds of the picture of force against speed, and how many decades around the present one.

@@ -1,27 +1,24 @@
-"""What takes seconds to minutes and tells how far it is: simulations, and campaigns of them."""
+"""Simulations that tell how far they are, and what is drawn of them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack.bem import solve
-from viscotack.campaign.case import CaseSettings, Unsolved, measure
-from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError
 from viscotack.geometry import FlatPunch
 from viscotack.problem import Problem
-from viscotack.problem.accuracy import LOOSEST_ACCURACY
 from viscotack.problem.outputs import Kind
-from viscotack.problem.record import run_id
 from viscotack.result import Outcome, Result, columns
-from viscotack.result.observables import summary
 
-from .asks import Asked, Tell, problem_of
-from .examples import FIRST
-from .plain import drawn, plain
+from ..declare.answer import Told
+from .plain import drawn
 
+if TYPE_CHECKING:
+    from ..simulate import Simulate
+
+Tell = Callable[[Told], None]
 # Seconds between two tellings of a curve that grows.
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
@@ -30,32 +27,31 @@ _PROFILES, _NODES = 60, 160
 _SEEN = 2.5
 
 
-def warm() -> None:
-    """Do once what takes longer the first time."""
-    solve(problem_of(FIRST), accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)
-
-
-def run_simulate(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+def run(asked: "Simulate", tell: Tell) -> Result:
     """Simulate a problem, telling its curve as it grows.
 
     Tells ``share`` of the work and the new ``points``: time, depth, force, contact radius, in SI
-    where the problem is. Answers ``summary`` and ``columns`` as ``viscotack simulate`` writes them,
-    ``energy``, and on request ``profiles`` of pressure and gap.
+    where the problem is.
     """
-    problem = problem_of(asked["problem"], also)
+    problem = asked.problem.problem
     told = _Told(tell, _units_of(problem))
     options = {
-        "accuracy": asked["accuracy"],
-        "until": asked["until"],
-        "time_limit": asked["time_limit"],
+        "accuracy": asked.accuracy,
+        "until": asked.until,
+        "time_limit": asked.time_limit,
+        "whole": asked.whole,
         "throw": False,
         "progress": told.progress,
         "watch": told.watch,
     }
-    result = _solved(problem, options, bool(asked["profiles"]))
+    result = _solved(problem, options, asked.profiles)
     told.flush()
+    return result
+
+
+def drawn_of(result: Result) -> dict[str, Any]:
+    """Return what the page draws of a result: columns, energies, profiles."""
     return {
-        "summary": plain(summary(result)),
         "columns": {name: drawn(values) for name, values in columns(result).items()},
         "energy": _energy(result),
         "profiles": _profiles(result),
@@ -63,50 +59,10 @@ def run_simulate(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, A
     }
 
 
-def run_campaign(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Simulate a problem with some of its numbers replaced, a row for each case.
-
-    Tells ``share`` and the new ``rows``. A case that fails has a row with its inputs, no numbers,
-    and why.
-    """
-    base = problem_of(asked["problem"], also)
-    inputs: list[Mapping[str, float]] = asked["cases"]
-    names = set(inputs[0])
-    if any(set(row) != names for row in inputs):
-        raise InputError("every case of a campaign must replace the same numbers of the problem")
-    kind = kind_of_problem(base, names, also)
-    settings = CaseSettings(
-        accuracy=asked["accuracy"], until=asked["until"], time_limit=asked["time_limit"]
-    )
-    rows = []
-    for number, row in enumerate(inputs, start=1):
-        answer = _case(kind, row, settings)
-        rows.append(answer)
-        tell({"share": number / len(inputs), "rows": [answer]})
-    return {"rows": rows, "failed": sum(bool(row["reason"]) for row in rows)}
-
-
-def _case(kind: Any, row: Mapping[str, float], settings: CaseSettings) -> dict[str, Any]:
-    """Return one row of a campaign: its inputs, its numbers, and why it failed if it did."""
-    began = perf_counter()
-    answer: dict[str, Any] = {"inputs": dict(row), "outputs": None, "reason": ""}
-    try:
-        problem = kind.problem(row)
-        outputs = {k: v for k, v in measure(problem, settings).items() if not _is_list(v)}
-        answer |= {"run_id": run_id(problem), "outputs": plain(outputs)}
-    except (InputError, Unsolved) as error:
-        answer["reason"] = str(error)
-    except ArithmeticError:
-        answer["reason"] = "a number is too large or too small to compute with; check its unit"
-    return answer | {"wall_time_s": perf_counter() - began}
-
-
-def _is_list(value: Any) -> bool:
-    return isinstance(value, list | tuple | dict)
-
-
 def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
     """Return the result, with profiles where they are wanted and there are any."""
+    from viscotack.bem import solve
+
     if profiles:
         try:
             return solve(problem, fields=True, **options)
@@ -134,7 +90,7 @@ class _Told:
         self._now_and_then()
 
     def flush(self) -> None:
-        self._tell({"share": self._share, "points": self._points})
+        self._tell({"doing": "pulling", "share": self._share, "points": self._points})
         self._points = []
 
     def _now_and_then(self) -> None:

@@ -7,43 +7,34 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import islice
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import typer
 
 from viscotack.campaign.listed import read_words
 from viscotack.errors import InputError
 from viscotack.files.text import cell
-from viscotack.files.whole import Target, is_standard_output, write_whole, writing_whole
+from viscotack.files.whole import Target, write_whole, writing_whole
 from viscotack.forecast.table import answers_of, kind_of, predict_table
 
-from .writing import Writing
+from ..declare.answer import Answer, Told
 
 # Rows that are held at once.
 _BLOCK = 50_000
-# Seconds between two lines of progress, while theories answer.
-_LINES = 10.0
 
 
-def predict_file(path: Path, out: Path | None, confidence: float, write: Writing) -> dict[str, Any]:
-    """Predict the cases of a CSV file, write them with their answers, return what there was.
+def predict_file(path: Path, confidence: float, tell: Callable[[Told], None]) -> Answer:
+    """Return the answer to the cases of a CSV file, which are predicted as they are written.
 
     Raises
     ------
     FileNotFoundError
         If there is no such file.
     ValueError
-        If nobody says where to write, or it is the file itself, or columns or rows are not those of
-        a table of spheres or punches.
+        If columns or rows are not those of a table of spheres or punches.
     """
-    if out is None:
-        raise InputError(f"say where the answers to {path} are to go: --csv answers.csv")
     header, rows = read_words(path)
-    if not is_standard_output(out) and out.exists() and out.samefile(path):
-        raise InputError(f"--csv {out} is the table of cases itself; give it another name")
     kind = kind_of(header)
     names = [name for name in header if name in {*kind.columns, *kind.choices}]
     try:
@@ -56,14 +47,14 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
             "rename or leave them out"
         )
     counts: Counter[str] = Counter()
+    methods: Counter[str] = Counter()
 
     def answered(file: Target) -> None:
-        tell = _teller()
         with writing_whole(file) as stream:
             while block := list(islice(rows, _BLOCK)):
                 begin = counts["rows"]
                 given = {n: [row[i].strip() for _, row in block] for i, n in enumerate(header)}
-                found = _answers(path, given, names, confidence, partial(tell, begin))
+                found = _answers(path, given, names, confidence, partial(_rows_told, tell, begin))
                 stream.write(_text({**given, **found}, header=not begin))
                 counts.update(
                     {
@@ -74,16 +65,29 @@ def predict_file(path: Path, out: Path | None, confidence: float, write: Writing
                 )
                 methods.update(found["method"][found["method"] != ""].astype(str).tolist())
 
-    methods: Counter[str] = Counter()
-    write("wrote", out, answered)
-    return {
-        "rows": counts["rows"],
-        "inside": counts["inside"],
-        "methods": dict(sorted(methods.items())),
-        "unanswered": counts["unanswered"],
-        "confidence": confidence,
-        "file": str(out),
-    }
+    def record() -> dict[str, Any]:
+        return {
+            "rows": counts["rows"],
+            "inside": counts["inside"],
+            "methods": dict(sorted(methods.items())),
+            "unanswered": counts["unanswered"],
+            "confidence": confidence,
+        }
+
+    return Answer(methods, record=record, words=lambda: _words(record()), files={"csv": answered})
+
+
+def _rows_told(tell: Callable[[Told], None], before: int, done: int, count: int) -> None:
+    tell({"words": f"{before + done} of {before + count} rows answered"})
+
+
+def _words(answer: Mapping[str, Any]) -> str:
+    lines = [f"{answer['rows']} rows, {answer['inside']} inside what was learned from"]
+    for method, count in answer["methods"].items():
+        lines.append(f"  {method:<14}{count:>8}")
+    if answer["unanswered"]:
+        lines.append(f"  {'no answer':<14}{answer['unanswered']:>8}  the column why says it")
+    return "\n".join(lines)
 
 
 def _answers(
@@ -104,19 +108,6 @@ def _answers(
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
     return found
-
-
-def _teller() -> Callable[[int, int, int], None]:
-    """Return what says on standard error, now and then, how many rows have an answer."""
-    last = perf_counter()
-
-    def tell(before: int, done: int, count: int) -> None:
-        nonlocal last
-        if perf_counter() - last > _LINES:
-            last = perf_counter()
-            typer.echo(f"{before + done} of {before + count} rows answered", err=True)
-
-    return tell
 
 
 def write_table(table: Mapping[str, Any], path: Target) -> None:

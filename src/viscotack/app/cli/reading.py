@@ -1,0 +1,350 @@
+"""Operations as commands: every declaration becomes a command with its flags."""
+
+import inspect
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from inspect import cleandoc
+from pathlib import Path
+from time import monotonic
+from typing import Annotated, Any
+
+import typer
+
+from viscotack.errors import InputError
+from viscotack.files.text import harmless
+from viscotack.files.whole import is_standard_output
+from viscotack.operations import operations
+from viscotack.operations.declare.answer import Answer, Caller, Output
+from viscotack.operations.declare.cards import File, Number, Switch, Whole
+from viscotack.operations.declare.options import Here, Operation, Option, options, take
+from viscotack.operations.declare.questions import OF_FILE, Question
+from viscotack.operations.declare.statement import Stated, door_of
+
+from .commands import application, wrong_input
+from .writing import Writing, check_files
+
+_SETTINGS = {"max_content_width": 100}
+_GROUPS = {
+    "simulate": "Simulate a contact.",
+    "theory": "Ask a closed form.",
+    "material": "From a laboratory's file to a material, and on to other programs.",
+    "test": "From the files of a tack tester or a microscope to pull-off forces and speeds.",
+    "identify": "From measured curves to the interface: work of adhesion and range of attraction.",
+    "campaign": "Run many problems: a plan, a folder that survives every stop, a table.",
+}
+_JSON = "Print one JSON object on standard output instead of words."
+# Seconds between two lines of progress.
+LINES = 10.0
+_CASE = (
+    "A problem in SI with units, instead of the flags of the problem; docs/input.md describes it."
+)
+_OWN = (
+    "A Python file with laws, materials, shapes or observables of your own, see docs/own.md; it is "
+    "executed. Give it once for each file."
+)
+
+
+def add_commands() -> None:
+    """Add a command for each operation to the application."""
+    groups: dict[str, typer.Typer] = {}
+    for word, kind in operations().items():
+        for path, command, words in _commands(word, kind):
+            first, _, rest = path.partition(" ")
+            place = application
+            if rest:
+                if first not in groups:
+                    groups[first] = typer.Typer(
+                        help=_GROUPS.get(first, ""), no_args_is_help=True, rich_markup_mode=None
+                    )
+                    application.add_typer(groups[first], name=first)
+                place = groups[first]
+            place.command(rest or first, help=words, context_settings=_SETTINGS)(command)
+
+
+def _commands(word: str, kind: type[Operation]) -> Iterator[tuple[str, Any, str]]:
+    """Yield the commands of an operation: path, function and help."""
+    help_ = cleandoc(kind.__doc__ or "")
+    card = next((o.card for o in options(kind) if isinstance(o.card, Stated)), None)
+    if card is None or card.spelling != "commands":
+        yield word, _command(kind, None), help_
+        return
+    for indenter in card.indenters:
+        yield f"{word} {indenter}", _command(kind, indenter), kind.helps[indenter]
+    yield f"{word} case", _command(kind, ""), kind.helps["case"]
+
+
+def _command(kind: type[Operation], indenter: str | None) -> Callable[..., None]:
+    """Return the function of a command, with the signature that its flags are made from."""
+
+    def command(**said: Any) -> None:
+        _run(kind, indenter, said)
+
+    parameters = list(_parameters(kind, indenter))
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    return command
+
+
+def _parameters(kind: type[Operation], indenter: str | None) -> Iterator[inspect.Parameter]:
+    found = options(kind)
+    arguments = [option for option in found if option.card.argument]
+    for option in arguments:
+        yield from _of_option(option, indenter)
+    for option in found:
+        if option not in arguments:
+            yield from _of_option(option, indenter)
+    for output in kind.outputs:
+        flags = output.flags or (f"--{output.name}",)
+        words = typer.Option(*flags, metavar=output.metavar, help=output.words, show_default=False)
+        needed = output.needed
+        yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
+    if kind.takes_own:
+        words = typer.Option("--with", metavar="FILE.py", help=_OWN, show_default=False)
+        yield _parameter("with_", list[Path] | None, words)
+    words = typer.Option(
+        "--json", help="Print one JSON object on standard output instead of words."
+    )
+    yield _parameter("json_", bool, words, default=False)
+
+
+def _parameter(
+    name: str, kind: Any, words: Any, *, default: Any = None, needed: bool = False
+) -> inspect.Parameter:
+    return inspect.Parameter(
+        name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=inspect.Parameter.empty if needed else default,
+        annotation=Annotated[kind, words],
+    )
+
+
+def _of_option(option: Option, indenter: str | None) -> Iterator[inspect.Parameter]:
+    card = option.card
+    if isinstance(card, Stated):
+        yield from _of_problem(option.name, card, indenter)
+        return
+    if isinstance(card, File) and card.elsewhere:
+        return
+    # all values are text: they are read in one place, with the words of the package
+    kind: Any = bool if isinstance(card, Switch) else list[str] if option.many else str
+    if card.argument:
+        words = typer.Argument(
+            metavar=card.metavar or option.name.upper(), help=option.words, show_default=False
+        )
+        yield _parameter(option.name, kind, words, needed=option.needed)
+        return
+    flags: tuple[str, ...] = () if option.uncertainty else card.flags
+    flags = flags or (option.flag,)
+    told = option.words
+    if isinstance(card, Switch):
+        if option.default is True:
+            flags = (f"{flags[0]}/--no-{flags[0].removeprefix('--')}",)
+        words = typer.Option(*flags, help=told, show_default=bool(option.default))
+        yield _parameter(option.name, bool | None, words)
+        return
+    if not option.needed and option.default not in (None, (), "", 0):
+        told += f" [default: {option.default}]"
+    metavar = card.metavar or ("NUMBER" if isinstance(card, Number | Whole) else "TEXT")
+    choices = getattr(card, "choices", ())
+    if choices and not card.metavar:
+        metavar = f"[{'|'.join(choices)}]"
+    words = typer.Option(*flags, metavar=metavar, help=told, show_default=False)
+    yield _parameter(
+        option.name, kind if option.needed else kind | None, words, needed=option.needed
+    )
+
+
+def _of_problem(name: str, card: Stated, indenter: str | None) -> Iterator[inspect.Parameter]:
+    """Yield what a problem is stated by: a file, or the answers to the questions of an indenter."""
+    if card.spelling == "word":
+        words = typer.Argument(metavar=card.metavar, help=card.words, show_default=False)
+        yield _parameter(f"{name}__what", str, words, needed=True)
+    words = typer.Argument(metavar="CASE.toml", help=_CASE, show_default=False)
+    yield _parameter(f"{name}__case", Path | None, words)
+    for question in _questions(card, indenter):
+        yield _of_question(name, question)
+
+
+def _questions(card: Stated, indenter: str | None) -> tuple[Question, ...]:
+    if indenter == "":
+        return OF_FILE
+    if indenter is not None:
+        return door_of(indenter).questions
+    asked: dict[str, Question] = {}
+    for word in card.indenters:
+        asked = {q.name: q for q in door_of(word).questions} | asked
+    return tuple(asked.values())
+
+
+def _of_question(name: str, question: Question) -> inspect.Parameter:
+    kind: Any = str if question.text else float
+    words = typer.Option(
+        f"--{question.name}",
+        metavar="WORDS" if question.many else "TEXT" if question.text else "NUMBER",
+        help=question.words,
+        show_default=False,
+    )
+    hint = list[kind] | None if question.many else kind | None
+    return _parameter(f"{name}__{question.name.replace('-', '_')}", hint, words)
+
+
+def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> None:
+    """Ask an operation with the values of its flags; write its files and its answer."""
+    as_json, own = said.pop("json_"), said.pop("with_", None) or ()
+    with wrong_input():
+        given = _given(kind, indenter, said)
+        files = {output: said[output.name] for output in kind.outputs}
+        files = _checked(kind, given, files, as_json)
+        from viscotack.problem.nouns import own_nouns
+
+        also = own_nouns(own)
+        asked = take(kind, given, Here(also=also))
+        wants = frozenset(output.name for output, file in files.items() if file is not None)
+        paths = tuple(str(Path(file).resolve()) for file in own)
+        with progress() as tell:
+            answer = asked.answer(Caller(tell, wants, also, paths))
+        finish(answer, files, as_json)
+
+
+def _checked(
+    kind: type[Operation],
+    given: Mapping[str, Any],
+    files: dict[Output, Path | None],
+    as_json: bool,
+) -> dict[Output, Path | None]:
+    """Return the files that are to be written, those that are usual among them."""
+    found = {
+        output: Path(output.usual) if file is None and output.usual and not as_json else file
+        for output, file in files.items()
+    }
+    read = [o.name for o in options(kind) if isinstance(o.card, File) and o.name in given]
+    reads = [
+        Path(file)
+        for name in read
+        for file in (given[name] if isinstance(given[name], list) else [given[name]])
+        if file is not None
+    ]
+    problem = next((o.name for o in options(kind) if isinstance(o.card, Stated)), "")
+    case = (given.get(problem) or {}).get("case") if problem else None
+    check_files(
+        {output.flag: file for output, file in found.items()},
+        as_json=as_json,
+        reads=[*reads, *([Path(case)] if case else [])],
+    )
+    return found
+
+
+def finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -> None:
+    """Write the files that are wanted of an answer, and print it; ends with its exit status."""
+    write = Writing()
+    for output, file in files.items():
+        if output.name in answer.pictures:
+            write.picture(file, answer.pictures[output.name])
+        elif output.name in answer.files:
+            write(output.said, file, answer.files[output.name])
+    for note in answer.notes:
+        typer.echo(harmless(note), err=True)
+    on_output = [f for f in files.values() if f is not None and is_standard_output(f)]
+    text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else answer.words()
+    if text or not on_output:
+        write.answer(text)
+    write.end()
+    if answer.status:
+        raise typer.Exit(answer.status)
+
+
+def _given(kind: type[Operation], indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what was said, by the names of the options."""
+    given: dict[str, Any] = {}
+    for option in options(kind):
+        if isinstance(option.card, Stated):
+            given |= _problem(option, indenter, said)
+        else:
+            given.setdefault(option.name, said.get(option.name))
+    return given
+
+
+def _problem(option: Option, indenter: str | None, said: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the statement of a problem: an indenter by numbers, or a file."""
+    card, name = option.card, option.name
+    assert isinstance(card, Stated)
+    prefix = f"{name}__"
+    answers = {
+        key.removeprefix(prefix): value
+        for key, value in said.items()
+        if key.startswith(prefix) and value not in (None, [], ())
+    }
+    case, what = answers.pop("case", None), answers.pop("what", None)
+    if what is not None and what not in card.indenters:
+        return _of_file(option, what, case, answers)
+    word = what or indenter or (card.indenters[0] if indenter is None and case is None else None)
+    if case is None and not word:
+        return {name: None}
+    stated = {"indenter": word} if word else {}
+    return {name: stated | answers | ({} if case is None else {"case": str(case)})}
+
+
+def _of_file(
+    option: Option, what: str, case: Path | None, answers: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return the statement of a file in the place of the word of an indenter."""
+    card = option.card
+    assert isinstance(card, Stated)
+    if case is not None:
+        raise InputError(f"give one file, got {what} and {case}")
+    if card.table and Path(what).suffix.lower() == ".csv":
+        if flags := [f"--{name.replace('_', '-')}" for name in answers]:
+            raise InputError(f"{what} is a table of cases; leave out {', '.join(flags)}")
+        return {card.table: what, option.name: None}
+    if not Path(what).suffix:
+        raise InputError(f"{card.expected}, got {what!r}")
+    return {option.name: {"case": what, **answers}}
+
+
+@contextmanager
+def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
+    """Show a bar on standard error while somebody looks at it; yields what moves it."""
+    if not sys.stderr.isatty():
+        yield _lines()
+        return
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    # the forecast takes the share of the way for that of the work, which it is about
+    looks = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+        TextColumn("gone, about"),
+        TimeRemainingColumn(),
+        TextColumn("to go"),
+    )
+    with Progress(*looks, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=1.0, visible=False)
+
+        def tell(told: Mapping[str, Any]) -> None:
+            if "share" in told:
+                doing = told.get("doing", "")
+                bar.update(task, completed=told["share"], description=doing, visible=True)
+
+        yield tell
+
+
+def _lines() -> Callable[[Mapping[str, Any]], None]:
+    """Return what prints now and then how far an operation is, where nobody watches a bar."""
+    last = monotonic()
+
+    def tell(told: Mapping[str, Any]) -> None:
+        nonlocal last
+        if "words" in told and monotonic() - last > LINES:
+            last = monotonic()
+            typer.echo(harmless(told["words"]), err=True)
+
+    return tell

@@ -1,0 +1,312 @@
+"""Cards of the options of an operation: what may be given, in words and with its range.
+
+An option is a field of an operation with a card in its annotation. The field's type says the rest:
+``float | None`` may be left out, ``tuple[Path, ...]`` may be given several times. A card converts
+what a user gave, text or number, in one place for every door.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, ClassVar, Protocol
+
+from viscotack.cards import Quantity
+from viscotack.errors import InputError
+from viscotack.units import parse
+
+
+class Place(Protocol):
+    """Where a request comes from: how names of files are read there."""
+
+    also: tuple[Any, ...]
+
+    def file(self, name: str) -> Path:
+        """Return the path of a file that an option names; InputError where none may be named."""
+        ...
+
+
+@dataclass(frozen=True)
+class Card:
+    """What all cards have.
+
+    Attributes
+    ----------
+    words : str
+        What the option means, a sentence or two.
+    metavar : str
+        What stands for the value in a help text.
+    flags : tuple of str
+        Spelling on the command line, where it is not ``--name``.
+    argument : bool
+        Whether the command line takes it by its position.
+    example : str
+        As a user may give it.
+    late : bool
+        Whether it is read after the others, because that takes a while.
+    """
+
+    late: ClassVar[bool] = False
+
+    words: str
+    metavar: str = field(default="", kw_only=True)
+    flags: tuple[str, ...] = field(default=(), kw_only=True)
+    argument: bool = field(default=False, kw_only=True)
+    example: str = field(default="", kw_only=True)
+
+    def read(self, value: Any, place: Place) -> Any:
+        """Return the value of the option; InputError where it is none."""
+        raise NotImplementedError
+
+    def written(self, value: Any) -> Any:
+        """Return a value as a study file states it, so that reading it gives the same value."""
+        return value
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """The JSON schema of a value, as HTTP takes it."""
+        return {"type": "string", "maxLength": 200_000}
+
+
+@dataclass(frozen=True)
+class Number(Card):
+    """A number; with a unit it may be given as text, "5.19 mm", or as a number in that SI unit."""
+
+    unit: str = field(default="1", kw_only=True)
+    above: float | None = field(default=None, kw_only=True)
+    least: float | None = field(default=None, kw_only=True)
+    most: float | None = field(default=None, kw_only=True)
+
+    def read(self, value: Any, place: Place) -> float:
+        """Return the number in SI, within its range."""
+        number = parse(value, self.unit)
+        range_ = Quantity(self.unit, "", "", above=self.above, least=self.least, most=self.most)
+        return range_.checked("it", number)
+
+    def written(self, value: Any) -> Any:
+        """Return the number with its unit and all its digits."""
+        return value if self.unit == "1" else f"{float(value)!r} {self.unit}"
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """A number in SI, or text with a unit."""
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
+        number: dict[str, Any] = {"type": "number"}
+        number |= {name: bound for name, bound in bounds.items() if bound is not None}
+        text = {"type": "string", "maxLength": 200}
+        return {"anyOf": [number, text]} | ({"unit": self.unit} if self.unit != "1" else {})
+
+
+def number_of(card: Quantity, **more: Any) -> Number:
+    """Return the card of an option for a number that has a card already.
+
+    Keywords are those of `Number`; its words, unit, range and example are those of the card.
+    """
+    words = f"{card.words[0].upper()}{card.words[1:]}"
+    words += f"; must {card.range}" if card.bounded else ""
+    words += f', for example "{card.example}".' if card.example else "."
+    ends = {"above": card.above, "least": card.least, "most": card.most}
+    return Number(words, unit=card.unit, **ends, **more)
+
+
+@dataclass(frozen=True)
+class Known(Number):
+    """A number that is known from elsewhere, and its standard uncertainty: two options.
+
+    The value of the field is a pair. A study may state both in a list.
+    """
+
+    uncertainty: str = field(default="Standard uncertainty of it; goes with it.", kw_only=True)
+
+
+@dataclass(frozen=True)
+class Whole(Card):
+    """A whole number."""
+
+    least: int | None = field(default=None, kw_only=True)
+    most: int | None = field(default=None, kw_only=True)
+
+    def read(self, value: Any, place: Place) -> int:
+        """Return the number within its range."""
+        try:
+            number = int(value) if not isinstance(value, bool | float) else int(f"{value:g}")
+        except (TypeError, ValueError, OverflowError):
+            raise InputError(f"expected a whole number, got {value!r:.60}") from None
+        low = self.least is not None and number < self.least
+        if low or (self.most is not None and number > self.most):
+            least = "" if self.least is None else f"at least {self.least}"
+            most = "" if self.most is None else f"at most {self.most}"
+            raise InputError(f"must be {' and '.join(filter(None, (least, most)))}, got {number}")
+        return number
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """A whole number within its range."""
+        bounds = {"minimum": self.least, "maximum": self.most}
+        return {"type": "integer"} | {k: v for k, v in bounds.items() if v is not None}
+
+
+@dataclass(frozen=True)
+class Text(Card):
+    """Words that the operation reads itself."""
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the words."""
+        if isinstance(value, bool) or not isinstance(value, str | int | float):
+            raise InputError(f"expected text, got {value!r:.60}")
+        return str(value)
+
+
+@dataclass(frozen=True)
+class Choice(Card):
+    """One of some words."""
+
+    choices: tuple[str, ...] = field(default=(), kw_only=True)
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the word, one of the choices."""
+        if value not in self.choices:
+            raise InputError(f"must be one of {', '.join(self.choices)}, got {value!r:.60}")
+        return value
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """The choices."""
+        return {"type": "string", "enum": list(self.choices)}
+
+
+_SAID = {"true": True, "false": False, "1": True, "0": False, "yes": True, "no": False}
+
+
+@dataclass(frozen=True)
+class Switch(Card):
+    """Yes or no."""
+
+    def read(self, value: Any, place: Place) -> bool:
+        """Return whether it is on."""
+        found = value if isinstance(value, bool) else _SAID.get(str(value).lower())
+        if found is None:
+            raise InputError(f"must be true or false, got {value!r:.60}")
+        return found
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """True or false."""
+        return {"type": "boolean"}
+
+
+@dataclass(frozen=True)
+class File(Card):
+    """A file that the operation reads; over HTTP it is sent with the request.
+
+    Attributes
+    ----------
+    elsewhere : bool
+        Whether the command line takes it in the place of another option, and has no flag for it.
+    """
+
+    elsewhere: bool = field(default=False, kw_only=True)
+
+    def read(self, value: Any, place: Place) -> Path:
+        """Return the path of the file."""
+        return place.file(_name(value))
+
+    def written(self, value: Any) -> Any:
+        """Return the path; `study_text` makes it relative to the study."""
+        return Path(value)
+
+
+@dataclass(frozen=True)
+class Named(Card):
+    """A published name, or else a file; the value is a text that the operation reads.
+
+    Parameters
+    ----------
+    published : callable
+        Returns the names.
+    text : str
+        What a text that is no name begins with and that is content itself, such as ``[material]``.
+    """
+
+    published: Callable[[], Iterable[str]] = field(default=tuple, kw_only=True)
+    text: str = field(default="", kw_only=True)
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the name, the content, or the path of the file."""
+        words = _name(value)
+        if words in self.published() or (self.text and words.lstrip().startswith(self.text)):
+            return words
+        return str(place.file(words))
+
+    def written(self, value: Any) -> Any:
+        """Return the name, or the path where there is such a file."""
+        return value if value in self.published() or not Path(value).is_file() else Path(value)
+
+
+@dataclass(frozen=True)
+class Spelled(Card):
+    """Words that may name a file behind or without a keyword, such as ``prony:FILE``.
+
+    Parameters
+    ----------
+    before : tuple of str
+        Keywords behind which the name of a file stands, with their mark.
+    endings : tuple of str
+        Of words that are the name of a file as they stand.
+    """
+
+    before: tuple[str, ...] = field(default=(), kw_only=True)
+    endings: tuple[str, ...] = field(default=(), kw_only=True)
+
+    def read(self, value: Any, place: Place) -> str:
+        """Return the words, in which a name of a file is the path of it."""
+        words = _name(value)
+        for keyword in self.before:
+            head, mark, name = words.rpartition(keyword)
+            if mark and name:
+                return f"{head}{mark}{place.file(name)}"
+        return str(place.file(words)) if words.endswith(self.endings or "\0") else words
+
+
+@dataclass(frozen=True)
+class Folder(Card):
+    """A folder on the machine that runs the operation."""
+
+    def read(self, value: Any, place: Place) -> Path:
+        """Return the path of the folder."""
+        return place.file(_name(value))
+
+    def written(self, value: Any) -> Any:
+        """Return the path; `study_text` makes it relative to the study."""
+        return Path(value)
+
+
+@dataclass(frozen=True)
+class Table(Card):
+    """Rows of numbers by name: a list of objects, or the name of a CSV file with a heading."""
+
+    def read(self, value: Any, place: Place) -> tuple[Mapping[str, float], ...]:
+        """Return the rows."""
+        if isinstance(value, str | Path):
+            import csv
+
+            with open(place.file(_name(value)), newline="", encoding="utf-8") as stream:
+                value = list(csv.DictReader(stream))
+        if not isinstance(value, list | tuple) or not all(isinstance(r, Mapping) for r in value):
+            raise InputError(f"expected rows, [{{'name': number}}, ...], got {value!r:.60}")
+        return tuple({str(k): parse(v, "1") for k, v in row.items()} for row in value)
+
+    def written(self, value: Any) -> Any:
+        """Return the rows as tables."""
+        return [dict(row) for row in value]
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """A list of objects of numbers."""
+        row = {"type": "object", "additionalProperties": {"type": "number"}}
+        return {"type": "array", "items": row, "minItems": 1}
+
+
+def _name(value: Any) -> str:
+    if not isinstance(value, str | Path) or not str(value) or "\0" in str(value):
+        raise InputError(f"expected the name of a file, got {value!r:.60}")
+    return str(value)

@@ -1,0 +1,300 @@
+"""Operations as data: their options, and the one way from what a user gave to an operation.
+
+An operation is a frozen dataclass. Its fields are its options, each with a card; a field whose type
+is a `Part` stands for the options of that part. Command line, HTTP, page, study files and Python
+all hand over a mapping, option -> what was given, to :func:`take`, and nobody else converts.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, dataclass, fields
+from difflib import get_close_matches
+from functools import lru_cache
+from inspect import cleandoc
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
+
+from viscotack.errors import InputError, OutOfRange
+
+from .answer import Answer, Caller, Output
+from .cards import Card, Known, Place
+
+_FLAG = re.compile(r"--([a-z][a-z0-9-]*)")
+# Options that doors have of their own, for every operation.
+OF_DOORS = ("outputs", "attached", "operation", "write", "json", "with")
+
+
+class Part:
+    """Some options that several operations have; a frozen dataclass as well."""
+
+    # of the table that holds them in a study file
+    table: ClassVar[str] = ""
+
+
+class Operation:
+    """What a user can ask.
+
+    Subclasses are frozen dataclasses whose docstring is the help: a line that says what is asked,
+    more about it, and an example of the command.
+
+    Attributes
+    ----------
+    word : str
+        Of the command: ``identify rates``.
+    outputs : tuple of Output
+        Files that it may write beside its answer.
+    takes_own : bool
+        Whether laws, materials, shapes or observables of the user's own may be named.
+    refused : mapping
+        Door -> why this operation is not there: ``{"http": "..."}``.
+    helps : mapping
+        Help of each command, where an operation has several.
+    """
+
+    word: ClassVar[str]
+    outputs: ClassVar[tuple[Output, ...]] = ()
+    takes_own: ClassVar[bool] = False
+    refused: ClassVar[Mapping[str, str]] = {}
+    helps: ClassVar[Mapping[str, str]] = {}
+
+    def answer(self, caller: Caller) -> Answer:
+        """Return the answer; imports what computes it here, so that declarations cost nothing."""
+        raise NotImplementedError
+
+    @classmethod
+    def of(cls, **given: Any) -> Self:
+        """Return the operation with these options: numbers in SI, or texts with units."""
+        return take(cls, given, Here())
+
+
+Asked = TypeVar("Asked", bound=Operation)
+
+
+@dataclass(frozen=True)
+class Here:
+    """A request of this machine: files are named as the shell does, or beside a study.
+
+    Attributes
+    ----------
+    folder : Path
+        That relative names are relative to.
+    also : tuple of classes
+        Nouns of the user's own.
+    """
+
+    folder: Path = Path()
+    also: tuple[Any, ...] = ()
+
+    def file(self, name: str) -> Path:
+        """Return the path of a file."""
+        return self.folder / name
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option of an operation.
+
+    Attributes
+    ----------
+    name : str
+        As Python, HTTP and study files spell it; with dashes on the command line.
+    card : Card
+        What it is.
+    default : object
+        Where it is left out; `dataclasses.MISSING` where it must be given.
+    many : bool
+        Whether it may be given several times.
+    part : str
+        Field of the operation that holds it; "" for the operation itself.
+    table : str
+        Of a study file that holds it; "" for none.
+    field : str
+        Of the operation or its part that gets the value.
+    """
+
+    name: str
+    card: Card
+    default: Any
+    many: bool
+    part: str
+    table: str
+    field: str
+
+    @property
+    def needed(self) -> bool:
+        """Whether it must be given."""
+        return self.default is MISSING
+
+    @property
+    def uncertainty(self) -> bool:
+        """Whether it is the uncertainty of a number that is known from elsewhere."""
+        return self.name != self.field
+
+    @property
+    def words(self) -> str:
+        """What it means."""
+        card = self.card
+        return card.uncertainty if isinstance(card, Known) and self.uncertainty else card.words
+
+    @property
+    def flag(self) -> str:
+        """As messages name it."""
+        spelled = () if self.uncertainty else self.card.flags
+        return next((f for f in spelled if f.startswith("--")), f"--{self.name.replace('_', '-')}")
+
+
+@lru_cache(maxsize=256)
+def options(kind: type) -> tuple[Option, ...]:
+    """Return the options of an operation, those of its parts among them.
+
+    Raises
+    ------
+    TypeError
+        If a field has no card, or two options have one name: a defect of the declaration.
+    """
+    found = tuple(_options(kind, "", ""))
+    names = [option.name for option in found]
+    twice = {name for name in names if names.count(name) > 1 or name in OF_DOORS}
+    if twice:
+        raise TypeError(f"{kind.__name__} declares {', '.join(sorted(twice))} twice")
+    return found
+
+
+def _options(kind: Any, part: str, table: str) -> Iterator[Option]:
+    hints = get_type_hints(kind, include_extras=True)
+    for field in fields(kind):
+        hint = hints[field.name]
+        if isinstance(hint, type) and issubclass(hint, Part):
+            yield from _options(hint, field.name, hint.table)
+            continue
+        card = next((x for x in getattr(hint, "__metadata__", ()) if isinstance(x, Card)), None)
+        if get_origin(hint) is not Annotated or card is None:
+            raise TypeError(f"{kind.__name__}.{field.name} has no card")
+        many = not isinstance(card, Known) and _is_many(get_args(hint)[0])
+        default = field.default
+        if field.default_factory is not MISSING:
+            default = field.default_factory()
+        yield Option(field.name, card, default, many, part, table, field.name)
+        if isinstance(card, Known):
+            name = f"{field.name}_uncertainty"
+            yield Option(name, card, None, False, part, table, field.name)
+
+
+def _is_many(hint: Any) -> bool:
+    parts = [hint, *get_args(hint)]
+    return any(get_origin(part) is tuple for part in parts)
+
+
+def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
+    """Return the operation that was asked for: the only conversion of what users give.
+
+    Parameters
+    ----------
+    kind : class
+        The operation.
+    given : mapping
+        Name of an option -> text, number, list of these, or what Python has. None and empty lists
+        stand for options that were left out.
+    place : Place
+        How names of files are read.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, options are missing (all are named), a value is none, or options do
+        not go together. Options are spelled ``--name``; :func:`spelled` has other spellings.
+    """
+    known = {option.name: option for option in options(kind)}
+    said = {name: value for name, value in given.items() if not _is_left_out(value)}
+    _refuse_unknown(kind, said, known)
+    values: dict[str, dict[str, Any]] = {}
+    # what is quickly read comes first: a wrong word is told of before a problem is made
+    for name in sorted(said, key=lambda each: known[each].card.late):
+        option, value = known[name], said[name]
+        if isinstance(option.card, Known) and isinstance(value, list | tuple):
+            for each, number in zip((name, f"{name}_uncertainty"), value, strict=False):
+                values.setdefault(option.part, {})[each] = _one(option, number, place)
+            continue
+        values.setdefault(option.part, {})[name] = _read(option, value, place)
+    missing = [
+        option.flag for option in known.values() if option.needed and option.name not in said
+    ]
+    if missing:
+        raise InputError(f"{_listed(missing)} missing; --help says what they are")
+    for option in known.values():
+        if isinstance(option.card, Known) and not option.uncertainty:
+            _pair(option, values.get(option.part, {}))
+    parts = {name: get_type_hints(kind)[name](**chosen) for name, chosen in values.items() if name}
+    return kind(**values.get("", {}), **parts)
+
+
+def _is_left_out(value: Any) -> bool:
+    return value is None or (isinstance(value, list | tuple | str) and len(value) == 0)
+
+
+def _refuse_unknown(kind: type, given: Mapping[str, Any], known: Mapping[str, Option]) -> None:
+    unknown = [name for name in given if name not in known]
+    if unknown:
+        near = get_close_matches(unknown[0], known, n=1)
+        meant = f"; perhaps {near[0]} is meant" if near else ""
+        word = getattr(kind, "word", kind.__name__)
+        raise InputError(
+            f"{word} has no option {unknown[0]!r:.60}{meant}; there are {', '.join(known)}"
+        )
+
+
+def _read(option: Option, value: Any, place: Place) -> Any:
+    if not option.many:
+        return _one(option, value, place)
+    several = value if isinstance(value, list | tuple) else [value]
+    return tuple(_one(option, each, place) for each in several)
+
+
+def _one(option: Option, value: Any, place: Place) -> Any:
+    try:
+        return option.card.read(value, place)
+    except InputError as error:
+        words = str(error)
+        if option.card.argument or words.startswith(option.flag):
+            raise
+        joint = " " if words.startswith("must ") else ": "
+        example = f"; for example {option.card.example}" if option.card.example else ""
+        raise InputError(f"{option.flag}{joint}{words}{example}") from None
+
+
+def _pair(option: Option, values: dict[str, Any]) -> None:
+    """Make one value of a number and its uncertainty, of which one does not go alone."""
+    number, uncertainty = values.get(option.name), values.pop(f"{option.name}_uncertainty", None)
+    if (number is None) != (uncertainty is None):
+        raise InputError(
+            f"{option.flag} and {option.flag}-uncertainty go together; give both or neither"
+        )
+    if number is not None:
+        values[option.name] = (number, uncertainty)
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+
+
+def spelled(message: str, kind: type[Operation]) -> str:
+    """Return a message in which options have the names of HTTP, study files and Python."""
+    flags = {option.flag: option.name for option in options(kind)}
+    flags |= {output.flag: output.name for output in kind.outputs}
+
+    def name(found: re.Match[str]) -> str:
+        return flags.get(found[0], found[0])
+
+    message = message.replace("; --help says what they are", "")
+    return _FLAG.sub(name, message)
+
+
+def respelled(error: InputError, kind: type[Operation]) -> InputError:
+    """Return an error with its message as :func:`spelled` has it."""
+    known = OutOfRange if isinstance(error, OutOfRange) else InputError
+    return known(spelled(str(error), kind))
+
+
+def summary(kind: type) -> str:
+    """Return the first sentence of what an operation is."""
+    return cleandoc(kind.__doc__ or "").partition("\n\n")[0].replace("\n", " ")

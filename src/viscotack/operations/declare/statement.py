@@ -1,0 +1,190 @@
+"""The problem of an operation: stated by numbers, by a case file or its tables, or as an object."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+from viscotack.errors import InputError
+
+from .cards import Card, Place, Spelled
+
+if TYPE_CHECKING:
+    from viscotack.problem import Case
+
+    from .questions import Door
+
+# Keys of a statement by numbers, and of one by a file.
+_INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
+# Answers that may name a file.
+_NAMING = {
+    "material": Spelled("", before=("prony:",), endings=(".toml",)),
+    "law": Spelled("", before=("table:",)),
+}
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A problem, and how well it is known.
+
+    Attributes
+    ----------
+    problem : Problem, Groups or PunchGroups
+        In SI or without dimensions.
+    deviation : float
+        Standard deviation of log10 of the times of its material, from its shift with temperature.
+    given : object
+        As it was given.
+    """
+
+    problem: "Case"
+    deviation: float = 0.0
+    given: Any = None
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is said where an answer does not hold how well times are known."""
+        if self.deviation == 0:
+            return ()
+        return (
+            f"times of the material are known to {self.deviation:.2g} decades, from its shift with "
+            "temperature, which this answer does not hold; viscotack predict does",
+        )
+
+
+@dataclass(frozen=True)
+class Stated(Card):
+    """A problem: an object, a case file, its tables, a record, or numbers.
+
+    Numbers are a mapping with the word of an indenter and its answers: ``{"indenter": "sphere",
+    "tabor": 3.24, "modulus_ratio": 0.1, ...}``; ``{"case": FILE, "temperature": "0 degC"}`` moves
+    the material of a case.
+
+    Attributes
+    ----------
+    indenters : tuple of str
+        That may be stated by numbers.
+    spelling : str
+        Of the command line: the indenter is a command of its own, a word, or always the one.
+    whole : bool
+        Whether any problem of a case file will do, whatever its indenter.
+    table, expected : str
+        Of a word: the option that gets the name of a CSV file in its place, and what is expected.
+    """
+
+    late: ClassVar = True
+
+    argument: bool = field(default=True, kw_only=True)
+    indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
+    spelling: Literal["flags", "commands", "word"] = field(default="flags", kw_only=True)
+    whole: bool = field(default=True, kw_only=True)
+    table: str = field(default="", kw_only=True)
+    expected: str = field(default="", kw_only=True)
+
+    def read(self, value: Any, place: Place) -> Statement:
+        """Return the problem."""
+        if isinstance(value, Statement):
+            return value
+        if isinstance(value, str | Path):
+            return self._of_case({_CASE: value}, place)
+        if not isinstance(value, Mapping):
+            return Statement(_checked(value), given=value)
+        if _CASE in value:
+            return self._of_case(value, place)
+        if _INDENTER in value:
+            return self._of_numbers(value, place)
+        if "type" in value:
+            from viscotack.problem.record import from_dict
+
+            return Statement(_checked(from_dict(value, place.also)), given=value)
+        from .state import State
+
+        return Statement(State(value, place.also).problem, given=value)
+
+    def written(self, value: Statement) -> Any:
+        """Return the problem as it was given, or its record."""
+        if isinstance(value.given, Mapping):
+            return {name: entry for name, entry in value.given.items() if entry is not None}
+        if isinstance(value.given, str | Path):
+            return Path(value.given)
+        from viscotack.problem.record import to_dict
+
+        return to_dict(value.problem)
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """A problem."""
+        return {"$ref": "#/components/schemas/Stated"}
+
+    def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:
+        from viscotack.problem.case_file import read_case, shift_deviation
+
+        from .questions import given_of, temperature_of
+
+        case = place.file(str(value[_CASE]))
+        given = given_of(value)
+        flags = [_flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _INDENTER)]
+        if flags:
+            raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
+        kelvin = temperature_of(given)
+        problem = read_case(case, also=place.also, temperature=kelvin)
+        wanted, found = given.get(_INDENTER), indenter_of(problem)
+        if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
+            command = found if found in ("sphere", "punch", "profile") else "case"
+            raise InputError(
+                f"{case} states a {found}, which has commands of its own: viscotack simulate "
+                f"{command} {case}"
+            )
+        deviation = shift_deviation(case, temperature=kelvin, also=place.also)
+        return Statement(problem, deviation, {**given, _CASE: case} if kelvin else case)
+
+    def _of_numbers(self, value: Mapping[str, Any], place: Place) -> Statement:
+        from .questions import given_of, shift_deviation_of, stated
+
+        word = value[_INDENTER]
+        if word not in self.indenters:
+            raise InputError(
+                f"indenter must be one of {', '.join(self.indenters)}, got {word!r:.60}"
+            )
+        door = door_of(word)
+        given = {n.replace("_", "-"): v for n, v in given_of(value).items() if n != _INDENTER}
+        unknown = [name for name in given if name not in {q.name for q in door.questions}]
+        if unknown:
+            raise InputError(
+                f"a {word} is not asked {', '.join(map(_flag, unknown))}; leave it out"
+            )
+        for name, card in _NAMING.items():
+            if name in given:
+                given[name] = card.read(given[name], place)
+        problem = stated(door, given, place.also)
+        said = {n.replace("-", "_"): v for n, v in given.items()}
+        return Statement(problem, shift_deviation_of(given, place.also), {_INDENTER: word, **said})
+
+
+def door_of(word: str) -> "Door":
+    """Return the indenter of a word, as it is stated by numbers."""
+    from .questions import PROFILE, PUNCH, SPHERE
+
+    return {door.word: door for door in (SPHERE, PUNCH, PROFILE)}[word]
+
+
+def indenter_of(problem: Any) -> str:
+    """Return the word of the indenter of a problem in SI, as commands have it."""
+    from viscotack.geometry import Cone
+
+    return "profile" if isinstance(problem.geometry, Cone) else problem.geometry.word
+
+
+def _checked(problem: Any) -> Any:
+    from viscotack.problem import Groups, Problem, PunchGroups
+
+    if not isinstance(problem, Problem | Groups | PunchGroups):
+        raise InputError(
+            "problem must be a Problem, Groups or PunchGroups, a case file or its tables, got a "
+            f"{type(problem).__name__}"
+        )
+    return problem
+
+
+def _flag(name: str) -> str:
+    return f"--{name.replace('_', '-')}"

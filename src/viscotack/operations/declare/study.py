@@ -1,0 +1,152 @@
+"""Operations in TOML files: ``operation = "identify rates"``, and its options.
+
+Options of a part stand in a table of their own; quantities are texts with units; names of files
+are relative to the folder of the study. A table ``[write]`` names the files to be written.
+"""
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from viscotack.errors import InputError
+from viscotack.files.toml import read_toml, toml_value
+
+from .options import Here, Operation, Option, options, respelled, take
+
+if TYPE_CHECKING:
+    from viscotack.files.whole import Target
+
+_OPERATION, _WRITE = "operation", "write"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a study asks.
+
+    Attributes
+    ----------
+    operation : Operation
+        With its options.
+    write : mapping
+        Name of an output -> file.
+    """
+
+    operation: Operation
+    write: Mapping[str, Path]
+
+
+def read_study(
+    path: str | os.PathLike[str],
+    *,
+    known: Callable[[str], type[Operation]],
+    usual: str = "",
+    also: tuple[Any, ...] = (),
+) -> Asked:
+    """Return what a study file asks.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    known : callable
+        Returns the operation of a word.
+    usual : str
+        Word of the operation where the file has none, as those that earlier versions wrote.
+    also : tuple of classes
+        Nouns of the user's own.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    InputError
+        If it is not TOML, or states no operation; with the name of the file.
+    """
+    path = Path(path)
+    table = dict(read_toml(path))
+    try:
+        word = table.pop(_OPERATION, usual)
+        if not isinstance(word, str) or not word:
+            raise InputError('operation is missing: which one, such as operation = "predict"')
+        kind = known(word)
+        write = table.pop(_WRITE, {})
+        given = _flat(kind, table)
+        try:
+            operation = take(kind, given, Here(path.parent, also))
+        except InputError as error:
+            raise respelled(error, kind) from None
+        return Asked(operation, _files(kind, write, path.parent))
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _flat(kind: type[Operation], table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options of a study, those in tables of parts among them."""
+    tables = {option.table for option in options(kind)} - {""}
+    given: dict[str, Any] = {}
+    for name, value in table.items():
+        inner = value if name in tables and isinstance(value, Mapping) else {name: value}
+        if twice := given.keys() & inner.keys():
+            raise InputError(f"{', '.join(sorted(twice))} is stated twice")
+        given |= inner
+    return given
+
+
+def _files(kind: type[Operation], write: Any, folder: Path) -> dict[str, Path]:
+    names = [output.name for output in kind.outputs]
+    if not isinstance(write, Mapping) or not all(isinstance(x, str) for x in write.values()):
+        raise InputError(f"[{_WRITE}] has names of files, such as {names[0] if names else 'csv'}")
+    unknown = [name for name in write if name not in names]
+    if unknown:
+        raise InputError(
+            f"{kind.word} writes no {unknown[0]!r:.60}; there are {', '.join(names) or 'none'}"
+        )
+    return {name: folder / file for name, file in write.items()}
+
+
+def study_file(operation: Operation) -> Callable[["Target"], None]:
+    """Return what writes an operation as a study."""
+
+    def write(target: "Target") -> None:
+        from viscotack.files.whole import is_standard_output, write_whole
+
+        inside = isinstance(target, str | os.PathLike) and not is_standard_output(target)
+        folder = Path(os.fspath(target)).parent if inside else Path()  # type: ignore[arg-type]
+        write_whole(target, study_text(operation, folder).encode())
+
+    return write
+
+
+def study_text(operation: Operation, folder: str | os.PathLike[str] = ".") -> str:
+    """Return an operation as a study file for a folder: reading it gives the same operation.
+
+    Numbers are written with all their digits. Options that have their defaults are left out.
+    """
+    lines = [f"{_OPERATION} = {toml_value(operation.word)}"]
+    tables: dict[str, list[str]] = {}
+    for option in options(type(operation)):
+        if option.uncertainty:
+            continue
+        holder = getattr(operation, option.part) if option.part else operation
+        value = getattr(holder, option.field)
+        if value is None or value == option.default:
+            continue
+        line = f"{option.name} = {toml_value(_written(option, value, Path(folder)))}"
+        (tables.setdefault(option.table, []) if option.table else lines).append(line)
+    for name, inner in tables.items():
+        lines += ["", f"[{name}]", *inner]
+    return "\n".join(lines) + "\n"
+
+
+def _written(option: Option, value: Any, folder: Path) -> Any:
+    many = option.many or isinstance(value, tuple)
+    if many:
+        return [_written_one(option, each, folder) for each in value]
+    return _written_one(option, value, folder)
+
+
+def _written_one(option: Option, value: Any, folder: Path) -> Any:
+    found = option.card.written(value)
+    return os.path.relpath(found, folder) if isinstance(found, Path) else found

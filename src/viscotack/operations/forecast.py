@@ -1,0 +1,219 @@
+"""The operations ``forecast`` and ``report``: from a study to what to expect."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.units import parse
+
+from .declare.answer import Answer, Caller, Output, csv_file, picture
+from .declare.cards import File, Number, Place, Text
+from .declare.options import Operation, Part
+from .declare.study import read_study
+from .identify import IdentifyRates
+from .parts.rig import refusals
+
+_MOST = 50  # speeds between two ends
+
+StudyFile = Annotated[
+    Path,
+    File(
+        "As `viscotack identify rates ... -o study.toml` writes it.", metavar="STUDY", argument=True
+    ),
+]
+
+
+@dataclass(frozen=True)
+class Speeds(Text):
+    """A speed, or a range of them; the value is their numbers [m/s]."""
+
+    def read(self, value: Any, place: Place) -> tuple[float, ...]:
+        """Return the speeds."""
+        if isinstance(value, list | tuple):
+            return tuple(parse(one, "m/s") for one in value)
+        first, dots, last = value.partition("..") if isinstance(value, str) else (value, "", "")
+        if not dots:
+            return (parse(first, "m/s"),)
+        low, high = parse(first, "m/s"), parse(last, "m/s")
+        if not 0 < low < high:
+            raise InputError(f"{value}: the first of two must be positive and the smaller one")
+        count = min(_MOST, 1 + round(8 * np.log10(high / low)))
+        return tuple(np.geomspace(low, high, max(count, 2)).tolist())
+
+    def written(self, value: Any) -> Any:
+        """Return a speed with its unit; a range is written as its speeds."""
+        return [f"{float(one)!r} m/s" for one in value]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish(Part):
+    """At which speeds, and under which conditions, a forecast is wanted."""
+
+    table: ClassVar = "forecast"
+
+    speed: Annotated[
+        tuple[tuple[float, ...], ...],
+        Speeds(
+            'Of a retraction, "30 um/s", or a range, "1 um/s..1 mm/s"; may be given again. Else '
+            "the range of the series.",
+            metavar="SPEED|FROM..TO",
+        ),
+    ] = ()
+    preload: Annotated[
+        float | None,
+        Number("Of the forecast; else that of the series.", unit="N", metavar="FORCE"),
+    ] = None
+    temperature: Annotated[
+        float | None,
+        Number(
+            'Of the forecast, "40 degC"; else that of the series. The passport says how times '
+            "change with it.",
+            unit="K",
+            metavar="T",
+        ),
+    ] = None
+    dwell: Annotated[
+        float | None,
+        Number(
+            "Under the preload, held; else until all has relaxed. Goes with --approach-speed.",
+            unit="s",
+            metavar="TIME",
+        ),
+    ] = None
+    approach_speed: Annotated[
+        float | None, Number("Goes with --dwell.", unit="m/s", metavar="SPEED")
+    ] = None
+
+    def of(self, fit: Any) -> Any:
+        """Return the forecast from a fitted rate series."""
+        from viscotack.identify import forecast_rates
+
+        if self.speed:
+            speed = np.concatenate([np.array(some) for some in self.speed])
+        else:
+            measured = [one.speed for one in fit.series]
+            speed = np.geomspace(min(measured), max(measured), 25)
+        return forecast_rates(
+            fit,
+            speed,
+            preload=self.preload,
+            temperature=self.temperature,
+            dwell=self.dwell,
+            approach_speed=self.approach_speed,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Forecast(Operation):
+    """Forecast pull-off forces with a band, from a lab's rate series.
+
+    The interface is found from the files of the study; its posterior, the doubt about the material
+    and that of the theory make the band, which is narrow near speeds that were measured.
+
+    Example: viscotack forecast study.toml --speed "1 um/s..10 mm/s" --plot forecast.png
+    """
+
+    word: ClassVar = "forecast"
+    outputs: ClassVar = (
+        csv_file("Write a row for each speed; - is standard output."),
+        picture(),
+    )
+
+    study: StudyFile
+    wish: Wish = field(default_factory=Wish)
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the series of the study and forecast from it."""
+        from viscotack.pictures.identify import draw_rate_series
+
+        from .parts.tables import rows_as_csv
+
+        found = _identified(self.study, caller)
+        forecast = self.wish.of(found.fit)
+        rows = _rows(forecast)
+        return Answer(
+            (found, forecast),
+            record=lambda: _record(found.fit, forecast, rows),
+            words=lambda: _words(found.fit, forecast, rows),
+            files={"csv": rows_as_csv(rows)},
+            pictures={"plot": lambda: draw_rate_series(found.fit, forecast)},
+            notes=refusals(found.survey),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Report(Operation):
+    """Write one page for the lab: curves, interface, forecast, method, and what to cite.
+
+    The page needs nothing beside it and prints well.
+
+    Example: viscotack report study.toml -o report.html
+    """
+
+    word: ClassVar = "report"
+    outputs: ClassVar = (
+        Output("output", "The page, FILE.html.", flags=("-o", "--output"), needed=True),
+    )
+
+    study: StudyFile
+    wish: Wish = field(default_factory=Wish)
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit, forecast, and render the page."""
+        from .parts.report import page
+        from .parts.tables import as_text
+
+        found = _identified(self.study, caller)
+        forecast = self.wish.of(found.fit)
+        return Answer(
+            (found, forecast),
+            record=lambda: _record(found.fit, forecast, _rows(forecast)),
+            words=lambda: "\n".join([*found.fit.words, *forecast.words]),
+            files={"output": as_text(lambda: page(found, forecast))},
+            notes=refusals(found.survey),
+        )
+
+
+def _identified(study: Path, caller: Caller) -> Any:
+    """Return what the files of a study say."""
+    from viscotack.identify.study import answer
+
+    from . import operation
+
+    asked = read_study(study, known=operation, usual=IdentifyRates.word, also=caller.also).operation
+    if not isinstance(asked, IdentifyRates):
+        raise InputError(
+            f"{study} asks to {asked.word}; a forecast starts from a study of {IdentifyRates.word}"
+        )
+    return answer(asked.study(caller.also))
+
+
+def _rows(forecast: Any) -> list[dict[str, float]]:
+    columns = zip(forecast.speed, forecast.force, forecast.low, forecast.high, strict=True)
+    names = ("speed_m_s", "pull_off_force_N", "low_N", "high_N")
+    return [dict(zip(names, map(float, row), strict=True)) for row in columns]
+
+
+def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, Any]:
+    return {
+        "work_of_adhesion_J_m2": fit.work_of_adhesion,
+        "equilibrium_gap_m": fit.equilibrium_gap,
+        "level": forecast.level,
+        "preload_N": forecast.preload,
+        "temperature_K": forecast.temperature,
+        "dwell_s": forecast.dwell,
+        "forecast": rows,
+        "words": [*fit.words, *forecast.words],
+    }
+
+
+def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
+    lines = [
+        f"  {v:.4g} m/s: {force:.4g} N ({low:.4g} to {high:.4g})"
+        for v, force, low, high in (row.values() for row in rows)
+    ]
+    head = f"Pull-off forces, {forecast.level:.0%} band of their mean"
+    return "\n".join([head, *lines, *fit.words, *forecast.words])

@@ -1,0 +1,233 @@
+"""The operations ``identify ...``: from measured curves to the interface."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.errors import InputError
+
+from .declare.answer import Answer, Caller, Output, picture
+from .declare.cards import Choice, Known, Number, Switch, Text, Whole
+from .declare.options import Operation
+from .parts.rig import Files, Rig, refusals
+from .parts.solid import Solid, solid_of
+
+if TYPE_CHECKING:
+    from viscotack.identify.study import Study
+
+_MODELS = ("jkr", "dmt", "maugis", "carpick")
+Radius = Annotated[
+    float, Number('Of the sphere, "5.19 mm".', unit="m", metavar="LENGTH", example='"5.19 mm"')
+]
+Level = Annotated[float, Number("Confidence level of the intervals.")]
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdentifySlow(Operation):
+    """Find work of adhesion and Tabor number from one slow retraction of a sphere.
+
+    JKR, DMT, Maugis and Carpick are fitted to force against contact radius (from a camera) or
+    against depth, and compared by an information criterion; intervals are profile likelihoods.
+    What the data cannot tell is said in words. A test that is not slow reads the range of
+    attraction wrong: docs/tack_tests.md shows by how much.
+
+    Example: viscotack identify slow lens_1um_s.csv --radius "5.19 mm"
+    --contact-modulus "1.94 MPa" --contact-modulus-uncertainty "0.06 MPa" --plot slow.png
+    """
+
+    word: ClassVar = "identify slow"
+    outputs: ClassVar = (picture(),)
+
+    files: Files
+    radius: Radius
+    cycle: Annotated[
+        int, Whole("Which cycle of the files, from 1 on.", metavar="N", least=1, most=10**6)
+    ] = 1
+    model: Annotated[
+        tuple[str, ...], Choice("Models to compare; else all four.", choices=_MODELS)
+    ] = ()
+    against: Annotated[
+        str | None,
+        Choice(
+            "Contact radius or depth; else the radius where the file has one.",
+            choices=("radius", "depth"),
+        ),
+    ] = None
+    contact_modulus: Annotated[
+        tuple[float, float] | None,
+        Known(
+            'E0* of the relaxed solid, known from elsewhere, "1.94 MPa"; else it is fitted.',
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+    level: Level = 0.9
+    rig: Rig = field(default_factory=Rig)
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the elastic models to one cycle."""
+        from viscotack.identify import fitted_force, identify_slow, slow_test
+        from viscotack.pictures.identify import draw_slow_test
+
+        from .parts.plain import drawn
+        from .parts.records import slow_record
+
+        found = self.rig.survey(self.files)
+        if not 1 <= self.cycle <= len(found.cycles):
+            raise InputError(f"--cycle must be 1 to {len(found.cycles)}, got {self.cycle}")
+        test = slow_test(found.cycles[self.cycle - 1], self.radius, self.against)
+        fit = identify_slow(
+            test,
+            models=self.model or _MODELS,
+            contact_modulus=self.contact_modulus,
+            level=self.level,
+        )
+        return Answer(
+            fit,
+            record=lambda: slow_record(fit),
+            words=lambda: _slow_words(fit),
+            pictures={"plot": lambda: draw_slow_test(fit)},
+            drawn=lambda: {
+                "measured": {"at": drawn(test.at), "force": drawn(test.force)},
+                "fitted": {"at": drawn(test.at), "force": drawn(fitted_force(fit.best, test))},
+            },
+            notes=refusals(found),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class IdentifyRates(Operation):
+    """Find work of adhesion and range of attraction from pull-offs at several speeds.
+
+    Every cycle of the files gives its true speed and its pull-off; a contact whose edge is a
+    steady viscoelastic crack is fitted to them. Solids that the measurement behind the passport
+    allows as well widen the intervals. What the data cannot tell, and where such an interface does
+    not give the forces, is said in words. --growth looks for an interface that grows with speed.
+
+    Example: viscotack identify rates lens_*.csv --material pdms-10-1 --radius "5.19 mm"
+    -o study.toml
+    """
+
+    word: ClassVar = "identify rates"
+    outputs: ClassVar = (
+        Output(
+            "output",
+            "Write the study, for `viscotack forecast` and `viscotack report`.",
+            flags=("-o", "--output"),
+            metavar="STUDY",
+        ),
+        picture(),
+        picture("Draw the posterior of the interface.", "corner"),
+    )
+
+    files: Files
+    material: Solid
+    radius: Radius
+    preload: Annotated[
+        float | None,
+        Number(
+            'Under which the contact relaxed, "1.5 mN"; else the force where retractions begin.',
+            unit="N",
+            metavar="FORCE",
+        ),
+    ] = None
+    work_of_adhesion: Annotated[
+        tuple[float, float] | None,
+        Known(
+            'Known from a slow test, "152 mJ/m2"; else it is fitted with nothing known of it.',
+            unit="J/m^2",
+            metavar="ENERGY/AREA",
+        ),
+    ] = None
+    temperature: Annotated[
+        float | None,
+        Number(
+            'Of the tests, "25 degC"; else that at which the passport holds.',
+            unit="K",
+            metavar="T",
+        ),
+    ] = None
+    curves: Annotated[
+        bool,
+        Switch("Take whole curves, by their travels between forces; one speed is enough then."),
+    ] = False
+    growth: Annotated[
+        bool,
+        Switch(
+            "Look for an interface that grows with the opening speed: how much, with which power, "
+            "and whether the data need it. Takes 1 to 2 minutes."
+        ),
+    ] = False
+    scatter: Annotated[
+        float,
+        Number(
+            'Of forces from test to test, "3 %", where repeated tests do not show it.',
+            metavar="PART",
+        ),
+    ] = 0.0
+    level: Level = 0.9
+    title: Annotated[str, Text("Of the report.", metavar="WORDS")] = ""
+    notes: Annotated[str, Text("For the report.", metavar="WORDS")] = ""
+    rig: Rig = field(default_factory=Rig)
+
+    def study(self, also: tuple[Any, ...] = ()) -> "Study":
+        """Return what was measured on what, for :func:`viscotack.identify.study.answer`."""
+        from viscotack.identify.study import Study
+
+        return Study(
+            files=self.files,
+            material=solid_of(self.material, also),
+            radius=self.radius,
+            preload=self.preload,
+            temperature=self.temperature,
+            work_of_adhesion=self.work_of_adhesion,
+            curves=self.curves,
+            growth=self.growth,
+            scatter=self.scatter,
+            level=self.level,
+            reading=self.rig.reading,
+            evaluation=self.rig.evaluation,
+            title=self.title,
+            notes=self.notes,
+        )
+
+    def answer(self, caller: Caller) -> Answer:
+        """Fit the interface to the rate series."""
+        from viscotack.identify import posterior
+        from viscotack.identify.study import answer
+        from viscotack.pictures.identify import draw_posterior, draw_rate_series
+
+        from .declare.study import study_file
+        from .parts.records import rates_record
+
+        found = answer(self.study(caller.also))
+        fit = found.fit
+        return Answer(
+            found,
+            record=lambda: rates_record(fit),
+            words=lambda: _rates_words(fit),
+            files={"output": study_file(self)},
+            pictures={
+                "plot": lambda: draw_rate_series(fit),
+                "corner": lambda: draw_posterior(posterior(fit.objective, fit.best), fit),
+            },
+            notes=refusals(found.survey),
+        )
+
+
+def _slow_words(fit: Any) -> str:
+    lines = [f"Force against {fit.test.against}, {fit.test.force.size} points"]
+    for one in fit.fits:
+        tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
+        lines.append(
+            f"  {one.model:8} {one.work_of_adhesion:.4g} J/m2, E0* {one.contact_modulus:.4g} Pa"
+            f"{tabor}; scatter {one.scatter:.2g} N, criterion {one.criterion:.1f}"
+        )
+    return "\n".join([*lines, *fit.words, f"Chosen by: {fit.evidence}"])
+
+
+def _rates_words(fit: Any) -> str:
+    rows = [
+        f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
+        for one, force in zip(fit.series, fit.forces, strict=True)
+    ]
+    return "\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"])

@@ -1,0 +1,1 @@
+"""Options, inputs and records that several operations have."""

@@ -1,0 +1,315 @@
+"""The operations ``predict`` and ``advise``: answers at once, and which of them to trust."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+
+from viscotack.errors import InputError
+
+from .declare.answer import Answer, Caller, csv_file, picture
+from .declare.cards import File, Number, Switch
+from .declare.options import Operation
+from .declare.statement import Stated, Statement
+
+if TYPE_CHECKING:
+    from viscotack.forecast import Prediction
+    from viscotack.problem import Case
+    from viscotack.problem.outputs import Kind
+    from viscotack.result import Result
+
+# What a simulation would only repeat.
+_SAID_ONCE = (
+    "problem",
+    "run_id",
+    "tabor",
+    "size",
+    "thickness",
+    "cohesion",
+    "modulus_ratio",
+    "rate",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Predict(Operation):
+    """Predict the pull-off force, with an interval.
+
+    Surrogates trained on simulations answer in a millisecond, with force, work and curve. Outside
+    of their range the theory with the narrowest band that was verified for such a problem gives the
+    force. Otherwise the command states which input is out of range; --exact simulates the problem.
+
+    One contact: viscotack predict sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+
+    A flat punch on a layer: viscotack predict punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
+
+    In SI, beside its simulation: viscotack predict lens.toml --compare --plot lens.png
+
+    Thousands: viscotack predict cases.csv --csv answers.csv
+    """
+
+    word: ClassVar = "predict"
+    outputs: ClassVar = (
+        csv_file("Write the predicted unloading curve as a table; - is standard output.", "curve"),
+        picture("Draw that curve to a .png, .pdf or .svg file."),
+        csv_file(
+            "Where the rows of CASES.csv go, with their answers; - is standard output.",
+        ),
+    )
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Statement | None,
+        Stated(
+            "The word sphere or punch, and flags as for simulate sphere or simulate punch, in "
+            "their units (forces of a punch are stresses in sigma0); or a problem in SI; or a "
+            "table with a case in each row: tabor, modulus_ratio, exponent, rate and one of "
+            "preload, preload_force, preload_radius; or size, thickness, cohesion, modulus_ratio, "
+            "rate and preload or preload_force.",
+            metavar="sphere|punch|CASE.toml|CASES.csv",
+            indenters=("sphere", "punch"),
+            spelling="word",
+            table="cases",
+            expected="predictions are for 'sphere', 'punch', a file CASE.toml or a table CASES.csv",
+        ),
+    ] = None
+    cases: Annotated[
+        Path | None,
+        File("A table with a case in each row, CSV, in place of a problem.", elsewhere=True),
+    ] = None
+    confidence: Annotated[
+        float,
+        Number(
+            "Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or "
+            "0.98.",
+            metavar="PART",
+        ),
+    ] = 0.9
+    budget: Annotated[
+        float,
+        Number(
+            "Time that the answer may take: surrogates up to 0.01, closed forms from 0.02, the "
+            "steady-crack contact from 0.5, the simulation from 3.",
+            unit="s",
+            above=0,
+            metavar="SECONDS",
+        ),
+    ] = 1.0
+    exact: Annotated[bool, Switch("Simulate, whatever it takes.")] = False
+    compare: Annotated[bool, Switch("Simulate as well, and say how far off the prediction is.")] = (
+        False
+    )
+
+    def __post_init__(self) -> None:
+        if (self.problem is None) == (self.cases is None):
+            got = "none" if self.problem is None else "both"
+            raise InputError(f"give a problem or a table of cases, got {got}")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Ask the best tier within the budget."""
+        if self.cases is not None:
+            return self._of_table(self.cases, caller)
+        from viscotack.forecast import predict
+        from viscotack.forecast.prediction import prediction_summary
+        from viscotack.result import Outcome
+
+        assert self.problem is not None
+        if "csv" in caller.wants:
+            raise InputError(
+                "--csv is for a table CASES.csv; --curve writes the curve; leave out --csv"
+            )
+        found = predict(
+            self.problem.problem,
+            shift_deviation=self.problem.deviation,
+            confidence=self.confidence,
+            budget=self.budget,
+            exact=self.exact,
+        )
+        if found.curve is None and caller.wants & {"curve", "plot"}:
+            raise InputError(
+                f"{found.why}. The tier {found.method!r} gives no curve; leave out --curve and "
+                "--plot, or simulate"
+            )
+        result = _simulated(self.problem.problem) if self.compare else None
+        record = prediction_summary(found)
+        if result is not None:
+            record |= _comparison(found, result)
+        return Answer(
+            found,
+            record=lambda: record,
+            words=lambda: _words(found, record),
+            files={"curve": lambda target: _write_curve(found, target)},
+            pictures={"plot": lambda: _draw(found, result)},
+            status=int(result is not None and result.outcome is Outcome.STOPPED),
+        )
+
+    def _of_table(self, cases: Path, caller: Caller) -> Answer:
+        """Predict all rows of a table."""
+        from .parts.predict_table import predict_file
+
+        others = {
+            "--compare": self.compare,
+            "--exact": self.exact,
+            "--budget": self.budget != 1.0,
+            "--curve": "curve" in caller.wants,
+            "--plot": "plot" in caller.wants,
+        }
+        if given := [flag for flag, is_given in others.items() if is_given]:
+            raise InputError(f"{cases} is a table of cases; leave out {', '.join(given)}")
+        if "csv" not in caller.wants:
+            raise InputError(f"say where the answers to {cases} are to go: --csv answers.csv")
+        return predict_file(cases, self.confidence, caller.tell)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Advise(Operation):
+    """Say which regime a contact is in, and which answer to trust.
+
+    The problem is stated as for simulate sphere, by flags or by a file in SI.
+
+    Example: viscotack advise --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73
+    --rate 316.23
+    """
+
+    word: ClassVar = "advise"
+    takes_own: ClassVar = True
+
+    problem: Annotated[Statement, Stated("The contact, of a sphere.", whole=False)]
+
+    def answer(self, caller: Caller) -> Answer:
+        """Ask every tier."""
+        from viscotack.forecast.advice import advise
+
+        advice = advise(self.problem.problem)
+        return Answer(
+            advice,
+            record=lambda: asdict(advice) | {"sentences": list(advice.sentences)},
+            words=lambda: "\n".join(advice.sentences),
+            notes=self.problem.notes,
+        )
+
+
+def _simulated(problem: "Case") -> "Result":
+    from viscotack.bem import solve
+
+    return solve(problem, until="pull-off", throw=False)
+
+
+def _compared(kind: "Kind") -> dict[str, str]:
+    """Return what of both answers is compared, with the name of its interval."""
+    return {f"pull_off_{kind.name_of('force')}": "interval", "work_to_pull_off": "work_interval"}
+
+
+def _comparison(found: "Prediction", result: "Result") -> dict[str, Any]:
+    """Return the simulated numbers, how far off the predicted ones are, and what the interval did.
+
+    `difference` is prediction over simulation, less 1.
+    """
+    from viscotack.forecast.prediction import prediction_summary
+    from viscotack.result.observables import summary
+
+    simulated = summary(result)
+    answer: dict[str, Any] = {
+        "simulation": {name: x for name, x in simulated.items() if name not in _SAID_ONCE}
+    }
+    predicted = prediction_summary(found)
+    compared = _compared(found.problem.groups().outputs)
+    difference: dict[str, float | None] = dict.fromkeys(compared)
+    held: dict[str, bool | None] = dict.fromkeys(compared)
+    for name, interval in compared.items():
+        true = simulated[name]
+        if predicted[name] is not None and true is not None:
+            difference[name] = predicted[name] / true - 1
+            if predicted[interval] is not None:
+                low, high = predicted[interval]
+                held[name] = low <= true <= high
+    return answer | {"difference": difference, "interval_held": held}
+
+
+def _curve(found: "Prediction") -> dict[str, Any]:
+    """Return the columns of the curve, as `simulate --csv` names them."""
+    assert found.curve is not None, "checked before anything is written"
+    groups = found.problem.groups()
+    kind = groups.outputs
+    names = {kind.name_of(name): name for name in ("depth", "force", "contact_radius")}
+    table = {
+        name: np.asarray(getattr(found.curve, of)) * kind.series[name].factor(groups)
+        for name, of in names.items()
+    }
+    if (scales := found.problem.scales()) is not None:
+        units = {name: kind.series[name].unit for name in names}
+        table |= {f"{n}_{u.tail}": table[n] * getattr(scales, u.scale) for n, u in units.items()}
+    return table
+
+
+def _words(found: "Prediction", answer: dict[str, Any]) -> str:
+    """Return a prediction as lines a person reads."""
+    lines = [found.why if found.inside else f"outside of the surrogates: {found.why}"]
+    held = (
+        "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
+    )
+    kind = found.problem.groups().outputs
+    intervals = _compared(kind) | {"pull_off_depth": "depth_interval"}
+    for name, observable in kind.observables.items():
+        told = observable.words, observable.unit, intervals.get(name)
+        lines += _number_words(name, *told, answer, held)
+    force, depth = kind.name_of("force"), kind.observables["pull_off_depth"].unit
+    told = f"depth at zero {force}", depth, f"zero_{force}_interval"
+    lines += _number_words(f"zero_{force}_depth", *told, answer, held)
+    if "simulation" in answer:
+        lines += _comparison_words(answer, kind)
+    return "\n".join(lines)
+
+
+def _number_words(
+    name: str, words: str, unit: Any, interval: str | None, answer: dict[str, Any], held: str
+) -> list[str]:
+    """Return a number and its interval as lines, none where the answer has it not."""
+    if (value := answer.get(name)) is None:
+        return []
+    line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
+    if f"{name}_{unit.tail}" in answer:
+        line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+    if interval is None or answer[interval] is None:
+        return [line.rstrip()]
+    low, high = answer[interval]
+    between = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
+    if f"{interval}_{unit.tail}" in answer:
+        low, high = answer[f"{interval}_{unit.tail}"]
+        between += f"= {low:.4g} to {high:.4g} {unit.si}"
+    return [line.rstrip(), between.rstrip()]
+
+
+def _comparison_words(answer: dict[str, Any], kind: "Kind") -> list[str]:
+    simulated = answer["simulation"]
+    took = simulated["wall_time_s"]
+    lines = ["simulated" + ("" if took is None else f" in {took:.2g} s")]
+    for name in _compared(kind):
+        words, true = kind.observables[name].words, simulated[name]
+        if true is None:
+            why = simulated.get(f"{name}_note") or simulated["status"]
+            lines.append(f"  {words:<21}{'none':>12}  {why}")
+            continue
+        line = f"  {words:<21}{true:>12.5g}"
+        if (off := answer["difference"][name]) is not None:
+            way = "above" if off >= 0 else "below"
+            line += f"  the prediction is {abs(off):.2%} {way}"
+            if (held := answer["interval_held"][name]) is not None:
+                line += f"; {'inside' if held else 'outside'} its interval"
+        lines.append(line)
+    return lines
+
+
+def _write_curve(found: "Prediction", target: Any) -> None:
+    from .parts.predict_table import write_table
+
+    write_table(_curve(found), target)
+
+
+def _draw(found: "Prediction", result: "Result | None") -> Any:
+    from viscotack.pictures.forecast import draw_prediction
+
+    return draw_prediction(found, result)

@@ -1,0 +1,255 @@
+"""The operations ``simulate`` and ``show``: a contact pulled apart, and a result that was saved."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.errors import InputError
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.problem.accuracy import Accuracy as AccuracyCard
+
+from .declare.answer import Answer, Caller, Output, csv_file, picture
+from .declare.cards import Choice, File, Switch, number_of
+from .declare.options import Operation
+from .declare.statement import Stated, Statement
+
+if TYPE_CHECKING:
+    from viscotack.result import Result
+    from viscotack.result.observables import Observable
+
+# How far to pull, and the accuracy of a simulation.
+Until = Annotated[
+    str,
+    Choice(
+        "Stop past the largest tension, or when the surfaces are apart.",
+        choices=("pull-off", "detached"),
+    ),
+]
+Accuracy = Annotated[float, number_of(card_of(AccuracyCard), metavar="RELATIVE")]
+HowLong = Annotated[
+    float | None,
+    number_of(card_of(TimeLimit), metavar="TIME"),
+]
+PlotKind = Annotated[
+    str,
+    Choice(
+        "force: against depth; radius: force against contact radius; overview: four pictures; "
+        "energy: where the work went.",
+        choices=("force", "radius", "overview", "energy"),
+    ),
+]
+_FILES = (
+    picture(),
+    csv_file("Write the curve as a table; - is standard output."),
+    csv_file(
+        "Write a table with a row for each cycle of the test: snap-in, peak, pull-off, work, "
+        "hysteresis, time to detachment; - is standard output.",
+        "cycles",
+    ),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simulate(Operation):
+    """Simulate a contact that is pulled apart: sphere, cone, other profile, or punch on a layer.
+
+    The problem is stated by dimensionless numbers, or in SI by a case.
+    """
+
+    word: ClassVar = "simulate"
+    outputs: ClassVar = (
+        *_FILES,
+        Output(
+            "save",
+            "Save all of the result, for viscotack show.",
+            "binary",
+            flags=("--save", "-o"),
+            done="saved",
+        ),
+    )
+    takes_own: ClassVar = True
+    helps: ClassVar = {
+        "sphere": """Pull a rigid sphere off a soft viscoelastic half-space.
+
+    The problem is stated by dimensionless numbers, or in SI by a file. R is the sphere radius,
+    E0 the rubbery modulus, dg0 the work of adhesion, h0 the equilibrium gap, tau0 the time of the
+    material.
+
+    Example: viscotack simulate sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8
+    --preload 73 --rate 316.23
+    """,
+        "punch": """Pull a rigid flat punch off a soft viscoelastic layer.
+
+    Plane strain. The problem is stated by dimensionless numbers, or in SI by a file. a is the half
+    width of the punch, b the thickness of the layer, E0* the rubbery contact modulus, dg0 the work
+    of adhesion, sigma0 the strength of the interface, h0 the equilibrium gap, tau0 the time of the
+    material, and a0 = pi E0* dg0/(2 sigma0^2).
+
+    Example: viscotack simulate punch --size 64.85 --thickness 3.24 --cohesion 0.05
+    --modulus-ratio 0.1 --preload 1 --rate 10
+    """,
+        "profile": """Pull a cone, or another indenter with the profile A r^q, off a viscoelastic
+    half-space.
+
+    By dimensionless numbers, R being the equivalent radius, or in SI by a file that has a table
+    [profile] in place of [sphere]: `slope` of a cone, or `exponent`, and `height` at a radius
+    `at_radius`.
+
+    Example: viscotack simulate profile examples/from_toml/cone.toml
+    """,
+        "case": """Simulate what a file states in SI, with whatever indenter.
+
+    Shapes of your own have their table by their word, and --with says where they are.
+
+    Example: viscotack simulate case examples/from_toml/cone.toml
+    """,
+    }
+
+    problem: Annotated[
+        Statement,
+        Stated(
+            "The contact, and what the machine does.",
+            indenters=("sphere", "punch", "profile"),
+            spelling="commands",
+        ),
+    ]
+    until: Until = "detached"
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    time_limit: HowLong = None
+    whole: Annotated[
+        bool,
+        Switch(
+            "March the whole retraction, however deep its start: one from more than 1000 h0 begins "
+            "else where its depth no longer matters."
+        ),
+    ] = False
+    profiles: Annotated[
+        bool, Switch("Also keep pressure and gap along the radius, at the steps of the solver.")
+    ] = False
+    plot_kind: PlotKind = "force"
+
+    def answer(self, caller: Caller) -> Answer:
+        """Solve the problem, telling its curve as it grows."""
+        from viscotack.result import save
+
+        from .parts.running import run
+
+        result = run(self, caller.tell)
+        answer = _answer(result, self.plot_kind, caller)
+        files = {**answer.files, "save": lambda target: save(result, target)}
+        notes = (*self.problem.notes, *answer.notes)
+        return replace(answer, files=files, notes=notes)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Show(Operation):
+    """Show a saved result.
+
+    Prints its summary; writes its curve as a table or draws it if wanted.
+    """
+
+    word: ClassVar = "show"
+    outputs: ClassVar = _FILES
+    takes_own: ClassVar = True
+
+    file: Annotated[Path, File("A result that --save wrote.", metavar="FILE.npz", argument=True)]
+    plot_kind: PlotKind = "force"
+
+    def answer(self, caller: Caller) -> Answer:
+        """Load the result."""
+        return _answer(saved(self.file, caller), self.plot_kind, caller)
+
+
+def saved(file: Path, caller: Caller) -> "Result":
+    """Return the result in a file."""
+    if file.is_dir():
+        raise InputError(f"{file} is a folder; give the name of a file")
+    from viscotack.result import load
+
+    return load(file, also=caller.also)
+
+
+def _answer(result: "Result", plot_kind: str, caller: Caller) -> Answer:
+    from viscotack.pictures import plot
+    from viscotack.problem.nouns import known
+    from viscotack.result import Outcome, write_csv
+    from viscotack.result.cycles import write_cycles
+    from viscotack.result.observables import summary
+
+    from .parts.running import drawn_of
+
+    also = known(caller.also).observables
+    draw = {
+        "force": plot.draw_force,
+        "radius": plot.draw_radius,
+        "overview": plot.draw_overview,
+        "energy": plot.draw_energy,
+    }[plot_kind]
+    stopped = result.outcome is Outcome.STOPPED
+    files: dict[str, Any] = {"csv": lambda target: write_csv(result, target)}
+    if not stopped:
+        files["cycles"] = lambda target: write_cycles(result, target)
+    found = summary(result, also)
+    return Answer(
+        result,
+        record=lambda: found,
+        words=lambda: _words(result, found, also),
+        files=files,
+        pictures={"plot": lambda: draw(result)},
+        drawn=lambda: drawn_of(result),
+        notes=(_not_met(result),) if result.accuracy_met is False and not stopped else (),
+        status=int(stopped),
+    )
+
+
+def _not_met(result: "Result") -> str:
+    """Return what is said of a run that is not as accurate as it was asked to be."""
+    stated = result.error_estimate or {}
+    name, error = next((n, stated[n]) for n in ("force", "time") if n in stated)
+    return (
+        f"viscotack: the error of the {name} is estimated at {error:.2e}, more than the "
+        f"{result.accuracy:g} that were asked for; ask for a better accuracy"
+    )
+
+
+def _words(result: "Result", answer: dict[str, Any], also: "Iterable[Observable]") -> str:
+    """Return a summary as lines a person reads."""
+    from .parts.cycle_table import table_of_cycles
+
+    lines, kind = [answer["status"]], result.problem.outputs
+    said = {name: (output.words, output.unit) for name, output in kind.observables.items()}
+    seen = answer[next(iter(said))] is not None
+    said |= {own.name: (own.words, kind.units[own.measure]) for own in also}
+    for name, (words, unit) in said.items():
+        value, note = answer[name], answer.get(f"{name}_note")
+        if value is None:
+            if note and seen:  # of all numbers this one is missing
+                lines.append(f"  {words:<21}  not known: {note}")
+            continue
+        line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
+        if f"{name}_{unit.tail}" in answer:
+            line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+        lines.append(line.rstrip())
+        if note:
+            lines.append(f"  {'':<21}  {note}")
+    lines += table_of_cycles(result, answer["cycles"])
+    if began := answer["shallow_start"]:
+        lines += [
+            f"  begun at depth       {began['depth']:>12.5g}  h0 and not {began['asked']:.4g} h0, "
+            "which changes the force",
+            f"  {'':<33}  by {began['force']:.0e} of it at most, the work by {began['work']:.0e}, "
+            f"the depth by {began['shift']:.1g} h0;",
+            f"  {'':<33}  curve and time begin there (--whole marches all of it)",
+        ]
+    if answer["error_estimate"] is None:
+        lines.append("  numerical error      not known: no coarser run to compare with")
+    for name, error in (answer["error_estimate"] or {}).items():
+        if error is not None:
+            unit = "h0, estimated" if name == "depth" else "estimated, relative"
+            lines.append(f"  {'error of the ' + name:<21}{error:>12.1e}  {unit}")
+    cost = answer["statistics"]
+    if cost.get("steps") is not None and answer["wall_time_s"] is not None:
+        lines.append(f"  {cost['steps']:.0f} steps in {answer['wall_time_s']:.2f} s")
+    return "\n".join(lines)
