@@ -7,15 +7,18 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.app.engine.asks import ask_state, material_table, problem_of
+from viscotack.app.engine.asks import ask_state
 from viscotack.app.engine.forms import forms
 from viscotack.app.engine.quick import quick
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
 from viscotack.forecast.closed_forms import closed_forms, edge_curve
 from viscotack.forecast.tiers import AT_ONCE
+from viscotack.operations.declare.options import Here
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
+from viscotack.operations.declare.statement import Stated
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.library import material_table
 from viscotack.operations.parts.plain import plain
 from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.record import to_dict
@@ -102,9 +105,10 @@ def test_a_file_that_states_no_case_is_refused_and_one_of_three_forms_is_asked_f
 
 def test_a_request_states_a_problem_by_tables_or_by_a_record():
     problem = case_of_tables(FIRST)
-    assert problem_of(FIRST) == problem_of(to_dict(problem)) == problem
-    with pytest.raises(InputError, match="got a Sphere, which is a part of one"):
-        problem_of({"type": "Sphere", "radius": 1.0})
+    read = Stated("").read
+    assert read(FIRST, Here()).problem == read(to_dict(problem), Here()).problem == problem
+    with pytest.raises(InputError, match="got a Sphere"):
+        read({"type": "Sphere", "radius": 1.0}, Here())
 
 
 def test_a_material_written_as_a_table_is_the_material():

@@ -2,27 +2,28 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field
 
-from viscotack.forecast.tiers import SOON
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY
 
-Case = Annotated[
-    dict[str, Any],
-    WithJsonSchema(
+# What an option that is a problem takes.
+STATED_SCHEMA = {
+    "description": "A problem: the tables of a case file, quantities as text with units "
+    "(docs/input.md); a record with a type, numbers in SI or dimensionless, as --json prints it "
+    'and `viscotack schema` describes it; or the numbers of an indenter, {"indenter": "sphere", '
+    '"tabor": 3.24, ...}, as the flags of the commands.',
+    "anyOf": [
+        {"$ref": "#/components/schemas/Tables"},
+        {"$ref": "#/components/schemas/Problem"},
+        {"$ref": "#/components/schemas/Groups"},
+        {"$ref": "#/components/schemas/PunchGroups"},
         {
-            "description": "A problem: the tables of a case file, quantities as text with units "
-            "(docs/input.md); or a record with a type, numbers in SI or dimensionless, as --json "
-            "prints it and `viscotack schema` describes it.",
-            "anyOf": [
-                {"$ref": "#/components/schemas/Tables"},
-                {"$ref": "#/components/schemas/Problem"},
-                {"$ref": "#/components/schemas/Groups"},
-                {"$ref": "#/components/schemas/PunchGroups"},
-            ],
-        }
-    ),
-]
+            "type": "object",
+            "properties": {"indenter": {"type": "string", "enum": ["sphere", "profile", "punch"]}},
+            "required": ["indenter"],
+        },
+    ],
+}
 TABLES_SCHEMA = {
     "type": "object",
     "description": "The tables of a case file.",
@@ -60,63 +61,12 @@ Until = Annotated[
 Confidence = Annotated[
     float, Field(description="0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98: for these it was measured.")
 ]
-Seconds = Annotated[float, Field(gt=0, le=3600, description="Longest time of one simulation [s].")]
-Words = Annotated[str, StringConstraints(max_length=200)]
 
 
 class Strict(BaseModel):
     """What is sent: a misspelt name is refused and not lost."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class Asked(Strict):
-    """A problem."""
-
-    problem: Case
-
-
-class AskedToPredict(Asked):
-    """A problem to be predicted."""
-
-    confidence: Confidence = 0.9
-    budget: Annotated[
-        float,
-        Field(
-            gt=0,
-            description="Time that the answer may take [s]: surrogates up to 0.01, closed forms "
-            "from 0.02, the steady-crack contact from 0.5, the simulation from 3.",
-        ),
-    ] = SOON
-    exact: Annotated[bool, Field(description="Simulate, whatever it takes.")] = False
-
-
-class AskedToSimulate(Asked):
-    """A problem to be simulated."""
-
-    accuracy: Accuracy = DEFAULT_ACCURACY
-    until: Until = "detached"
-    time_limit: Seconds = 120.0
-    profiles: Annotated[
-        bool, Field(description="Also keep pressure and gap along the radius at some steps.")
-    ] = False
-
-
-class AskedToRun(Asked):
-    """A campaign: a problem, and the numbers that replace its own in each case."""
-
-    cases: Annotated[
-        list[dict[str, float]],
-        Field(
-            min_length=1,
-            description="A row for each case: the path of a number in the record of the problem, "
-            'such as "protocol.speed" [SI], and its value. All rows have the same paths.',
-            examples=[[{"protocol.speed": 1e-5}, {"protocol.speed": 1e-4}]],
-        ),
-    ]
-    accuracy: Accuracy = DEFAULT_ACCURACY
-    until: Until = "pull-off"
-    time_limit: Seconds = 120.0
 
 
 class AskedState(Strict):
@@ -165,7 +115,7 @@ class JobAnswer(BaseModel):
     """A job, as far as it has come."""
 
     id: str
-    kind: Literal["simulate", "campaign"]
+    kind: str
     state: Literal["queued", "running", "done", "refused", "failed", "cancelled"]
     share: Annotated[float, Field(ge=0, le=1, description="Done share of the work.")]
     points: Annotated[
@@ -176,10 +126,10 @@ class JobAnswer(BaseModel):
         ),
     ]
     points_from: int
-    rows: Annotated[list[dict[str, Any]], Field(description="Of a campaign, from `rows_from` on.")]
+    rows: Annotated[list[dict[str, Any]], Field(description="Of a sweep, from `rows_from` on.")]
     rows_from: int
     error: Annotated[str, Field(description="Why there is no answer; empty else.")]
     answer: Annotated[
         dict[str, Any] | None,
-        Field(description="`summary` and `columns` as `viscotack simulate` writes them."),
+        Field(description="The record of the operation, as its command prints it with --json."),
     ]

@@ -6,7 +6,7 @@ from fastapi import FastAPI
 
 from viscotack.problem.schema import schema
 
-from .models import TABLES_SCHEMA
+from .models import STATED_SCHEMA, TABLES_SCHEMA
 
 _PROBLEMS = "#/$defs/"
 
@@ -19,7 +19,10 @@ def described(app: FastAPI) -> None:
         if app.openapi_schema is None:
             found = plain()
             defined = _moved(schema()["$defs"])
-            found["components"]["schemas"] |= defined | {"Tables": TABLES_SCHEMA}
+            found["components"]["schemas"] |= defined | {
+                "Tables": TABLES_SCHEMA,
+                "Stated": STATED_SCHEMA,
+            }
             app.openapi_schema = found
         return app.openapi_schema
 

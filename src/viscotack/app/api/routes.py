@@ -1,34 +1,33 @@
 """The questions of the API and of the page, and the files of the page."""
 
 import asyncio
-from collections.abc import AsyncIterator, Mapping
-from contextlib import asynccontextmanager
+from collections.abc import Mapping
 from importlib.resources import files as files_of
-from os.path import dirname
+from inspect import cleandoc
 from typing import Annotated, Any
 
-from fastapi import APIRouter, File, Form, Path, Query, Response, UploadFile
+from fastapi import APIRouter, Path, Query, Request, Response
 
 from viscotack.app.engine.crew import Refused
 from viscotack.app.engine.jobs import Engine, Job
+from viscotack.operations import Operation, operations
+from viscotack.operations.declare.cards import File
+from viscotack.operations.declare.description import described, path, request_schema
+from viscotack.operations.declare.options import options, spelled, summary
 
 from .models import (
     Answer,
-    Asked,
     AskedQuick,
     AskedState,
     AskedTheory,
-    AskedToPredict,
-    AskedToRun,
-    AskedToSimulate,
     AskedVerdict,
     JobAnswer,
     Refusal,
-    Words,
 )
+from .requests import received
 
-# Longest time that a question for a job waits for news [s], and most files of one request.
-_LONGEST_WAIT, _MOST_FILES = 10.0, 60
+# Longest time that a question for a job waits for news [s].
+_LONGEST_WAIT = 10.0
 _KINDS = {
     "html": "text/html; charset=utf-8",
     "css": "text/css; charset=utf-8",
@@ -50,52 +49,77 @@ _FULL: dict[int | str, dict[str, Any]] = {
     429: {"model": Refusal, "description": "There are as many jobs as there may be."}
 }
 Id = Annotated[str, Path(max_length=64)]
-Files = Annotated[list[UploadFile], File(description="What the instrument wrote.")]
 
 
 def routes(engine: Engine) -> APIRouter:
     """Return the routes of an engine."""
     router = APIRouter(responses=_REFUSED)
-    _questions(router, engine)
     _jobs(router, engine)
-    _laboratory(router, engine)
+    for kind in operations().values():
+        if "http" not in kind.refused:
+            _operation(router, engine, kind)
     _page(router, engine)
     return router
 
 
-def _questions(router: APIRouter, engine: Engine) -> None:
-    @router.post("/api/predict", tags=["answers"])
-    async def predict(asked: AskedToPredict) -> Answer:
-        """Predict the pull-off force with an interval, by the best tier within a budget."""
-        return Answer(**await engine.ask("predict", asked.model_dump()))
+def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None:
+    """Add an operation, to be answered at once or as a job."""
+    word, words = path(kind.word), summary(kind)
+    more = {"requestBody": {"required": True, "content": _content(kind)}}
 
-    @router.post("/api/advise", tags=["answers"])
-    async def advise(asked: Asked) -> Answer:
-        """Say which regime a contact is in, and which answer may be trusted."""
-        return Answer(**await engine.ask("advise", asked.model_dump()))
+    async def answer(request: Request) -> Answer:
+        given, files = await received(request, kind)
+        upload = engine.held(files)
+        with upload.folder:
+            return Answer(**await engine.ask("operation", given | {"files": list(upload.paths)}))
 
-    @router.get("/api/materials", tags=["materials"])
-    async def materials() -> Answer:
-        """List the published materials, each as a table [material] of a case file."""
-        return Answer(**await engine.ask("materials", {}))
+    async def job(request: Request) -> JobAnswer:
+        given, files = await received(request, kind)
+        _check_rows(given["given"], engine.limits.cases)
+        upload = engine.held(files)
+        try:
+            started = engine.start(given | {"files": list(upload.paths)}, upload)
+        except BaseException:
+            upload.folder.cleanup()
+            raise
+        return _told(started)
+
+    name = word.replace("/", "_")
+    described = {"description": spelled(cleandoc(kind.__doc__ or ""), kind), "summary": words}
+    router.post(
+        f"/api/{word}", tags=["operations"], operation_id=name, openapi_extra=more, **described
+    )(answer)
+    router.post(
+        f"/api/jobs/{word}",
+        tags=["jobs"],
+        operation_id=f"job_{name}",
+        status_code=202,
+        responses=_FULL,
+        openapi_extra=more,
+        **described,
+    )(job)
+
+
+def _content(kind: type[Operation]) -> dict[str, Any]:
+    """Return what a request for an operation holds: an object, or files and words."""
+    needs_files = any(isinstance(o.card, File) and o.needed for o in options(kind))
+    plain = (
+        {} if needs_files else {"application/json": {"schema": request_schema(kind, sent=False)}}
+    )
+    return plain | {"multipart/form-data": {"schema": request_schema(kind, sent=True)}}
+
+
+def _check_rows(given: Mapping[str, Any], most: int) -> None:
+    """Refuse more cases than a server computes for one request."""
+    count = max((len(value) for value in given.values() if isinstance(value, list)), default=0)
+    if count > most:
+        raise Refused(
+            f"{count} cases are more than the {most} that a request may have here; "
+            "viscotack campaign has no such limit"
+        )
 
 
 def _jobs(router: APIRouter, engine: Engine) -> None:
-    @router.post("/api/jobs/simulate", status_code=202, responses=_FULL, tags=["jobs"])
-    async def simulate(asked: AskedToSimulate) -> JobAnswer:
-        """Begin a simulation."""
-        return _told(engine.start("simulate", asked.model_dump()))
-
-    @router.post("/api/jobs/campaign", status_code=202, responses=_FULL, tags=["jobs"])
-    async def campaign(asked: AskedToRun) -> JobAnswer:
-        """Begin simulations of one problem with some of its numbers replaced."""
-        if len(asked.cases) > engine.limits.cases:
-            raise Refused(
-                f"{len(asked.cases)} cases are more than the {engine.limits.cases} that a campaign "
-                "may have here; viscotack campaign has no such limit"
-            )
-        return _told(engine.start("campaign", asked.model_dump()))
-
     @router.get("/api/jobs/{id}", responses=_NO_JOB, tags=["jobs"])
     async def job(
         id: Id,
@@ -138,119 +162,12 @@ def _told(job: Job, points_from: int = 0, rows_from: int = 0) -> JobAnswer:
     )
 
 
-def _laboratory(router: APIRouter, engine: Engine) -> None:
-    async def ask(
-        task: str, files: list[UploadFile], options: Mapping[str, Any], **more: Any
-    ) -> Answer:
-        given = {name: value for name, value in options.items() if value not in (None, "")}
-        async with _received(engine, files) as paths:
-            asked = {"files": paths, "options": given, **more}
-            return Answer(**_bare(await engine.ask(task, asked), paths))
-
-    @router.post("/api/materials/fit", tags=["materials"])
-    async def fit(
-        files: Files,
-        poisson_ratio: Annotated[Words, Form()] = "0.5",
-        reference_temperature: Annotated[Words | None, Form(examples=["20 degC"])] = None,
-        glass_transition: Annotated[Words | None, Form(examples=["-115 degC"])] = None,
-        wlf: Annotated[Words | None, Form(examples=["8.86,101.6 K"])] = None,
-        model: Annotated[Words, Form(examples=["best", "power-law", "prony"])] = "best",
-        format: Annotated[Words | None, Form()] = None,
-        kind: Annotated[Words | None, Form(examples=["E", "G"])] = None,
-        temperature: Annotated[Words | None, Form(examples=["20 degC"])] = None,
-        frequency_unit: Annotated[Words | None, Form(examples=["Hz"])] = None,
-        modulus_unit: Annotated[Words | None, Form(examples=["MPa"])] = None,
-        time_unit: Annotated[Words | None, Form(examples=["s"])] = None,
-        temperature_unit: Annotated[Words | None, Form(examples=["degC"])] = None,
-        name: Annotated[Words | None, Form()] = None,
-    ) -> Answer:
-        """Fit a material to files of a DMA, relaxation or creep test."""
-        options = {key: value for key, value in locals().items() if key not in ("files", "ask")}
-        return await ask("fit", files, options)
-
-    @router.post("/api/tests", tags=["laboratory"])
-    async def tests(
-        files: Files,
-        format: Annotated[Words | None, Form()] = None,
-        force_unit: Annotated[Words | None, Form(examples=["mN"])] = None,
-        length_unit: Annotated[Words | None, Form(examples=["um"])] = None,
-        time_unit: Annotated[Words | None, Form(examples=["s"])] = None,
-        force_column: Annotated[Words | None, Form()] = None,
-        nominal_speed: Annotated[Words | None, Form(examples=["10 um/s"])] = None,
-        compliance: Annotated[Words | None, Form(examples=["2 um/N"])] = None,
-        retraction_only: Annotated[bool, Form()] = False,
-    ) -> Answer:
-        """Read tack tests or force curves: pull-off, work, depth and true speed of every cycle."""
-        options = {key: value for key, value in locals().items() if key not in ("files", "ask")}
-        return await ask("tests", files, options)
-
-    @router.post("/api/identify/slow", tags=["laboratory"])
-    async def slow(
-        files: Files,
-        radius: Annotated[Words, Form(examples=["5.19 mm"])],
-        cycle: Annotated[int, Form(ge=1, le=10**6)] = 1,
-        contact_modulus: Annotated[Words | None, Form(examples=["1.94 MPa"])] = None,
-        contact_modulus_uncertainty: Annotated[Words | None, Form(examples=["0.06 MPa"])] = None,
-        format: Annotated[Words | None, Form()] = None,
-        force_unit: Annotated[Words | None, Form(examples=["mN"])] = None,
-        length_unit: Annotated[Words | None, Form(examples=["um"])] = None,
-        nominal_speed: Annotated[Words | None, Form(examples=["10 um/s"])] = None,
-        compliance: Annotated[Words | None, Form(examples=["2 um/N"])] = None,
-    ) -> Answer:
-        """Find work of adhesion and Tabor number from one slow retraction of a sphere."""
-        options = {key: value for key, value in locals().items() if key not in ("files", "ask")}
-        return await ask("slow", files, options)
-
-    @router.post("/api/identify/rates", tags=["laboratory"])
-    async def rates(
-        files: Files,
-        radius: Annotated[Words, Form(examples=["5.19 mm"])],
-        material: Annotated[
-            str,
-            Form(
-                max_length=200_000,
-                description="The solid, as the TOML text of a table [material] or the name of a "
-                "published material.",
-                examples=["pdms-10-1"],
-            ),
-        ],
-        preload: Annotated[Words | None, Form(examples=["1.5 mN"])] = None,
-        work_of_adhesion: Annotated[Words | None, Form(examples=["152 mJ/m^2"])] = None,
-        work_of_adhesion_uncertainty: Annotated[Words | None, Form(examples=["8 mJ/m^2"])] = None,
-        format: Annotated[Words | None, Form()] = None,
-        force_unit: Annotated[Words | None, Form(examples=["mN"])] = None,
-        length_unit: Annotated[Words | None, Form(examples=["um"])] = None,
-        nominal_speed: Annotated[Words | None, Form(examples=["10 um/s"])] = None,
-        compliance: Annotated[Words | None, Form(examples=["2 um/N"])] = None,
-    ) -> Answer:
-        """Find work of adhesion and range of attraction from pull-offs at several speeds."""
-        left_out = ("files", "ask", "material")
-        options = {key: value for key, value in locals().items() if key not in left_out}
-        return await ask("rates", files, options, material=material)
-
-
-def _bare(value: Any, paths: list[str]) -> Any:
-    """Return an answer in which files have their names, and not the place where they lay."""
-    if isinstance(value, dict):
-        return {key: _bare(entry, paths) for key, entry in value.items()}
-    if isinstance(value, list):
-        return [_bare(entry, paths) for entry in value]
-    if isinstance(value, str) and paths:
-        return value.replace(f"{dirname(paths[0])}/", "")
-    return value
-
-
-@asynccontextmanager
-async def _received(engine: Engine, files: list[UploadFile]) -> AsyncIterator[list[str]]:
-    """Hold the files of a request in a folder for the block."""
-    if len(files) > _MOST_FILES:
-        raise Refused(f"{len(files)} files are more than the {_MOST_FILES} of one request")
-    contents = [(file.filename or "file", await file.read()) for file in files]
-    async with engine.uploaded(contents) as paths:
-        yield paths
-
-
 def _page(router: APIRouter, engine: Engine) -> None:
+    @router.get("/api/operations", tags=["operations"])
+    async def known() -> Answer:
+        """List the operations: their options with words, units, choices and defaults."""
+        return Answer(operations=[described(kind) for kind in operations().values()])
+
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:
         """Say what can be asked, read from the cards: choices, fields, units, ranges, examples."""

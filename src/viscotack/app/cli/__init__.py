@@ -13,6 +13,7 @@ _COMMANDS = (
     "punch",
     "material",
     "campaign",
+    "study",
     "schema",
     "page",
 )

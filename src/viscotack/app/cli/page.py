@@ -101,9 +101,9 @@ def _listening(host: str, port: int) -> socket.socket:
 
 def _query(case: Path, also: tuple[Any, ...]) -> str:
     """Return the link's query of a case file; a material that stands in a file of its own too."""
-    from viscotack.app.engine.asks import material_table
     from viscotack.files.toml import read_toml
     from viscotack.operations.declare.state import State
+    from viscotack.operations.parts.library import material_table
     from viscotack.problem.case_file import read_case
 
     problem, tables = read_case(case, also=also), read_toml(case)

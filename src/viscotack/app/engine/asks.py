@@ -8,21 +8,17 @@ import numpy as np
 
 from viscotack.bem import crack_contact
 from viscotack.bem.by_crack import METHOD
-from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
-from viscotack.forecast import advise, predict, prediction_summary
+from viscotack.forecast import predict
 from viscotack.forecast.advice import advice_on
 from viscotack.forecast.question import Question
 from viscotack.forecast.tiers import SOON, best
 from viscotack.geometry import FlatPunch
-from viscotack.materials.library import MATERIALS, published
-from viscotack.materials.passport_words import in_words
-from viscotack.materials.words import word_of
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.library import library
 from viscotack.operations.parts.plain import drawn, plain
-from viscotack.problem import Groups, Problem, PunchGroups
-from viscotack.problem.record import from_dict
+from viscotack.problem import Problem
 
 from .forms import forms
 from .quick import numbers_of, quick
@@ -41,28 +37,9 @@ def warm() -> None:
     quick(State(FIRST))
 
 
-def problem_of(given: Any, also: tuple[Any, ...] = ()) -> Any:
-    """Return the problem of a request: a record, which has a type, or the tables of a case file.
-
-    Raises
-    ------
-    ValueError
-        If it is neither, or impossible.
-    """
-    if isinstance(given, Mapping) and "type" in given:
-        problem = from_dict(given, also)
-        if not isinstance(problem, Problem | Groups | PunchGroups):
-            raise InputError(
-                "problem must be a Problem, Groups or PunchGroups, got a "
-                f"{type(problem).__name__}, which is a part of one"
-            )
-        return problem
-    return State(given, also).problem
-
-
 def ask_forms(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
     """Return what can be asked, the published materials, and cases to begin from."""
-    return forms(also) | {"materials": _published(), "examples": EXAMPLES}
+    return forms(also) | {"materials": library(), "examples": EXAMPLES}
 
 
 def ask_state(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
@@ -90,19 +67,6 @@ def ask_quick(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]
         "command": state.command(**run),
         "python": state.python(**run),
     }
-
-
-def ask_predict(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return a prediction as ``viscotack predict --json`` prints it."""
-    problem = problem_of(asked["problem"], also)
-    options = {name: asked[name] for name in ("confidence", "budget", "exact")}
-    return plain(prediction_summary(predict(problem, **options)))
-
-
-def ask_advise(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return which answer may be trusted, as data and in words."""
-    advice = advise(problem_of(asked["problem"], also))
-    return plain(asdict(advice) | {"sentences": list(advice.sentences)})
 
 
 def ask_moduli(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
@@ -153,52 +117,6 @@ def ask_theory(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any
         "crack": _crack(problem) if asked["crack"] else None,
         "speeds": _speeds(problem) if asked["speeds"] else None,
     }
-
-
-def ask_materials(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
-    """Return the published materials of the library."""
-    return {"materials": _published()}
-
-
-def material_table(material: Any) -> dict[str, Any]:
-    """Return a material as the table [material] of a case file, with all its digits.
-
-    Examples
-    --------
-    >>> from viscotack import Elastic
-    >>> material_table(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
-    {'model': 'elastic', 'rubbery_modulus': '1000000.0 Pa', 'poisson_ratio': 0.5}
-    """
-    kind = type(material)
-    table: dict[str, Any] = {"model": word_of(material)}
-    for name, field in cards(kind).items():
-        table[name] = _said(getattr(material, name), field.card.unit)
-    for name, field in cards(kind, Pairs).items():
-        first, second = field.card.units
-        table[name] = [[_said(a, first), _said(b, second)] for a, b in getattr(material, name)]
-    return table
-
-
-def _said(value: float, unit: str) -> Any:
-    return float(value) if unit == "1" else f"{float(value)!r} {unit}"
-
-
-def _published() -> list[dict[str, Any]]:
-    found = []
-    for name in MATERIALS:
-        passport = published(name)
-        table = material_table(passport.material)
-        found.append(
-            {
-                "name": name,
-                "title": passport.name,
-                "table": table,
-                "source": passport.origin.reference,
-                "doi": passport.origin.doi,
-                "words": in_words(passport),
-            }
-        )
-    return found
 
 
 def _crack(problem: Problem) -> dict[str, Any] | None:

@@ -8,8 +8,7 @@ import json
 import re
 import secrets
 import zlib
-from collections.abc import AsyncIterator, Iterable
-from contextlib import asynccontextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -68,22 +67,30 @@ class Unknown(Refused):
 # Task -> its lane; each lane has processes of its own, so that no simulation holds up a slider.
 _LANES = {
     "quick": ("quick", "state", "forms", "moduli"),
-    "ask": ("predict", "advise", "verdict", "theory", "materials", "fit", "tests", "slow", "rates"),
-    "work": ("simulate", "campaign"),
+    "ask": ("operation", "verdict", "theory"),
+    "work": ("job",),
 }
 _LANE_OF = {task: lane for lane, tasks in _LANES.items() for task in tasks}
 
 
+@dataclass(frozen=True)
+class Upload:
+    """Files of a request, and the folder that they lie in."""
+
+    folder: TemporaryDirectory[str]
+    paths: tuple[str, ...]
+
+
 @dataclass(eq=False)
 class Job:
-    """A simulation or a campaign, and what is known of it so far.
+    """An operation that takes a while, and what is known of it so far.
 
     Attributes
     ----------
     id : str
         By which whoever started it, and nobody else, asks for it.
     kind : str
-        "simulate" or "campaign".
+        Word of the operation.
     state : str
         "queued", "running", "done", "refused", "failed" or "cancelled".
     share : float
@@ -160,7 +167,7 @@ class Engine:
         lanes = (
             Lane("quick", 2, ("quick",)),
             Lane("ask", 2, ("verdict",), nice=4),
-            Lane("work", self.limits.workers, ("simulate",), nice=2),
+            Lane("work", self.limits.workers, ("job",), nice=2),
         )
         self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
         # files of the user's own that are wrong are found out by the first of them
@@ -181,25 +188,32 @@ class Engine:
         crew = self._crews[_LANE_OF[task]]
         return await crew.ask(task, asked, seconds=self.limits.ask_time, **more)
 
-    @asynccontextmanager
-    async def uploaded(self, files: Iterable[tuple[str, bytes]]) -> AsyncIterator[list[str]]:
-        """Hold files that were sent in a folder of their own, which is gone after the block."""
-        with TemporaryDirectory(prefix="viscotack-") as folder:
-            paths: list[str] = []
+    def held(self, files: Iterable[tuple[str, bytes]]) -> Upload:
+        """Return files that were sent, in a folder of their own; to be cleaned up."""
+        folder = TemporaryDirectory(prefix="viscotack-")
+        paths: list[str] = []
+        try:
             for name, content in files:
-                path = Path(folder, _harmless(name))
+                path = Path(folder.name, harmless_name(name))
                 if str(path) in paths:
                     raise Refused(f"two files are called {path.name}; rename one")
                 write_new(path, content)
                 paths.append(str(path))
-            try:
-                yield paths
-            # where they lay says nothing to whoever sent them
-            except Refused as error:
-                raise type(error)(str(error).replace(f"{folder}/", "")) from None
+        except BaseException:
+            folder.cleanup()
+            raise
+        return Upload(folder, tuple(paths))
 
-    def start(self, kind: str, asked: dict[str, Any]) -> Job:
-        """Return a job that has been put in the queue; TooMany where it is full."""
+    def start(self, asked: dict[str, Any], upload: Upload | None = None) -> Job:
+        """Return a job that has been put in the queue; TooMany where it is full.
+
+        Parameters
+        ----------
+        asked : dict
+            Word of the ``operation``, its options as ``given``, and ``files`` that were sent.
+        upload : Upload, optional
+            Where the files lie; cleaned up when the job has ended.
+        """
         self._forget()
         waiting = sum(not job.over for job in self._jobs.values())
         if waiting >= self.limits.jobs:
@@ -207,9 +221,9 @@ class Engine:
                 f"{waiting} jobs wait or go on, as many as this server takes; cancel one, or come "
                 "back when some have ended"
             )
-        job = Job(secrets.token_urlsafe(16), kind)
+        job = Job(secrets.token_urlsafe(16), asked["operation"])
         self._jobs[job.id] = job
-        job.task = asyncio.get_running_loop().create_task(self._run(job, asked))
+        job.task = asyncio.get_running_loop().create_task(self._run(job, asked, upload))
         return job
 
     def job(self, id: str) -> Job:
@@ -235,15 +249,15 @@ class Engine:
         """Return the numbers of all processes that live."""
         return [pid for crew in self._crews.values() for pid in crew.processes()]
 
-    async def _run(self, job: Job, asked: dict[str, Any]) -> None:
+    async def _run(self, job: Job, asked: dict[str, Any], upload: Upload | None) -> None:
         def begun() -> None:
             job.state = "running"
             job.changed()
 
-        crew = self._crews[_LANE_OF[job.kind]]
+        crew = self._crews["work"]
         options = {"told": job.tell, "stop": job.stop, "begun": begun}
         try:
-            answer = await crew.ask(job.kind, asked, seconds=self.limits.job_time, **options)
+            answer = await crew.ask("job", asked, seconds=self.limits.job_time, **options)
             job.close("done", answer=answer)
         except Halted:
             job.close("cancelled", error="it was cancelled")
@@ -254,6 +268,9 @@ class Engine:
         except asyncio.CancelledError:
             job.close("cancelled", error="the server ends")
             raise
+        finally:
+            if upload is not None:
+                upload.folder.cleanup()
 
     def _forget(self) -> None:
         """Forget jobs that ended long ago, and the oldest of many."""
@@ -263,7 +280,7 @@ class Engine:
             del self._jobs[job.id]
 
 
-def _harmless(name: str) -> str:
+def harmless_name(name: str) -> str:
     """Return the name of a file without anything that a path, or a shell, would understand."""
     bare = re.split(r"[/\\]", name)[-1]
     return re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")[-100:] or "file"

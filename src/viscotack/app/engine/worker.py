@@ -26,18 +26,11 @@ TASKS = {
     "forms": ("asks", "ask_forms"),
     "state": ("asks", "ask_state"),
     "quick": ("asks", "ask_quick"),
-    "predict": ("asks", "ask_predict"),
-    "advise": ("asks", "ask_advise"),
     "verdict": ("asks", "ask_verdict"),
     "theory": ("asks", "ask_theory"),
     "moduli": ("asks", "ask_moduli"),
-    "materials": ("asks", "ask_materials"),
-    "simulate": ("runs", "run_simulate"),
-    "campaign": ("runs", "run_campaign"),
-    "fit": ("labs", "fit_material"),
-    "tests": ("labs", "read_tests"),
-    "slow": ("labs", "identify_slow_test"),
-    "rates": ("labs", "identify_rate_series"),
+    "operation": ("operating", "run_operation"),
+    "job": ("operating", "run_operation"),
 }
 _TOO_LARGE = "a number is too large or too small to compute with; check its unit"
 # More than any answer takes beside the libraries; what asks for more ends itself, not the machine.

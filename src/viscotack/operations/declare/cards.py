@@ -43,9 +43,13 @@ class Card:
         As a user may give it.
     late : bool
         Whether it is read after the others, because that takes a while.
+    form : str
+        Kind of field that a page draws for it.
     """
 
     late: ClassVar[bool] = False
+    # of the field that a page draws for it
+    form: ClassVar[str] = "text"
 
     words: str
     metavar: str = field(default="", kw_only=True)
@@ -70,6 +74,8 @@ class Card:
 @dataclass(frozen=True)
 class Number(Card):
     """A number; with a unit it may be given as text, "5.19 mm", or as a number in that SI unit."""
+
+    form: ClassVar = "number"
 
     unit: str = field(default="1", kw_only=True)
     above: float | None = field(default=None, kw_only=True)
@@ -122,6 +128,8 @@ class Known(Number):
 class Whole(Card):
     """A whole number."""
 
+    form: ClassVar = "number"
+
     least: int | None = field(default=None, kw_only=True)
     most: int | None = field(default=None, kw_only=True)
 
@@ -160,6 +168,8 @@ class Text(Card):
 class Choice(Card):
     """One of some words."""
 
+    form: ClassVar = "choice"
+
     choices: tuple[str, ...] = field(default=(), kw_only=True)
 
     def read(self, value: Any, place: Place) -> str:
@@ -180,6 +190,8 @@ _SAID = {"true": True, "false": False, "1": True, "0": False, "yes": True, "no":
 @dataclass(frozen=True)
 class Switch(Card):
     """Yes or no."""
+
+    form: ClassVar = "switch"
 
     def read(self, value: Any, place: Place) -> bool:
         """Return whether it is on."""
@@ -204,6 +216,8 @@ class File(Card):
         Whether the command line takes it in the place of another option, and has no flag for it.
     """
 
+    form: ClassVar = "file"
+
     elsewhere: bool = field(default=False, kw_only=True)
 
     def read(self, value: Any, place: Place) -> Path:
@@ -226,6 +240,8 @@ class Named(Card):
     text : str
         What a text that is no name begins with and that is content itself, such as ``[material]``.
     """
+
+    form: ClassVar = "named"
 
     published: Callable[[], Iterable[str]] = field(default=tuple, kw_only=True)
     text: str = field(default="", kw_only=True)
@@ -271,6 +287,8 @@ class Spelled(Card):
 class Folder(Card):
     """A folder on the machine that runs the operation."""
 
+    form: ClassVar = "folder"
+
     def read(self, value: Any, place: Place) -> Path:
         """Return the path of the folder."""
         return place.file(_name(value))
@@ -283,6 +301,8 @@ class Folder(Card):
 @dataclass(frozen=True)
 class Table(Card):
     """Rows of numbers by name: a list of objects, or the name of a CSV file with a heading."""
+
+    form: ClassVar = "rows"
 
     def read(self, value: Any, place: Place) -> tuple[Mapping[str, float], ...]:
         """Return the rows."""

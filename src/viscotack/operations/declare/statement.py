@@ -73,6 +73,7 @@ class Stated(Card):
     """
 
     late: ClassVar = True
+    form: ClassVar = "problem"
 
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
@@ -113,7 +114,7 @@ class Stated(Card):
 
     @property
     def schema(self) -> dict[str, Any]:
-        """A problem."""
+        """The tables of a case, a record, or the numbers of an indenter."""
         return {"$ref": "#/components/schemas/Stated"}
 
     def _of_case(self, value: Mapping[str, Any], place: Place) -> Statement:

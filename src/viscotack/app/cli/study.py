@@ -1,0 +1,51 @@
+"""The command ``viscotack study``: do what a file asks."""
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument
+
+from viscotack.operations import operation
+from viscotack.operations.declare.answer import Caller
+from viscotack.operations.declare.study import read_study
+
+from .commands import AsJson, With, application, wrong_input
+from .reading import finish, progress
+from .writing import check_files
+
+
+@application.command("study")
+def study_command(
+    file: Annotated[
+        Path,
+        Argument(
+            metavar="STUDY.toml",
+            help='What is asked: operation = "identify rates", its options by name, and a table '
+            "[write] with the files to be written; docs/studies.md describes it.",
+            show_default=False,
+        ),
+    ],
+    own: With = None,
+    as_json: AsJson = False,
+) -> None:
+    """Do what a study file asks, any operation with its options.
+
+    Names of files in it are relative to its folder. The answer is that of the command of the
+    operation.
+
+    Example: viscotack study lens.toml
+    """
+    with wrong_input():
+        from viscotack.problem.nouns import own_nouns
+
+        also = own_nouns(own or ())
+        asked = read_study(file, known=operation, usual="identify rates", also=also)
+        kind = type(asked.operation)
+        files = {output: asked.write.get(output.name) for output in kind.outputs}
+        named = {output.flag: target for output, target in files.items()}
+        check_files(named, as_json=as_json, reads=(file,))
+        paths = tuple(str(path.resolve()) for path in own or ())
+        with progress() as tell:
+            caller = Caller(tell, frozenset(asked.write), also, paths)
+            answer = asked.operation.answer(caller)
+        finish(answer, files, as_json)

@@ -1,0 +1,140 @@
+"""Operations as tasks of the worker processes: asked as data, answered as data."""
+
+import base64
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from viscotack.errors import InputError
+from viscotack.operations import operation
+from viscotack.operations.declare.answer import Answer, Caller
+from viscotack.operations.declare.options import Operation, respelled, take
+from viscotack.operations.parts.plain import plain
+
+from .asks import Asked, Tell
+
+# What may be wanted of every answer beside its files.
+WORDS, DRAWN = "words", "drawn"
+
+
+@dataclass(frozen=True)
+class Sent:
+    """The files of a request: what else a name may lead to is not read.
+
+    Attributes
+    ----------
+    folder : Path
+        Where the files lie.
+    names : frozenset of str
+        Their names.
+    also : tuple of classes
+        Nouns of whoever runs the server.
+    """
+
+    folder: Path
+    names: frozenset[str]
+    also: tuple[Any, ...] = ()
+
+    def file(self, name: str) -> Path:
+        """Return the path of a file that was sent."""
+        if name not in self.names:
+            there = ", ".join(sorted(self.names)) or "none"
+            raise InputError(
+                f"no file {name!r:.80} was sent with the request (sent: {there}); send it as a "
+                "part of a multipart/form-data request"
+            )
+        return self.folder / name
+
+
+def warm() -> None:
+    """Do once what takes longer the first time."""
+    from viscotack.bem import solve
+    from viscotack.operations.parts.examples import FIRST
+    from viscotack.problem.accuracy import LOOSEST_ACCURACY
+    from viscotack.problem.case_file import case_of_tables
+
+    problem = case_of_tables(FIRST)
+    solve(problem, accuracy=LOOSEST_ACCURACY, until="pull-off", estimate_error=False)
+
+
+def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, Any]:
+    """Return the record of an answer, and ``beside`` it what else is wanted.
+
+    `asked` has the word of the ``operation``, its options as ``given``, ``files``: the paths that
+    were sent, and ``outputs``: names of files, "words" or "drawn".
+    """
+    kind = operation(asked["operation"])
+    paths = [Path(file) for file in asked.get("files", ())]
+    folder = paths[0].parent if paths else Path()
+    place = Sent(folder, frozenset(path.name for path in paths), also)
+    # where files lay says nothing to whoever sent them
+    shown = f"{folder}/" if paths else ""
+    try:
+        wanted = _wanted(kind, asked.get("outputs", ()))
+        question = take(kind, asked["given"], place)
+        answer = question.answer(Caller(lambda told: tell(plain(dict(told))), wanted, also))
+        # files first: what an answer counts while it writes them is in its record
+        beside = _beside(kind, answer, wanted)
+        return _without(shown, _record(answer) | beside)
+    except InputError as error:
+        words = respelled(error, kind)
+        raise type(words)(_without(shown, str(words))) from None
+    except FileNotFoundError as error:
+        raise InputError(f"there is no file {_without(shown, str(error.filename))}") from None
+    except OSError as error:
+        raise InputError(_without(shown, str(error))) from None
+
+
+def _without(folder: str, value: Any) -> Any:
+    """Return an answer in which files have their names, and not the place where they lay."""
+    if not folder:
+        return value
+    if isinstance(value, dict):
+        return {key: _without(folder, entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [_without(folder, entry) for entry in value]
+    return value.replace(folder, "") if isinstance(value, str) else value
+
+
+def _record(answer: Answer) -> dict[str, Any]:
+    found = plain(answer.record())
+    return found if isinstance(found, dict) else {"answer": found}
+
+
+def _wanted(kind: type[Operation], outputs: Any) -> frozenset[str]:
+    known = {WORDS, DRAWN, *(output.name for output in kind.outputs)}
+    named = [outputs] if isinstance(outputs, str) else list(outputs)
+    unknown = [name for name in named if name not in known]
+    if unknown:
+        raise InputError(
+            f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
+        )
+    needed = {output.name for output in kind.outputs if output.needed}
+    return frozenset(named) | needed
+
+
+def _beside(kind: type[Operation], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:
+    """Return the files that are wanted, pictures as SVG and what is no text in base 64."""
+    files: dict[str, str] = {}
+    for output in kind.outputs:
+        if output.name not in wanted:
+            continue
+        stream = io.BytesIO()
+        if output.name in answer.pictures:
+            answer.pictures[output.name]().savefig(stream, format="svg")
+        elif output.name in answer.files:
+            answer.files[output.name](stream)
+        else:
+            continue
+        content = stream.getvalue()
+        binary = output.kind == "binary"
+        files[output.name] = (
+            base64.b64encode(content).decode() if binary else content.decode("utf-8")
+        )
+    beside: dict[str, Any] = {"files": files} if files else {}
+    if WORDS in wanted:
+        beside |= {"words": answer.words(), "notes": list(answer.notes)}
+    if DRAWN in wanted and answer.drawn is not None:
+        beside["drawn"] = plain(answer.drawn())
+    return {"beside": beside} if beside else {}

@@ -1,0 +1,50 @@
+"""The published materials, and materials as tables of a case file."""
+
+from typing import Any
+
+from viscotack.cards import Pairs, cards
+from viscotack.materials.library import MATERIALS, published
+from viscotack.materials.passport_words import in_words
+from viscotack.materials.words import word_of
+
+
+def material_table(material: Any) -> dict[str, Any]:
+    """Return a material as the table [material] of a case file, with all its digits.
+
+    Examples
+    --------
+    >>> from viscotack import Elastic
+    >>> material_table(Elastic(rubbery_modulus=1e6, poisson_ratio=0.5))
+    {'model': 'elastic', 'rubbery_modulus': '1000000.0 Pa', 'poisson_ratio': 0.5}
+    """
+    kind = type(material)
+    table: dict[str, Any] = {"model": word_of(material)}
+    for name, field in cards(kind).items():
+        table[name] = _said(getattr(material, name), field.card.unit)
+    for name, field in cards(kind, Pairs).items():
+        first, second = field.card.units
+        table[name] = [[_said(a, first), _said(b, second)] for a, b in getattr(material, name)]
+    return table
+
+
+def _said(value: float, unit: str) -> Any:
+    return float(value) if unit == "1" else f"{float(value)!r} {unit}"
+
+
+def library() -> list[dict[str, Any]]:
+    """Return the published materials, each as the table [material] of a case file."""
+    found = []
+    for name in MATERIALS:
+        passport = published(name)
+        table = material_table(passport.material)
+        found.append(
+            {
+                "name": name,
+                "title": passport.name,
+                "table": table,
+                "source": passport.origin.reference,
+                "doi": passport.origin.doi,
+                "words": in_words(passport),
+            }
+        )
+    return found
