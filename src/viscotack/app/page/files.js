@@ -17,13 +17,3 @@ export function dropped(words, take) {
   box.addEventListener("drop", (event) => { event.preventDefault(); if (event.dataTransfer.files.length) take([...event.dataTransfer.files]); });
   return box;
 }
-
-export function option(host, id, name, words, example) {
-  const row = element("div", "field"), label = element("label", "", words), input = element("input", "");
-  input.id = id;
-  input.placeholder = example;
-  label.htmlFor = id;
-  row.append(label, input);
-  host.append(row);
-  return { name, input };
-}

@@ -7,16 +7,18 @@ import { Material } from "./material.js";
 import { Rig } from "./rig.js";
 import { Compare } from "./compare.js";
 import { Record } from "./record.js";
+import { Operations } from "./operations.js";
 import { ask } from "./server.js";
 import { element } from "./plot.js";
 
 // A view more is a line more: its class draws into an element, and listens to the store.
-const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record]];
+const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Material], ["rig", "Rig", Rig], ["compare", "Compare", Compare], ["record", "Record", Record], ["operations", "All operations", Operations]];
 
 async function begin() {
   theme();
   const forms = await ask("/api/forms");
   const store = new Store(forms);
+  store.operations = (await ask("/api/operations")).operations;
   window.viscotack = store;
   const views = tabs(store);
   new Fields(document.getElementById("fields"), store);

@@ -3,21 +3,10 @@
 import { Plot, element, save } from "./plot.js";
 import { button, card } from "./contact.js";
 import { ask } from "./server.js";
-import { dropped, option } from "./files.js";
+import { dropped } from "./files.js";
+import { Form } from "./form.js";
 
 const PARTS = { storage: ["storage modulus", "c0"], loss: ["loss modulus", "c1"], relaxation: ["relaxation modulus", "c0"], creep: ["creep compliance", "c0"] };
-const OPTIONS = [
-  ["poisson_ratio", "Poisson ratio", "0.5"],
-  ["reference_temperature", "reference temperature", "20 degC"],
-  ["glass_transition", "glass transition, for WLF shifts", "-115 degC"],
-  ["model", "model", "best"],
-  ["kind", "E (tension) or G (shear)", "E"],
-  ["frequency_unit", "unit of frequencies", "Hz"],
-  ["modulus_unit", "unit of moduli", "MPa"],
-  ["temperature", "temperature of the test", "20 degC"],
-  ["temperature_unit", "unit of temperatures", "degC"],
-  ["time_unit", "unit of times", "s"],
-];
 
 export class Material {
   constructor(host, store) {
@@ -34,10 +23,7 @@ export class Material {
     side.append(element("h2", "", "A DMA file"));
     this.drop = dropped("DMA, relaxation or creep files", (files) => this.take(files));
     side.append(this.drop, element("p", "hint", "TA TRIOS, RheoCompass, Eplexor, RepTate, workbooks or plain tables. What a file does not say is asked for."));
-    const form = element("details", ""), what = element("summary", "", "what the file may not say");
-    form.append(what);
-    this.options = OPTIONS.map(([name, words, example]) => option(form, `fit-${name}`, name, words, example));
-    side.append(form);
+    this.form = new Form(side, store.operations.find(({ word }) => word === "material fit"), "fit", { skip: ["files"] });
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
     side.append(this.said);
@@ -67,11 +53,13 @@ export class Material {
   async take(files) {
     const body = new FormData();
     for (const file of files) body.append("files", file);
-    for (const { name, input } of this.options) if (input.value.trim()) body.append(name, input.value.trim());
+    if (!this.form.input("poisson_ratio").value.trim()) this.form.input("poisson_ratio").value = "0.5";
+    body.append("outputs", "drawn");
+    this.form.fill(body);
     this.files = files;
     this.said.replaceChildren(element("p", "hint", "reading, shifting and fitting …"));
     try {
-      this.fit = await ask("/api/materials/fit", body);
+      this.fit = (await ask("/api/material/fit", body)).beside.drawn;
       this.tell();
     } catch (error) {
       this.fit = null;

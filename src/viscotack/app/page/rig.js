@@ -5,16 +5,8 @@ import { button, card } from "./contact.js";
 import { said } from "./numbers.js";
 import { ask } from "./server.js";
 import { curveOf } from "./store.js";
-import { dropped, option } from "./files.js";
-
-const OPTIONS = [
-  ["force_unit", "unit of the force", "mN"],
-  ["length_unit", "unit of lengths", "um"],
-  ["time_unit", "unit of times", "s"],
-  ["force_column", "heading of the force", "Force"],
-  ["nominal_speed", "speed that was set", "10 um/s"],
-  ["compliance", "compliance of the rig", "2 um/N"],
-];
+import { dropped } from "./files.js";
+import { Form } from "./form.js";
 
 export class Rig {
   constructor(host, store) {
@@ -28,10 +20,7 @@ export class Rig {
     const side = card(view, "side");
     side.append(element("h2", "", "Files of a rig"), dropped("tack tests or force curves", (files) => this.take(files)));
     side.append(element("p", "hint", "CSV and text with units, testXpert, Nanosurf, JPK, Asylum."));
-    const form = element("details", "");
-    form.append(element("summary", "", "what the files may not say"));
-    this.options = OPTIONS.map(([name, words, example]) => option(form, `rig-${name}`, name, words, example));
-    side.append(form);
+    this.form = new Form(side, store.operations.find(({ word }) => word === "test read"), "rig", { skip: ["files"] });
     this.said = element("div", "");
     this.said.setAttribute("role", "status");
     side.append(this.said);
@@ -54,15 +43,16 @@ export class Rig {
   body(files) {
     const body = new FormData();
     for (const file of files) body.append("files", file);
-    for (const { name, input } of this.options) if (input.value.trim()) body.append(name, input.value.trim());
-    return body;
+    return this.form.fill(body);
   }
 
   async take(files) {
     this.files = files;
     this.said.replaceChildren(element("p", "hint", "reading …"));
     try {
-      this.store.rig = await ask("/api/tests", this.body(files));
+      const body = this.body(files);
+      body.append("outputs", "drawn");
+      this.store.rig = (await ask("/api/test/read", body)).beside.drawn;
       this.tell();
     } catch (error) {
       this.store.rig = null;
@@ -110,7 +100,6 @@ export class Rig {
     const body = this.body(this.files);
     body.append("radius", this.store.tables.sphere?.radius || "");
     for (const [name, value] of Object.entries(more)) body.append(name, value);
-    for (const name of ["time_unit", "force_column"]) body.delete(name);
     try {
       const found = await ask(path, body);
       this.answer.replaceChildren(...found.words.map((words) => element("p", "", words)));

@@ -91,7 +91,7 @@ export class Store extends EventTarget {
     this.say("run");
     const judging = setTimeout(() => this.judge(run), 1500);
     try {
-      const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true };
+      const asked = { problem: this.tables, ...this.settings, time_limit: 300, profiles: true, outputs: ["drawn"] };
       run.job = await ask("/api/jobs/simulate", asked);
       if (run !== this.run) { cancel(run.job); return; }
       const answer = await follow(run.job, (news) => {
@@ -102,8 +102,9 @@ export class Store extends EventTarget {
         this.say("run");
       });
       if (run !== this.run || !answer) return;
-      run.state = answer.failed ? "stopped" : "done";
-      run.answer = answer;
+      const { beside, ...summary } = answer;
+      run.answer = { ...beside.drawn, summary };
+      run.state = run.answer.failed ? "stopped" : "done";
       run.took = performance.now() - run.began;
       cancel(run.job); // it has been read, and need not be kept there
     } catch (error) {
