@@ -3,7 +3,11 @@
 import ast
 import importlib
 import inspect
+import re
+from functools import cache
 from pathlib import Path
+
+import pytest
 
 import viscotack
 
@@ -11,6 +15,7 @@ PACKAGE = Path(viscotack.__file__).parent
 
 # The rooms, lowest first: a module imports only from its own room and from rooms before it.
 ROOMS = (
+    "version",
     "errors",
     "units",
     "cards",
@@ -33,47 +38,74 @@ ROOMS = (
     "app",
     "check",
     "__main__",
+    # the package's face, which names what all of them have
+    "__init__",
 )
 # The same inside the theories: what all of them share, then the wings.
 WINGS = ("_checks", "_scales", "elastic", "crack", "sphere", "punch")
+# A string, or a quoted one in it, that names a module; what comes after `-m`; no words that tell
+# users what there is.
+NAMED = re.compile(r"""(?:^|['"]|-m )(viscotack(?:\.[A-Za-z_]\w*)+)(?=\.?$|['"\s])""")
 
 
 def modules(package):
-    """Return the name, relative to the package, and the path of every module below its door."""
+    """List the modules of a package: name, relative to the package, and path."""
     found = {}
     for path in sorted(package.rglob("*.py")):
         parts = path.relative_to(package).with_suffix("").parts
-        if parts != ("__init__",):
-            found[".".join(parts).removesuffix(".__init__")] = path
+        found[".".join(parts).removesuffix(".__init__")] = path
     return found
 
 
 def imports(name, path, known):
-    """Return the modules of the package that a module imports, anywhere in its text."""
+    """List the modules that a module imports: in functions, for types and by strings too.
+
+    What is neither a module nor a name in one is of the package's face.
+    """
+    tree, found = ast.parse(path.read_text()), set()
     parts = name.split(".") if path.stem == "__init__" else name.split(".")[:-1]
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    parts = [] if name == "__init__" else parts
+
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             targets = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
-            if node.level:
-                base = ["viscotack", *parts[: len(parts) + 1 - node.level]]
-            else:
-                base = []
+            above = parts[: len(parts) + 1 - node.level]
+            base = ["viscotack", *above] if node.level else []
             origin = ".".join([*base, *([node.module] if node.module else [])])
             targets = [f"{origin}.{alias.name}" for alias in node.names]
         else:
             continue
         for target in targets:
-            inside = target.removeprefix("viscotack.")
-            # `from .a import b`: b is a module or a name in the module a
-            for candidate in (inside, inside.rpartition(".")[0]):
-                if target.startswith("viscotack.") and candidate in known:
-                    found.add(candidate)
-                    break
-    return found - {name}
+            if target.split(".")[0] == "viscotack":
+                found.add(module_of(target, known) or "__init__")
+    for text in strings(tree):
+        found |= {module_of(words, known) for words in NAMED.findall(text)}
+    return found - {name, None}
 
 
+def module_of(target, known):
+    """Find the module that a dotted name is, or that has it."""
+    inside = target.removeprefix("viscotack.")
+    # `from .a import b`: b is a module or a name in the module a
+    candidates = (inside, inside.rpartition(".")[0])
+    return next((x for x in candidates if target != "viscotack" and x in known), None)
+
+
+def strings(tree):
+    """List the strings of a module but docstrings, and the programs that `-m` and one name."""
+    docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    texts = [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docs
+    ]
+    pairs = [f"{a} {b}" for a, b in zip(texts[:-1], texts[1:], strict=True)]
+    program = re.compile(r"-m viscotack(?![.\w])")
+    return [program.sub("-m viscotack.__main__", text) for text in (*texts, *pairs)]
+
+
+@cache
 def graph(package):
     known = modules(package)
     return {name: imports(name, path, known) for name, path in known.items()}
@@ -210,6 +242,46 @@ def test_the_check_itself_sees_an_upward_import_and_a_circle(tmp_path):
     assert upward(links) == ["theory.jkr imports bem, a later room"]
     assert "theory.maugis" in cycles(links)
     assert "units" not in cycles(links)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import viscotack\n",
+        "from viscotack import __version__\n",
+        "from .. import __version__\n",
+        "def f():\n    from viscotack import solve\n",
+    ],
+)
+def test_the_check_itself_sees_an_import_of_the_face(tmp_path, text):
+    (tmp_path / "result").mkdir()
+    (tmp_path / "__init__.py").write_text("from .result import cycles\n__version__ = '1'\n")
+    (tmp_path / "result/__init__.py").write_text("")
+    (tmp_path / "result/cycles.py").write_text(f"import numpy\n{text}")
+    links = graph(tmp_path)
+    assert upward(links) == ["result.cycles imports __init__, a later room"]
+    assert cycles(links) == ["__init__", "result.cycles"]
+
+
+@pytest.mark.parametrize(
+    ("text", "room"),
+    [
+        ("if TYPE_CHECKING:\n    from ..app import page\n", "app.page"),
+        ("import_module('viscotack.app.page')\n", "app.page"),
+        ("import_module(f'viscotack.app.{name}')\n", "app"),
+        ("run([sys.executable, '-m', 'viscotack.app.page'])\n", "app.page"),
+        ("run([sys.executable, '-m', 'viscotack', 'simulate'])\n", "__main__"),
+        ("run('python -m viscotack simulate', shell=True)\n", "__main__"),
+    ],
+)
+def test_the_check_itself_sees_what_is_imported_for_types_and_by_a_string(tmp_path, text, room):
+    for name in ("result", "app"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").write_text("")
+    (tmp_path / "__main__.py").write_text("from .app import page\n")
+    (tmp_path / "app/page.py").write_text('"""Shows results, as ``viscotack.pictures`` do."""\n')
+    (tmp_path / "result/run.py").write_text(text)
+    assert upward(graph(tmp_path)) == [f"result.run imports {room}, a later room"]
 
 
 def test_the_check_itself_sees_an_import_from_a_later_wing(tmp_path):

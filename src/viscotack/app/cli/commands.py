@@ -18,7 +18,6 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer import Argument, Context, Option
 
-from viscotack import __version__
 from viscotack.app.cli.asking import answers, asking
 from viscotack.app.questions import (
     OF_FILE,
@@ -46,6 +45,7 @@ from viscotack.result import Outcome, Result, load, save, write_csv
 from viscotack.result.cycles import write_cycles
 from viscotack.result.observables import Observable, summary
 from viscotack.units import parse
+from viscotack.version import __version__
 
 from .cycle_table import table_of_cycles
 from .writing import Writing, check_files

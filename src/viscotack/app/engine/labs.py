@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from viscotack import __version__
 from viscotack.app.cli.superposing import Shifting, stepped, swept
 from viscotack.app.records import rates_record, slow_record, tests_record
 from viscotack.errors import InputError
@@ -24,6 +23,7 @@ from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_tables import passport_text
 from viscotack.materials.shift import TabulatedShift
 from viscotack.units import parse
+from viscotack.version import __version__
 
 from .asks import Asked, Tell, material_table, problem_of
 from .examples import FIRST
