@@ -2,7 +2,8 @@
 
 from viscotack.bem.by_crack import CrackContact, crack_contact
 from viscotack.bem.settings import DEFAULT_ACCURACY, Accuracy, Settings
-from viscotack.bem.solver import SimulationError, has_start, solve
+from viscotack.bem.solver import SimulationError
+from viscotack.bem.solving import has_start, solve
 
 __all__ = [
     "DEFAULT_ACCURACY",
