@@ -28,6 +28,7 @@ ROOMS = (
     "problem",
     "result",
     "bem",
+    "methods",
     "lab",
     "campaign",
     "datasets",
@@ -43,6 +44,8 @@ ROOMS = (
 )
 # The same inside the theories: what all of them share, then the wings.
 WINGS = ("_checks", "_scales", "elastic", "crack", "sphere", "punch")
+# Rooms in which names are found for a release that moved to a later one (docs/migration.md).
+MOVED = {("bem", "methods")}
 # A string, or a quoted one in it, that names a module; what comes after `-m`; no words that tell
 # users what there is.
 NAMED = re.compile(r"""(?:^|['"]|-m )(viscotack(?:\.[A-Za-z_]\w*)+)(?=\.?$|['"\s])""")
@@ -109,6 +112,14 @@ def strings(tree):
 def graph(package):
     known = modules(package)
     return {name: imports(name, path, known) for name, path in known.items()}
+
+
+def kept(links):
+    """Drop the links by which names that moved are still found in their old room."""
+    return {
+        name: {target for target in targets if (name, target) not in MOVED}
+        for name, targets in links.items()
+    }
 
 
 def upward(links, rooms=ROOMS):
@@ -180,7 +191,8 @@ def test_every_room_has_a_place():
 
 
 def test_no_module_imports_from_a_later_room():
-    assert upward(graph(PACKAGE)) == []
+    assert upward(kept(graph(PACKAGE))) == []
+    assert MOVED <= {(name, x) for name, targets in graph(PACKAGE).items() for x in targets}
 
 
 def test_every_theory_has_a_wing():
@@ -202,6 +214,16 @@ def test_the_twins_of_the_solver_share_nothing_with_it():
     assert set().union(*(solver[name] for name in twins)) & solver.keys() <= twins
 
 
+def test_the_contact_with_a_crack_for_its_edge_shares_nothing_with_the_simulation():
+    links = graph(PACKAGE)
+    for name in ("by_crack", "crack_band", "crack_problem"):
+        rooms = {target.split(".")[0] for target in links[f"methods.{name}"]}
+        assert "bem" not in rooms, name
+    simulation = {name: targets for name, targets in kept(links).items() if name.startswith("bem")}
+    known = set().union(*simulation.values())
+    assert not [x for x in known if x.startswith(("theory.crack", "methods"))]
+
+
 def test_no_public_name_of_a_room_hides_a_module_of_it():
     # `import viscotack.bem.solve as s` once gave a function
     for path in PACKAGE.rglob("__init__.py"):
@@ -216,7 +238,7 @@ def test_no_public_name_of_a_room_hides_a_module_of_it():
 
 
 def test_no_modules_import_each_other_in_a_circle():
-    assert cycles(graph(PACKAGE)) == []
+    assert cycles(kept(graph(PACKAGE))) == []
 
 
 def test_what_answers_at_once_knows_nothing_of_how_it_was_made_or_is_handed_on():

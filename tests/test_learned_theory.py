@@ -113,7 +113,7 @@ def test_who_has_no_time_for_theories_gets_what_was_learned():
 
 
 def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
-    from viscotack.bem.by_crack import crack_contacts
+    from viscotack.methods.by_crack import crack_contacts
 
     cases = [problem(rate=rate) for rate in (30.0, 3000.0)] + [problem(tabor=1.5)]
     together = crack_contacts([case.groups() for case in cases])

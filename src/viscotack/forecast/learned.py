@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem.crack_band import band_parts, not_measured
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
+from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import jkr

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.bem.by_crack import CrackContact, crack_contact
-from viscotack.bem.crack_band import not_measured
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.methods.by_crack import CrackContact, crack_contact
+from viscotack.methods.crack_band import not_measured
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
 from viscotack.theory import hertz

@@ -191,7 +191,7 @@ def _simulate(
         seconds = _seconds(time_limit)
         problem = stated_problem(case, context, door, own)
         say_deviation(case, context, own)
-        from viscotack.bem import solve
+        from viscotack.methods import solve
 
         with _progress() as progress:
             result = solve(

@@ -9,9 +9,9 @@ import typer
 from typer import Option
 
 from viscotack.app.questions import SPHERE
-from viscotack.bem.by_crack import CrackContact, crack_contact
-from viscotack.bem.by_crack import summary as summary_of
 from viscotack.files.whole import write_whole
+from viscotack.methods.by_crack import CrackContact, crack_contact
+from viscotack.methods.by_crack import summary as summary_of
 from viscotack.problem import Groups, Problem
 
 from .asking import asking

@@ -199,7 +199,7 @@ def _predicted(
 
 
 def _simulated(problem: Case) -> Result:
-    from viscotack.bem import solve
+    from viscotack.methods import solve
 
     return solve(problem, until="pull-off", throw=False)
 

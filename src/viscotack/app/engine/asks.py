@@ -6,8 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.bem import crack_contact
-from viscotack.bem.by_crack import METHOD
 from viscotack.cards import Pairs, cards
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict, prediction_summary
@@ -18,6 +16,8 @@ from viscotack.geometry import FlatPunch
 from viscotack.materials.library import MATERIALS, published
 from viscotack.materials.passport_words import in_words
 from viscotack.materials.words import word_of
+from viscotack.methods import crack_contact
+from viscotack.methods.by_crack import METHOD
 from viscotack.problem import Groups, Problem, PunchGroups
 from viscotack.problem.record import from_dict
 

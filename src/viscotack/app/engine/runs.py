@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.bem import solve
 from viscotack.campaign.case import CaseSettings, Unsolved, measure
 from viscotack.campaign.columns import kind_of_problem
 from viscotack.errors import InputError
 from viscotack.geometry import FlatPunch
+from viscotack.methods import solve
 from viscotack.problem import Problem
 from viscotack.problem.accuracy import LOOSEST_ACCURACY
 from viscotack.problem.outputs import Kind

@@ -7,13 +7,13 @@ from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
-from viscotack.bem import handover
 from viscotack.bem.clock import limited
-from viscotack.bem.crack_problem import largest_radius
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import Progress, Watch, begun, contact_of, simulate
 from viscotack.cards import card_of
 from viscotack.errors import InputError
+from viscotack.methods import handover
+from viscotack.methods.crack_problem import largest_radius
 from viscotack.problem import Case, Groups, Problem, PunchGroups
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.result import Result
