@@ -238,7 +238,7 @@ def said_of_crack(asked: Question) -> Said | str:
     if not learned.holds(said)[0]:
         return "the theory of a crack at the edge, which was learned, does not hold there"
     if elsewhere := not_measured(groups):
-        return f"the band of the theory of a crack at the edge was not measured {elsewhere}"
+        return f"the band of the theory of a crack at the edge was not measured here: {elsewhere}"
     return said
 
 
