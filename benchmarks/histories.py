@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "ladder"))
 import test_histories as histories  # noqa: E402
 import test_traction_laws as laws  # noqa: E402
 
-from viscotack.bem import solve  # noqa: E402
+from viscotack.methods import solve  # noqa: E402
 from viscotack.problem import Groups  # noqa: E402
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo  # noqa: E402
 from viscotack.result.dead_load import time_to_detachment  # noqa: E402

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack import CrackContact, InputError, Outcome, Result, crack_contact, solve, summary
-from viscotack.bem.by_crack import summary as crack_summary
+from viscotack.methods.by_crack import summary as crack_summary
 from viscotack.result.loops import Loop, loop_of, lost_in, returned
 from viscotack.result.parts import Span, spans
 

@@ -6,13 +6,14 @@ from time import perf_counter
 import pytest
 
 from command_line import exit_status
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.jumps import _MOST_MESHES
 from viscotack.bem.mesh import MOST_NODES, Grading
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Prony, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.problem.case_file import read_case
 from viscotack.protocol import (

@@ -8,7 +8,7 @@ import pytest
 
 import viscotack as vt
 from command_line import exit_status
-from viscotack.bem import has_start
+from viscotack.methods import has_start
 from viscotack.theory.crack.contact import profile_of, radius_at_depth
 
 SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from viscotack.app.cli import main
-from viscotack.bem import DEFAULT_ACCURACY, Settings, preload, solve
+from viscotack.bem import DEFAULT_ACCURACY, Settings, preload
 from viscotack.bem.solver import contact_of
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import (
@@ -17,6 +17,7 @@ from viscotack.materials import (
     RetardationPowerLaw,
     StandardSolid,
 )
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Dwell
 from viscotack.result import load, save

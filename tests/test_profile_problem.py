@@ -8,12 +8,12 @@ import pytest
 from typer.testing import CliRunner
 
 from viscotack.app.cli import application
-from viscotack.bem import solve
 from viscotack.errors import OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import advise
 from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, Problem
 from viscotack.problem.case_file import read_case
 from viscotack.problem.record import from_dict, run_id, to_dict

@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, SimulationError, solve
+from viscotack.bem import Settings, SimulationError
 from viscotack.bem.mesh import Grading
 from viscotack.bem.twins.plain import plain_solve
 from viscotack.geometry import Cone, PowerLawProfile
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (

@@ -9,9 +9,10 @@ from time import perf_counter, sleep
 import pytest
 
 from command_line import exit_status
-from viscotack.bem import SimulationError, solve, solver
+from viscotack.bem import SimulationError, solver
 from viscotack.errors import InputError
 from viscotack.materials import StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, Dwell
 from viscotack.result import Outcome, load

@@ -7,9 +7,10 @@ import pytest
 
 from command_line import exit_status
 from viscotack import SimulationError, load, save, summary
-from viscotack.bem import Settings, estimate, solve
+from viscotack.bem import Settings, estimate
 from viscotack.bem.verdict import judged
 from viscotack.materials import Elastic, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth
 from viscotack.traction import Exponential

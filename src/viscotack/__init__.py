@@ -7,7 +7,7 @@ that ``import viscotack`` costs nothing.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from .version import __version__
 
 if TYPE_CHECKING:
     from . import bem as bem
@@ -17,10 +17,7 @@ if TYPE_CHECKING:
     from . import lab as lab
     from . import materials as materials
     from . import theory as theory
-    from .bem import CrackContact as CrackContact
     from .bem import SimulationError as SimulationError
-    from .bem import crack_contact as crack_contact
-    from .bem import solve as solve
     from .cards import Quantity as Quantity
     from .errors import InputError as InputError
     from .errors import OutOfRange as OutOfRange
@@ -46,6 +43,9 @@ if TYPE_CHECKING:
     from .materials import RelaxationPowerLaw as RelaxationPowerLaw
     from .materials import RetardationPowerLaw as RetardationPowerLaw
     from .materials import StandardSolid as StandardSolid
+    from .methods import CrackContact as CrackContact
+    from .methods import crack_contact as crack_contact
+    from .methods import solve as solve
     from .pictures.forecast import draw_prediction as draw_prediction
     from .pictures.lab import draw_fit as draw_fit
     from .pictures.plot import draw_energy as draw_energy
@@ -150,7 +150,8 @@ _NAMES = {
     "problem": ("Problem", "Groups", "PunchGroups", "Scales", "PunchScales"),
     "problem.record": ("to_dict", "from_dict", "run_id"),
     "problem.case_file": ("read_case",),
-    "bem": ("solve", "SimulationError", "crack_contact", "CrackContact"),
+    "bem": ("SimulationError",),
+    "methods": ("solve", "crack_contact", "CrackContact"),
     "result": ("Result", "Energies", "Event", "Outcome", "save", "load", "columns", "write_csv"),
     "result.observables": (
         "Observable",

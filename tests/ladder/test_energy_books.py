@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, jumps, solve
+from viscotack.bem import Settings, jumps
 from viscotack.bem.body import Body, State
 from viscotack.bem.machine import Hold
 from viscotack.bem.solver import contact_of
 from viscotack.geometry import Cone
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.traction import Exponential

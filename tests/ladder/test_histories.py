@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from viscotack.bem import Settings, SimulationError, solve
+from viscotack.bem import Settings, SimulationError
 from viscotack.bem.solver import contact_of
 from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import (
     Apart,

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from viscotack.bem import crack_contact, solve
 from viscotack.materials import Elastic, StandardSolid
+from viscotack.methods import crack_contact, solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
 from viscotack.result import load, save

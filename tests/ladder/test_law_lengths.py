@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from viscotack.bem import solve
 from viscotack.bem.flank import flank_share
 from viscotack.bem.interface import AtNodes, OnPanels, interface, resolved
 from viscotack.materials import Elastic, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscotack.bem import solve
 from viscotack.materials import Prony, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.materials.conversion import (
     PronyForm,
@@ -19,6 +18,7 @@ from viscotack.materials.conversion import (
 from viscotack.materials.library import pdms_10_1, published
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import WLF
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import AtDepth
 from viscotack.result.observables import pull_off_force

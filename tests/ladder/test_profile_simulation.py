@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius
 from viscotack.result.observables import (

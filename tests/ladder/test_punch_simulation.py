@@ -8,12 +8,13 @@ from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
 from reference_data import VALUES
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings
 from viscotack.bem.bodies.layer import layer_influence
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Problem, PunchGroups
 from viscotack.protocol import Approach, AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
 from viscotack.result.observables import (

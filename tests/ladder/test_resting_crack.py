@@ -166,11 +166,17 @@ def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_shor
 @pytest.mark.parametrize(
     ("case", "words"),
     [
-        (pressed(tabor=100.0), "tabor 8 to 60, not 100"),
-        (pressed(speed=5000.0), "speed of a move over the Tabor number 0.3 to 100, not 500"),
-        (pressed(MoveTo(50.0, 1.0)), "histories without MoveTo"),
-        (pressed(*(Dwell(0.1),) * 3), "number of moves 1 to 3, not 4"),
-        (pressed(stiffness=1e-3), "stiffness times the Tabor number 0.1 to inf, not 0.01"),
+        (pressed(tabor=100.0), "tabor is 100, verified from 8 to 60"),
+        (
+            pressed(speed=5000.0),
+            "speed of a move over the Tabor number is 500, verified",
+        ),
+        (pressed(MoveTo(50.0, 1.0)), "a move is a MoveTo, verified for histories without"),
+        (pressed(*(Dwell(0.1),) * 3), "number of moves is 4, verified from 1 to 3"),
+        (
+            pressed(stiffness=1e-3),
+            "stiffness times the Tabor number is 0.01, verified",
+        ),
     ],
 )
 def test_a_history_of_a_kind_that_was_not_simulated_says_so(case, words):

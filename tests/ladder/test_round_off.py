@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from noise import noise
-from viscotack.bem import jumps, solve
+from viscotack.bem import jumps
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.result.dead_load import time_to_detachment

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reference_data import VALUES
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings
 from viscotack.bem.bodies.halfspace import half_space, influence, nodal_areas
 from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.contacts.profile import ProfileContact
@@ -16,6 +16,7 @@ from viscotack.bem.surface import stiffness
 from viscotack.bem.twins.plain import hat_matrix, mean_compliance, plain_solve
 from viscotack.geometry import Frictionless
 from viscotack.materials import Elastic, Modes, Prony, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.result.observables import (

@@ -10,9 +10,10 @@ from scipy.integrate import quad
 from scipy.interpolate import PchipInterpolator
 from threadpoolctl import threadpool_limits
 
-from viscotack.bem import Settings, solve
+from viscotack.bem import Settings
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.materials import Elastic
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, AtDepth
 from viscotack.result.observables import pull_off

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from viscotack.bem import Settings, march, solve
+from viscotack.bem import Settings, march
 from viscotack.bem.frame import Passage, Way, along, farthest, widths
 from viscotack.bem.memory import Memory, step
 from viscotack.materials import Elastic, Modes, RetardationPowerLaw, StandardSolid
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off

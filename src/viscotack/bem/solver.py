@@ -8,18 +8,15 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
-from viscotack.bem import handover
 from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
-from viscotack.bem.clock import TimeUp, limited, met
+from viscotack.bem.clock import TimeUp, met
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.bem.crack_problem import largest_radius
 from viscotack.bem.estimate import COARSER, estimated
 from viscotack.bem.interface import resolved
 from viscotack.bem.legs import legs_of, longest_time, reached, spring_travel
@@ -28,12 +25,10 @@ from viscotack.bem.march import march
 from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.verdict import judged, out_of_time, status_of
-from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.geometry import Cone, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
-from viscotack.problem import Case, Groups, Problem, PunchGroups
-from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
+from viscotack.problem import Case, Groups, PunchGroups
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
@@ -45,12 +40,8 @@ Progress = Callable[[float], None] | None
 # Is told time, depth, force and contact radius of each step, as a `Result` has them.
 Watch = Callable[[float, float, float, float], None] | None
 
-_UNTIL = ("pull-off", "detached")
 # Modes that are faster than this part of the first step are instantaneous for all purposes.
 _FASTEST = 0.2
-# Influences of nodes so near to each other, in parts of the contact radius, have too few digits: at
-# 4e-7 a force was a fifth off. Not looked at below this effective Tabor number.
-_DIGITS, _FINE_TABOR = 6e-7, 20.0
 # Share of the work in a run that has one.
 _MAIN = 0.8
 
@@ -67,149 +58,55 @@ class SimulationError(RuntimeError):
         return type(self), (self.result,)
 
 
-def solve(
+def simulate(
     problem: Case,
     *,
-    accuracy: float = DEFAULT_ACCURACY,
-    until: str = "detached",
-    settings: Settings | None = None,
-    estimate_error: bool = True,
-    whole: bool = False,
-    fields: bool = False,
-    throw: bool = True,
-    progress: Progress = None,
-    watch: Watch = None,
-    time_limit: float | None = None,
+    settings: Settings,
+    until: str,
+    estimate_error: bool,
+    whole: bool,
+    fields: bool,
+    throw: bool,
+    progress: Progress,
+    watch: Watch,
 ) -> Result:
-    """Simulate the detachment of a rigid indenter from a viscoelastic solid.
+    """Simulate a problem, whatever the range of its forces.
 
-    The test begins at rest, in a relaxed contact or apart, goes through the moves of its protocol,
-    and ends with a retraction at a constant rate, or with the last move. Pressure and gap follow
-    from the traction law and from the hereditary solid (Eq. 4.11 to 4.15 of Maghami, PhD thesis
-    (2025)); mesh, steps and relaxation modes follow from the accuracy.
-
-    Parameters
-    ----------
-    problem : Problem, Groups or PunchGroups
-        What is tested, in SI or in dimensionless groups.
-    accuracy : float
-        Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
-        end is a flat minimum, has up to five times this error.
-    until : {"detached", "pull-off"}
-        Run until the surfaces are apart, or only until no later tension can exceed the largest one
-        so far, mostly just past the first force minimum (faster; the work of separation is then not
-        known).
-    settings : Settings, optional
-        Mesh, steps and modes for experts, in place of those that follow from `accuracy`.
-    estimate_error : bool
-        Also run a coarser companion and state the errors of force, work and depth at pull-off from
-        the difference. A run whose force is known ten times worse than asked for is stopped as
-        unresolved.
-    whole : bool
-        March the whole retraction from the start that is asked for, however deep. Else one from
-        more than 1000 h0, by sphere, cone or power-law tip and without moves before it, begins
-        where light marches tell that the depth no longer matters
-        (:mod:`viscotack.bem.preload`); ``result.shallow_start`` says where.
-    fields : bool
-        Keep the profiles of pressure and gap at every step.
-    throw : bool
-        Raise when the run stops before its end; else the result's status says so.
-    progress : callable, optional
-        Called after every step with the done share of the way, from 0 to 1, that of the coarser
-        companion being the last part.
-    watch : callable, optional
-        Called after every step of the run itself with its time, depth, force and contact radius,
-        dimensionless as the series of a result: a curve to be drawn while it grows. What it raises
-        ends the run and is raised here.
-    time_limit : float, optional
-        Longest time [s] for the run and its companion. A run that meets it is stopped: it keeps
-        what there is, and its status says so.
-
-    Returns
-    -------
-    Result
-        Dimensionless series, status, events, energies, error estimate and statistics.
-
-    Raises
-    ------
-    ValueError
-        If the relaxed start does not exist, or is not found within the time limit; if it is too
-        deep to be marched and none that is shallower gives the same answer; if an argument, or a
-        number of the problem, is out of range.
-    SimulationError
-        If the run stops before its end, unless throw is False.
-
-    Notes
-    -----
-    Beyond Tabor numbers of 200, elastic solids of 30, a contact whose edge is a steady crack is
-    the answer (:func:`crack_contact`), and the result says so: its `method`, its status, and its
-    band for the error of the force. So where nodes would be nearer to each other than digits
-    tell, in a large contact or at a high accuracy.
-
-    Tested for Tabor numbers from 0.01 to 100, modulus ratios down to 1e-4, preloads from 0.01 to
-    500 h0 and rates from 0.1 to 1e10. Small strains are assumed, and inertia is neglected.
-
-    Examples
-    --------
-    >>> from viscotack import AtDepth, Groups, RetardationPowerLaw, pull_off_force, solve
-    >>> material = RetardationPowerLaw(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
-    ... )
-    >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73.0), rate=316.23)
-    >>> result = solve(groups, until="pull-off")
-    >>> f"{pull_off_force(result):.2f}"
-    '7.33'
+    Parameters and errors are those of :func:`viscotack.solve`, which checks them and sets the
+    limits of time and threads.
     """
-    if until not in _UNTIL:
-        raise InputError(f"until must be one of {', '.join(map(repr, _UNTIL))}, got {until!r}")
     began = perf_counter()
-    chosen = Settings.for_accuracy(accuracy) if settings is None else settings
-    if time_limit is not None:
-        time_limit = card_of(TimeLimit).checked("time_limit", time_limit)
     share = _MAIN if estimate_error else 1.0
-    # The matrices are small: a second BLAS thread costs many times what it brings.
-    with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
-        groups = problem.groups()
-        if isinstance(groups, Groups) and _too_short(groups, chosen):
-            if fields:
-                raise InputError(
-                    "profiles are known of simulations only, and the Tabor number of "
-                    f"{groups.effective_tabor:.4g} is too large for one; ask for none"
-                )
-            assert not isinstance(problem, PunchGroups)
-            return _handed_over(problem, chosen.accuracy, began)
-        contact = contact_of(groups)
-        check_bounds(problem, groups, contact)
+    groups = problem.groups()
+    contact = contact_of(groups)
+    check_bounds(problem, groups, contact)
 
-        def light(
-            marched: Groups | PunchGroups, seen: Progress = None, *, whole: bool = False
-        ) -> Result:
-            # after moves the force may have a minimum before the pull-off: one end for both then
-            end = until if groups.moves else "detached" if whole else "pull-off"
-            return _run(problem, marched, chosen.coarser(COARSER), end, False, seen)
+    def light(
+        marched: Groups | PunchGroups, seen: Progress = None, *, whole: bool = False
+    ) -> Result:
+        # after moves the force may have a minimum before the pull-off: one end for both then
+        end = until if groups.moves else "detached" if whole else "pull-off"
+        return _run(problem, marched, settings.coarser(COARSER), end, False, seen)
 
-        try:
-            beginning = None if whole else _beginning(groups, contact, chosen, light)
-            marched = groups if beginning is None else _from(groups, beginning.start.depth)
-            result = _run(
-                problem, marched, chosen, until, fields, _part(progress, 0.0, share), watch
-            )
-        except TimeUp as limit:
-            raise InputError(
-                f"{limit} before the relaxed start was found; give more time, or ask for less "
-                "accuracy"
-            ) from None
-        if estimate_error and result.outcome is not Outcome.STOPPED:
-            result = estimated(
-                result,
-                lambda: light(groups, _part(progress, share, 1.0), whole=len(peaks(result)) > 1),
-                beginning,
-                contact.travel,
-                chosen.accuracy,
-            )
-            if result.error_estimate is None and (limit := met()):
-                status = out_of_time(limit, "while the error was estimated")
-                result = replace(result, status=status)
+    try:
+        beginning = None if whole else _beginning(groups, contact, settings, light)
+        marched = groups if beginning is None else _from(groups, beginning.start.depth)
+        result = _run(problem, marched, settings, until, fields, _part(progress, 0.0, share), watch)
+    except TimeUp as limit:
+        raise InputError(
+            f"{limit} before the relaxed start was found; give more time, or ask for less accuracy"
+        ) from None
+    if estimate_error and result.outcome is not Outcome.STOPPED:
+        result = estimated(
+            result,
+            lambda: light(groups, _part(progress, share, 1.0), whole=len(peaks(result)) > 1),
+            beginning,
+            contact.travel,
+            settings.accuracy,
+        )
+        if result.error_estimate is None and (limit := met()):
+            status = out_of_time(limit, "while the error was estimated")
+            result = replace(result, status=status)
     result = replace(
         result,
         shallow_start=None if beginning is None else beginning.start,
@@ -219,26 +116,6 @@ def solve(
     if throw and result.outcome is Outcome.STOPPED:
         raise SimulationError(result)
     return result
-
-
-def _too_short(groups: Groups, settings: Settings) -> bool:
-    """Return whether the range of the forces is too short for a simulation, or for its digits."""
-    if handover.too_short(groups):
-        return True
-    if groups.effective_tabor < _FINE_TABOR:
-        return False
-    spacing = contact_of(groups).grading(settings, 0.0).spacing
-    try:
-        return spacing < _DIGITS * largest_radius(groups)
-    except InputError:  # there is no such contact by JKR, which ends a little sooner
-        return False
-
-
-def _handed_over(problem: Problem | Groups, accuracy: float, began: float) -> Result:
-    """Return the answer of the theory for forces of too short a range."""
-    result = handover.answered(problem)
-    cost = dict(result.statistics) | {"wall_time_s": perf_counter() - began}
-    return replace(result, accuracy=accuracy, statistics=cost)
 
 
 def _part(progress: Progress, begin: float, end: float) -> Progress:
@@ -256,22 +133,6 @@ def _part(progress: Progress, begin: float, end: float) -> Progress:
     return tell
 
 
-def has_start(problem: Case) -> bool:
-    """Return whether the state at rest exists in which a test begins; some milliseconds.
-
-    It is looked for at the loosest accuracy.
-    """
-    with threadpool_limits(limits=1, user_api="blas"):
-        try:
-            groups = problem.groups()
-            if isinstance(groups, Groups) and handover.too_short(groups):
-                return handover.has_start(groups)
-            _begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
-        except InputError:
-            return False
-    return True
-
-
 def _run(
     problem: Case,
     groups: Groups | PunchGroups,
@@ -282,7 +143,7 @@ def _run(
     watch: Watch = None,
 ) -> Result:
     contact = contact_of(groups)
-    start, legs = _begun(groups, contact, settings)
+    start, legs = begun(groups, contact, settings)
     depths = reached(start, groups.moves, contact)
     check_clock(legs, groups.moves, depths, contact)
     k = groups.material.modulus_ratio
@@ -315,7 +176,7 @@ def _run(
     return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
-def _begun(
+def begun(
     groups: Groups | PunchGroups, contact: Contact, settings: Settings
 ) -> tuple[Relaxed, tuple[Leg, ...]]:
     """Return the relaxed state in which a test begins, and its legs: the first one holds it."""

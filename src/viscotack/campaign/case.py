@@ -15,9 +15,10 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
-from viscotack.bem import DEFAULT_ACCURACY, Accuracy, solve
+from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
+from viscotack.methods import solve
 from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory

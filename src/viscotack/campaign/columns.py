@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from viscotack.bem import has_start
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
 from viscotack.geometry import PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
+from viscotack.methods import has_start
 from viscotack.problem import Groups, Problem, PunchGroups, revolution
 from viscotack.problem.record import to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius

@@ -12,18 +12,19 @@ from pathlib import Path
 import numpy
 import scipy
 
-import viscotack
+from viscotack.version import __version__
 
 # What numbers depend on, beside the source: a change of its last part does not change them.
 _PYTHON = ".".join(platform.python_version_tuple()[:2])
+_PACKAGE = Path(__file__).parents[1]
 
 
 @cache
 def identity() -> dict[str, str]:
     """Return the versions of what computes, and a hash of the source of this package."""
     return {
-        "viscotack": viscotack.__version__,
-        "source": source_hash(Path(viscotack.__file__).parent),
+        "viscotack": __version__,
+        "source": source_hash(_PACKAGE),
         "python": _PYTHON,
         "numpy": numpy.__version__,
         "scipy": scipy.__version__,

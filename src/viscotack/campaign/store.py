@@ -27,11 +27,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack import __version__
 from viscotack.errors import InputError
 from viscotack.files.lock import Hold
 from viscotack.files.whole import is_draft, write_whole
 from viscotack.problem.older import upgraded, upgraded_path
+from viscotack.version import __version__
 
 from .case import CaseSettings
 from .cases import Cases, packed

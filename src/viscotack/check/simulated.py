@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.bem import solve
 from viscotack.forecast import advise, predict
+from viscotack.methods import solve
 from viscotack.problem import Groups
 from viscotack.result import Result, load, save
 from viscotack.result.observables import pull_off_force

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.files.whole import write_whole
+from viscotack.version import __version__
 
-from .. import __version__
 from ..campaign import Plan, Progress, Store, read_plan, run
 from ..campaign.parts import arrow
 from .columns import KEPT, units

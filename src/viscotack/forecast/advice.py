@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from viscotack.bem.handover import too_short
 from viscotack.errors import OutOfRange
 from viscotack.geometry import Sphere
+from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
 

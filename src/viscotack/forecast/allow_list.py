@@ -10,8 +10,6 @@ from viscotack.problem import Groups, PunchGroups
 
 # Of `Verified.solids`: any linear solid.
 ANY: tuple[type, ...] = ()
-# Rounding of a number at the end of a range.
-_ROUNDED = 1e-9
 
 
 @dataclass(frozen=True)
@@ -32,7 +30,7 @@ class Verified:
     moves, springs : bool
         Whether the machine may move before the retraction, and be compliant.
     ranges : mapping
-        Least and largest number of each input; :func:`outside` compares with them.
+        Least and largest number of each input, for :func:`viscotack.problem.ranges.outside`.
     """
 
     shapes: tuple[type, ...]
@@ -74,35 +72,6 @@ class Verified:
         if groups.rate is None and not self.moves:
             return "the test has no retraction at a constant speed"
         return ""
-
-
-def at_least(value: float, least: float) -> bool:
-    """Return whether a positive number reaches the lower end of a range, however it was rounded.
-
-    A number in SI comes back from its groups with another last digit.
-    """
-    return value >= least * (1 - _ROUNDED)
-
-
-def at_most(value: float, most: float) -> bool:
-    """Return whether a positive number stays within the upper end, however it was rounded."""
-    return value <= most * (1 + _ROUNDED)
-
-
-def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
-    """Return the values outside of their ranges in words, or an empty string.
-
-    Examples
-    --------
-    >>> outside({"tabor": 20.0, "rate": 1.0}, {"tabor": (0.3, 8.0), "rate": (0.1, 1e8)})
-    'tabor is 20, verified from 0.3 to 8'
-    """
-    found = []
-    for name, value in values.items():
-        least, most = ranges[name]
-        if not (at_least(value, least) and at_most(value, most)):
-            found.append(f"{name} is {value:.4g}, verified from {least:g} to {most:g}")
-    return "; ".join(found)
 
 
 def _names(classes: tuple[type, ...]) -> str:

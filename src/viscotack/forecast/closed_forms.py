@@ -20,6 +20,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
+from viscotack.problem.ranges import at_least, at_most
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
 from viscotack.theory import (
     CrackLaw,
@@ -32,8 +33,6 @@ from viscotack.theory import (
 )
 from viscotack.traction import LennardJones, effective_range, softening
 from viscotack.traction.growing import check_of_gap_alone
-
-from .allow_list import at_least, at_most
 
 # sigma_c/sigma_0 of a sphere with the Lennard-Jones traction, fitted in the thesis.
 STRENGTH_RATIO = np.pi / 9

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem.crack_band import band_parts, not_measured
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
+from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.theory import jkr
@@ -238,7 +238,7 @@ def said_of_crack(asked: Question) -> Said | str:
     if not learned.holds(said)[0]:
         return "the theory of a crack at the edge, which was learned, does not hold there"
     if elsewhere := not_measured(groups):
-        return f"the band of the theory of a crack at the edge was not measured {elsewhere}"
+        return f"the band of the theory of a crack at the edge was not measured here: {elsewhere}"
     return said
 
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack import __version__
 from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
 from viscotack.result.trajectory import PRESSED
+from viscotack.version import __version__
 
 if TYPE_CHECKING:
     from viscotack.surrogate.answers import Intervals

@@ -42,7 +42,7 @@ def threshold_contact_radius(
     :func:`viscotack.theory.sphere.bounds.threshold_contact_radius` asks for more: at mu = 3.24, k =
     0.1 and a rate of 3.16 it has 2.16 (n = 0.4) and 2.64 (n = 1.6) where this finds 1.47 and 1.95.
     """
-    from viscotack.bem import solve
+    from viscotack.methods import solve
     from viscotack.result.observables import pull_off_force
 
     if not slope > 0:

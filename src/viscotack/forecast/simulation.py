@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem.crack_band import not_measured
 from viscotack.campaign.case import curve
 from viscotack.errors import InputError, OutOfRange
+from viscotack.methods.crack_band import not_measured
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import PullOff, pull_off, work_to_pull_off
 from viscotack.surrogate.line import Curves
@@ -30,7 +30,7 @@ def by_simulation(asked: Question) -> Prediction:
     ValueError
         If :func:`viscotack.solve` refuses the problem.
     """
-    from viscotack.bem import solve
+    from viscotack.methods import solve
 
     result = solve(asked.problem, until="pull-off", throw=False)
     stated = result.error_estimate or {}

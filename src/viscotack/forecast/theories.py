@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from viscotack.bem.by_crack import CrackContact, crack_contact
-from viscotack.bem.crack_band import not_measured
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
+from viscotack.methods.by_crack import CrackContact, crack_contact
+from viscotack.methods.crack_band import not_measured
 from viscotack.problem import Groups, PunchGroups
+from viscotack.problem.ranges import at_least, outside
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
 from viscotack.theory import hertz
 from viscotack.traction import (
@@ -21,7 +22,7 @@ from viscotack.traction import (
     softening,
 )
 
-from .allow_list import ANY, Verified, at_least, outside
+from .allow_list import ANY, Verified
 from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike, start_depth
 from .prediction import Prediction, of_theory
 from .question import Question
@@ -167,7 +168,7 @@ def crack_limits(asked: Question) -> str:
             f"{groups.effective_tabor:.3g}, evaluated from {_CRACK_TABOR:g} on"
         )
     if elsewhere := not_measured(groups):
-        return f"its band was not measured {elsewhere}"
+        return f"its band was not measured here: {elsewhere}"
     return ""
 
 

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem import crack_contact
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
+from viscotack.methods import crack_contact
 from viscotack.problem import Problem
 from viscotack.protocol import Apart, AtForce, Move, Retraction
 from viscotack.theory import SteadyCrack, jkr, lennard_jones

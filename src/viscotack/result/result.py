@@ -123,7 +123,7 @@ class ShallowStart:
 def _versions() -> dict[str, str]:
     import scipy
 
-    from viscotack import __version__
+    from viscotack.version import __version__
 
     return {"viscotack": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
 

@@ -1,9 +1,9 @@
 r"""Contacts of large Tabor numbers, learned from the theory whose edge is a steady crack.
 
 From a Tabor number of ten on forces reach hardly beyond the edge, and the theory of
-:mod:`viscotack.bem.by_crack` answers in a tenth of a second, and some seconds for a new solid. What
-it says of spheres on power laws by retardation, pulled from relaxed starts, is learned here: where
-the force is between its slowest and its fastest limit,
+:mod:`viscotack.methods.by_crack` answers in a tenth of a second, and some seconds for a new solid.
+What it says of spheres on power laws by retardation, pulled from relaxed starts, is learned here:
+where the force is between its slowest and its fastest limit,
 
 .. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \frac{f(\mu k^{1/3})}{k} ,
 

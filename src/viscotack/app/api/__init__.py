@@ -27,7 +27,7 @@ def application(engine: Engine | None = None) -> "FastAPI":
         If the libraries of the extra ``app`` are missing.
     """
     FastAPI = _fastapi()
-    from viscotack import __version__
+    from viscotack.version import __version__
 
     from .openapi import described
     from .refusals import words_for

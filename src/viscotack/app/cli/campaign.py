@@ -72,8 +72,8 @@ def inputs_command(
     Example: viscotack campaign inputs pad.toml
     """
     with _words_for_what_is_missing():
-        from viscotack import read_case
         from viscotack.campaign import inputs_of
+        from viscotack.problem.case_file import read_case
         from viscotack.problem.nouns import own_nouns
 
         found = inputs_of(read_case(case_file, also=own_nouns(_paths(own) or ())))

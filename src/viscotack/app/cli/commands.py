@@ -15,7 +15,6 @@ from typing import Annotated, NoReturn
 import typer
 from typer import Argument, Context, Option
 
-from viscotack import __version__
 from viscotack.app.cli.asking import answers
 from viscotack.cards import card_of
 from viscotack.errors import InputError
@@ -35,6 +34,7 @@ from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from viscotack.problem.accuracy import TimeLimit
 from viscotack.problem.case_file import read_case, shift_deviation
 from viscotack.problem.nouns import own_nouns
+from viscotack.version import __version__
 
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",

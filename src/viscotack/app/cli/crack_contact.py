@@ -8,9 +8,9 @@ import numpy as np
 import typer
 from typer import Option
 
-from viscotack.bem.by_crack import CrackContact, crack_contact
-from viscotack.bem.by_crack import summary as summary_of
 from viscotack.files.whole import write_whole
+from viscotack.methods.by_crack import CrackContact, crack_contact
+from viscotack.methods.by_crack import summary as summary_of
 from viscotack.operations.declare.questions import SPHERE
 from viscotack.problem import Groups, Problem
 

@@ -10,7 +10,6 @@ import numpy as np
 import typer
 from typer import Argument, Option
 
-from viscotack import __version__
 from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.materials.conversion import PronyForm, prony_form
@@ -22,6 +21,7 @@ from viscotack.materials.passport_words import in_words, shift_lines
 from viscotack.materials.words import word_of
 from viscotack.problem.nouns import own_nouns
 from viscotack.units import parse
+from viscotack.version import __version__
 
 from .commands import AsJson, PlotFile, With, application, wrong_input
 from .superposing import Shifting, stepped, swept

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.bem import crack_contact
-from viscotack.bem.by_crack import METHOD
 from viscotack.errors import InputError
 from viscotack.forecast import predict
 from viscotack.forecast.advice import advice_on
 from viscotack.forecast.question import Question
 from viscotack.forecast.tiers import SOON, best
 from viscotack.geometry import FlatPunch
+from viscotack.methods import crack_contact
+from viscotack.methods.by_crack import METHOD
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
 from viscotack.operations.parts.library import library

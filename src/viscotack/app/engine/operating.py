@@ -49,7 +49,7 @@ class Sent:
 
 def warm() -> None:
     """Do once what takes longer the first time."""
-    from viscotack.bem import solve
+    from viscotack.methods import solve
     from viscotack.operations.parts.examples import FIRST
     from viscotack.problem.accuracy import LOOSEST_ACCURACY
     from viscotack.problem.case_file import case_of_tables

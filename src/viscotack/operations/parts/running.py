@@ -61,7 +61,7 @@ def drawn_of(result: Result) -> dict[str, Any]:
 
 def _solved(problem: Any, options: Mapping[str, Any], profiles: bool) -> Result:
     """Return the result, with profiles where they are wanted and there are any."""
-    from viscotack.bem import solve
+    from viscotack.methods import solve
 
     if profiles:
         try:

@@ -15,7 +15,7 @@ from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
 
-from ... import __version__
+from ...version import __version__
 from ..model import Surrogate
 from .graph import IR_VERSION, OPSET, Graph
 

@@ -22,7 +22,8 @@ from threadpoolctl import threadpool_limits
 
 from viscotack.files.whole import write_whole
 
-from ... import __version__, datasets
+from ... import datasets
+from ...version import __version__
 from .. import store
 from . import drawing, rows, scores
 from .calibration import HOW, judged, trusted

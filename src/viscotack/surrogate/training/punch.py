@@ -25,9 +25,10 @@ import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
-from viscotack import __version__, datasets
+from viscotack import datasets
 from viscotack.datasets.files import checksum
 from viscotack.problem.outputs import PLANE
+from viscotack.version import __version__
 
 from .. import punch
 from .. import punch_physics as physics

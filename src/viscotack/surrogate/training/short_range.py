@@ -21,10 +21,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import qmc
 
-from viscotack import __version__
-from viscotack.bem.by_crack import CrackContact, crack_contacts
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
+from viscotack.methods.by_crack import CrackContact, crack_contacts
+from viscotack.version import __version__
 
 from .. import short_range
 from ..network import added, together

@@ -21,9 +21,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from viscotack import __version__, datasets
+from viscotack import datasets
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
+from viscotack.version import __version__
 
 from .. import physics, solids, store
 from ..alike import TIMES, Alike

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from viscotack import __version__
 from viscotack.errors import InputError
 from viscotack.identify import RateForecast
 from viscotack.identify.study import Answer
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.materials.passport_words import in_words
+from viscotack.version import __version__
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

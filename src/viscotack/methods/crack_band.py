@@ -6,7 +6,6 @@ length of the zone beside the contact, and beside the way of its edge: both are 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import dropwhile
 from typing import Any
 
@@ -14,6 +13,7 @@ import numpy as np
 
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups
+from viscotack.problem.ranges import outside
 from viscotack.protocol import Approach, Dwell, LoadTo, Retract
 from viscotack.traction import LennardJones, grows
 
@@ -51,9 +51,6 @@ _KINDS = Approach | Retract | Dwell | LoadTo
 _SPRINGS = {"stiffness times the Tabor number": (0.1, np.inf)}
 
 
-ELSEWHERE = "was measured elsewhere, and is not known to hold here: "
-
-
 def band_parts(energy: Any, effective: Any, zones: Any) -> tuple[Any, Any, Any]:
     """Return what the band of a retraction from rest is made of, parts of the force.
 
@@ -87,7 +84,7 @@ def band_of(
     band = float(sum(parts.values()))
     why = "; ".join(f"{name}: {part:.2%}" for name, part in parts.items())
     if elsewhere := not_measured(groups):
-        why += f"; this band {ELSEWHERE}{elsewhere}"
+        why += f"; this band was measured elsewhere, and is not known to hold here: {elsewhere}"
     elif groups.effective_tabor > SIMULATED:
         why += f"; compared up to a Tabor number of {SIMULATED:g}, beyond which it shrinks"
     return band, not elsewhere, why
@@ -120,16 +117,5 @@ def not_measured(groups: Groups) -> str:
         name = "speed of a move over the Tabor number"
         found += [outside({name: speed}, measured) for speed in speeds]
     others = {type(move).__name__ for move in moves if not isinstance(move, _KINDS)}
-    found += [f"for histories without {name}" for name in sorted(others)]
+    found += [f"a move is a {name}, verified for histories without" for name in sorted(others)]
     return "; ".join(word for word in found if word)
-
-
-def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
-    """Return in words which values lie outside their ranges, or ""."""
-    found = []
-    for name, value in values.items():
-        least, most = ranges[name]
-        # the ends themselves, whichever way they were rounded
-        if not least * (1 - 1e-9) <= value <= most * (1 + 1e-9):
-            found.append(f"{name} {least:g} to {most:g}, not {value:.4g}")
-    return "for " + ", ".join(found) if found else ""

@@ -1,0 +1,35 @@
+"""Ranges of numbers in which an answer was verified, and what lies outside of them in words."""
+
+from collections.abc import Mapping
+
+# Rounding of a number at the end of a range.
+_ROUNDED = 1e-9
+
+
+def at_least(value: float, least: float) -> bool:
+    """Return whether a positive number reaches the lower end of a range, however it was rounded.
+
+    A number in SI comes back from its groups with another last digit.
+    """
+    return value >= least * (1 - _ROUNDED)
+
+
+def at_most(value: float, most: float) -> bool:
+    """Return whether a positive number stays within the upper end, however it was rounded."""
+    return value <= most * (1 + _ROUNDED)
+
+
+def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
+    """Return the values outside of their ranges in words, or an empty string.
+
+    Examples
+    --------
+    >>> outside({"tabor": 20.0, "rate": 1.0}, {"tabor": (0.3, 8.0), "rate": (0.1, 1e8)})
+    'tabor is 20, verified from 0.3 to 8'
+    """
+    found = []
+    for name, value in values.items():
+        least, most = ranges[name]
+        if not (at_least(value, least) and at_most(value, most)):
+            found.append(f"{name} is {value:.4g}, verified from {least:g} to {most:g}")
+    return "; ".join(found)
