@@ -229,11 +229,11 @@ def files_of(question):
     return list(dict.fromkeys(found))
 
 
-def by_study(question, folder):
+def by_study(question):
     """Ask by a file."""
     lines = [f"operation = {toml_value(question.word)}"]
     lines += [f"{name} = {toml_value(value)}" for name, value in question.given.items()]
-    study = Path(folder) / "asked.toml"
+    study = Path("asked.toml")
     study.write_text("\n".join(lines) + "\n", encoding="utf-8")
     status, out, err = run(["study", study, "--json"])
     if status in (0, 1, 4):
@@ -249,12 +249,12 @@ def without_times(value):
     return [without_times(each) for each in value] if isinstance(value, list | tuple) else value
 
 
-def through_all(question, http, folder):
+def through_all(question, http):
     """Return what each door answers, those left out in which the operation is refused by design."""
     found = {
         "Python": by_python(question),
         "command line": by_command(question),
-        "study": by_study(question, folder),
+        "study": by_study(question),
     }
     if "http" not in question.kind.refused:
         found |= {"HTTP": by_http(question, http), "form": by_form(question, http)}

@@ -36,6 +36,7 @@ ROOMS = (
     "forecast",
     "identify",
     "pictures",
+    "operations",
     "app",
     "check",
     "__main__",

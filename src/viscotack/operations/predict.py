@@ -95,6 +95,7 @@ class Predict(Operation):
             "steady-crack contact from 0.5, the simulation from 3.",
             unit="s",
             above=0,
+            bare=True,
             metavar="SECONDS",
         ),
     ] = 1.0
@@ -193,7 +194,7 @@ class Advise(Operation):
 
 
 def _simulated(problem: "Case") -> "Result":
-    from viscotack.bem import solve
+    from viscotack.methods import solve
 
     return solve(problem, until="pull-off", throw=False)
 

@@ -136,7 +136,15 @@ class Simulate(Operation):
 
         from .parts.running import run
 
-        result = run(self, caller.tell)
+        result = run(
+            self.problem.problem,
+            caller.tell,
+            accuracy=self.accuracy,
+            until=self.until,
+            time_limit=self.time_limit,
+            whole=self.whole,
+            profiles=self.profiles,
+        )
         answer = _answer(result, self.plot_kind, caller)
         files = {**answer.files, "save": lambda target: save(result, target)}
         notes = (*self.problem.notes, *answer.notes)

@@ -1,6 +1,7 @@
 """The command line: ``viscotack simulate sphere ...``. Words in, words and pictures out."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 from importlib import import_module
 from typing import Any
 
@@ -19,6 +20,7 @@ _COMMANDS = (
 )
 
 
+@lru_cache(maxsize=1)
 def application() -> Any:
     """Return the application with all its commands.
 
@@ -33,6 +35,14 @@ def application() -> Any:
     return application
 
 
+@lru_cache(maxsize=1)
+def _command() -> Any:
+    """Return the command that the library of the command line makes of the application."""
+    from typer.main import get_command
+
+    return get_command(application())
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line with these arguments, or with those of the process."""
-    application()(None if arguments is None else list(arguments), prog_name="viscotack")
+    _command()(None if arguments is None else list(arguments), prog_name="viscotack")

@@ -5,8 +5,10 @@ from typing import Annotated
 
 from typer import Argument
 
+from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.answer import Caller
+from viscotack.operations.declare.options import respelled
 from viscotack.operations.declare.study import read_study
 
 from .commands import AsJson, With, application, wrong_input
@@ -47,5 +49,8 @@ def study_command(
         paths = tuple(str(path.resolve()) for path in own or ())
         with progress() as tell:
             caller = Caller(tell, frozenset(asked.write), also, paths)
-            answer = asked.operation.answer(caller)
-        finish(answer, files, as_json)
+            try:
+                answer = asked.operation.answer(caller)
+                finish(answer, files, as_json)
+            except InputError as error:
+                raise respelled(error, kind) from None

@@ -73,7 +73,17 @@ class Card:
 
 @dataclass(frozen=True)
 class Number(Card):
-    """A number; with a unit it may be given as text, "5.19 mm", or as a number in that SI unit."""
+    """A number; with a unit it may be given as text, "5.19 mm", or as a number in that SI unit.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit; "1" for a pure number.
+    above, least, most : float or None
+        Open lower bound, lower and upper bound.
+    bare : bool
+        Whether text without a unit is taken to be in that unit, as its words say.
+    """
 
     form: ClassVar = "number"
 
@@ -81,9 +91,12 @@ class Number(Card):
     above: float | None = field(default=None, kw_only=True)
     least: float | None = field(default=None, kw_only=True)
     most: float | None = field(default=None, kw_only=True)
+    bare: bool = field(default=False, kw_only=True)
 
     def read(self, value: Any, place: Place) -> float:
         """Return the number in SI, within its range."""
+        if self.bare and isinstance(value, str) and is_number(value):
+            value = float(value)
         number = parse(value, self.unit)
         range_ = Quantity(self.unit, "", "", above=self.above, least=self.least, most=self.most)
         return range_.checked("it", number)
@@ -324,6 +337,15 @@ class Table(Card):
         """A list of objects of numbers."""
         row = {"type": "object", "additionalProperties": {"type": "number"}}
         return {"type": "array", "items": row, "minItems": 1}
+
+
+def is_number(text: str) -> bool:
+    """Return whether a text is a number without a unit."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _name(value: Any) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,9 +15,6 @@ from viscotack.result import Outcome, Result, columns
 from ..declare.answer import Told
 from .plain import drawn
 
-if TYPE_CHECKING:
-    from ..simulate import Simulate
-
 Tell = Callable[[Told], None]
 # Seconds between two tellings of a curve that grows.
 _EVERY = 0.04
@@ -27,24 +24,15 @@ _PROFILES, _NODES = 60, 160
 _SEEN = 2.5
 
 
-def run(asked: "Simulate", tell: Tell) -> Result:
+def run(problem: Any, tell: Tell, *, profiles: bool, **options: Any) -> Result:
     """Simulate a problem, telling its curve as it grows.
 
     Tells ``share`` of the work and the new ``points``: time, depth, force, contact radius, in SI
-    where the problem is.
+    where the problem is. Keywords are those of :func:`viscotack.solve`.
     """
-    problem = asked.problem.problem
     told = _Told(tell, _units_of(problem))
-    options = {
-        "accuracy": asked.accuracy,
-        "until": asked.until,
-        "time_limit": asked.time_limit,
-        "whole": asked.whole,
-        "throw": False,
-        "progress": told.progress,
-        "watch": told.watch,
-    }
-    result = _solved(problem, options, asked.profiles)
+    options |= {"throw": False, "progress": told.progress, "watch": told.watch}
+    result = _solved(problem, options, profiles)
     told.flush()
     return result
 
