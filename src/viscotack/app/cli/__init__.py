@@ -10,12 +10,9 @@ _COMMANDS = (
     "theory",
     "steady_crack",
     "crack_contact",
-    "edge_energy",
     "punch",
-    "material",
     "campaign",
     "study",
-    "schema",
     "page",
 )
 

@@ -14,7 +14,6 @@ import typer
 
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
-from viscotack.files.whole import is_standard_output
 from viscotack.operations import operations
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
@@ -218,19 +217,12 @@ def _checked(
         output: Path(output.usual) if file is None and output.usual and not as_json else file
         for output, file in files.items()
     }
-    read = [o.name for o in options(kind) if isinstance(o.card, File) and o.name in given]
-    reads = [
-        Path(file)
-        for name in read
-        for file in (given[name] if isinstance(given[name], list) else [given[name]])
-        if file is not None
-    ]
     problem = next((o.name for o in options(kind) if isinstance(o.card, Stated)), "")
     case = (given.get(problem) or {}).get("case") if problem else None
     check_files(
         {output.flag: file for output, file in found.items()},
         as_json=as_json,
-        reads=[*reads, *([Path(case)] if case else [])],
+        reads=[Path(file) for file in (*kind.kept(given), *([case] if case else ()))],
     )
     return found
 
@@ -245,9 +237,8 @@ def finish(answer: Answer, files: Mapping[Output, Path | None], as_json: bool) -
             write(output.said, file, answer.files[output.name])
     for note in answer.notes:
         typer.echo(harmless(note), err=True)
-    on_output = [f for f in files.values() if f is not None and is_standard_output(f)]
     text = json.dumps(answer.record(), indent=2, allow_nan=False) if as_json else answer.words()
-    if text or not on_output:
+    if text:
         write.answer(text)
     write.end()
     if answer.status:

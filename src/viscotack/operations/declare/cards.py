@@ -43,11 +43,14 @@ class Card:
         As a user may give it.
     late : bool
         Whether it is read after the others, because that takes a while.
+    single : bool
+        Whether a tuple of it is one value, and not several of them.
     form : str
         Kind of field that a page draws for it.
     """
 
     late: ClassVar[bool] = False
+    single: ClassVar[bool] = False
     # of the field that a page draws for it
     form: ClassVar[str] = "text"
 
@@ -134,7 +137,43 @@ class Known(Number):
     The value of the field is a pair. A study may state both in a list.
     """
 
+    single: ClassVar = True
+
     uncertainty: str = field(default="Standard uncertainty of it; goes with it.", kw_only=True)
+
+    def written(self, value: Any) -> Any:
+        """Return both numbers with their unit."""
+        return [Number.written(self, each) for each in value]
+
+
+@dataclass(frozen=True)
+class Two(Card):
+    """Two quantities with a comma between them, "8.86,101.6 K", or a list; the value is a pair."""
+
+    single: ClassVar = True
+
+    units: tuple[str, str] = field(default=("1", "1"), kw_only=True)
+
+    def read(self, value: Any, place: Place) -> tuple[float, float]:
+        """Return both numbers in SI."""
+        both = value.split(",") if isinstance(value, str) else value
+        if not isinstance(both, list | tuple) or len(both) != 2:
+            raise InputError(f"needs two values with a comma between them, got {value!r:.60}")
+        return self.number(both[0], self.units[0]), self.number(both[1], self.units[1])
+
+    def number(self, value: Any, unit: str) -> float:
+        """Return one of them in SI."""
+        return parse(value.strip() if isinstance(value, str) else value, unit)
+
+    def written(self, value: Any) -> Any:
+        """Return both with their units and all their digits."""
+        return ",".join(f"{x!r} {u}" for x, u in zip(value, self.units, strict=True))
+
+    @property
+    def schema(self) -> dict[str, Any]:
+        """Text, or two numbers in SI."""
+        pair = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+        return {"anyOf": [{"type": "string", "maxLength": 200}, pair]}
 
 
 @dataclass(frozen=True)

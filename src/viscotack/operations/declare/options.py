@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin
 from viscotack.errors import InputError, OutOfRange
 
 from .answer import Answer, Caller, Output
-from .cards import Card, Known, Place
+from .cards import Card, File, Known, Named, Place
 
 _FLAG = re.compile(r"--([a-z][a-z0-9-]*)")
 # Options that doors have of their own, for every operation.
@@ -60,6 +60,13 @@ class Operation:
     def answer(self, caller: Caller) -> Answer:
         """Return the answer; imports what computes it here, so that declarations cost nothing."""
         raise NotImplementedError
+
+    @classmethod
+    def kept(cls, given: Mapping[str, Any]) -> tuple[Any, ...]:
+        """Return the files among what was given whose place no output may take."""
+        found = [given.get(o.name) for o in options(cls) if isinstance(o.card, File | Named)]
+        several = [each if isinstance(each, list | tuple) else [each] for each in found]
+        return tuple(file for some in several for file in some if file is not None)
 
     @classmethod
     def of(cls, **given: Any) -> Self:
@@ -170,7 +177,7 @@ def _options(kind: Any, part: str, table: str) -> Iterator[Option]:
         card = next((x for x in getattr(hint, "__metadata__", ()) if isinstance(x, Card)), None)
         if get_origin(hint) is not Annotated or card is None:
             raise TypeError(f"{kind.__name__}.{field.name} has no card")
-        many = not isinstance(card, Known) and _is_many(get_args(hint)[0])
+        many = not card.single and _is_many(get_args(hint)[0])
         default = field.default
         if field.default_factory is not MISSING:
             default = field.default_factory()
@@ -257,7 +264,7 @@ def _one(option: Option, value: Any, place: Place) -> Any:
         words = str(error)
         if option.card.argument or words.startswith(option.flag):
             raise
-        joint = " " if words.startswith("must ") else ": "
+        joint = " " if words.startswith(("must ", "needs ")) else ": "
         example = f"; for example {option.card.example}" if option.card.example else ""
         raise InputError(f"{option.flag}{joint}{words}{example}") from None
 

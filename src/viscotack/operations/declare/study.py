@@ -141,8 +141,7 @@ def study_text(operation: Operation, folder: str | os.PathLike[str] = ".") -> st
 
 
 def _written(option: Option, value: Any, folder: Path) -> Any:
-    many = option.many or isinstance(value, tuple)
-    if many:
+    if option.many:
         return [_written_one(option, each, folder) for each in value]
     return _written_one(option, value, folder)
 

@@ -4,6 +4,8 @@ from dataclasses import asdict
 from math import isfinite
 from typing import Any
 
+from .plain import plain
+
 # name in Python -> name in tables, with the unit
 _MEASURED = {
     "pull_off_force": "pull_off_force_N",
@@ -21,6 +23,37 @@ _PLAIN = {
     "approach_speed": "approach_speed_m_s",
     "noise": "noise_N",
 }
+
+
+def passport_record(passport: Any) -> dict[str, Any]:
+    """Return a material passport; what has no bound, or is not known, is None."""
+    return plain(
+        asdict(passport)
+        | {
+            "material": _material_record(passport.material),
+            "modulus_ratio": passport.material.modulus_ratio,
+        }
+    )
+
+
+def fit_record(report: Any, passport: Any) -> dict[str, Any]:
+    """Return a fitted material: its passport, or the law alone where it has none."""
+    more = {"criterion": dict(report.compared), "median_error": report.median_error}
+    if passport is not None:
+        return passport_record(passport) | plain(more)
+    evidence = {
+        "level": report.level,
+        "intervals": [(each.name, each.low, each.high) for each in report.intervals],
+        "undetermined": report.undetermined,
+        "cautions": report.cautions,
+    }
+    return plain({"material": _material_record(report.material), "evidence": evidence} | more)
+
+
+def _material_record(material: Any) -> dict[str, Any]:
+    from viscotack.materials.words import word_of
+
+    return {"model": word_of(material)} | asdict(material)
 
 
 def cycle_row(cycle: Any) -> dict[str, Any]:

@@ -1,0 +1,78 @@
+"""The operation ``edge-energy``: what the edge of a simulated contact takes, by speed."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from .declare.answer import Answer, Caller, picture
+from .declare.cards import File
+from .declare.options import Operation
+from .simulate import saved
+
+# Rows of the table that a person reads.
+_ROWS = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeEnergy(Operation):
+    """Read the energy at the edge off a simulated pull-off, against the speed that the edge had.
+
+    Of a sphere that is pulled off a relaxed contact. Fits Gent and Schultz's relation to the
+    energies, says which part of them the bulk takes and which the interface, and how steep the
+    surface is at the edge.
+
+    Example: viscotack simulate sphere lens.toml --save lens.npz, then viscotack edge-energy
+    lens.npz --plot edge.png
+    """
+
+    word: ClassVar = "edge-energy"
+    outputs: ClassVar = (picture(),)
+    takes_own: ClassVar = True
+
+    file: Annotated[Path, File("A result that --save wrote.", metavar="FILE.npz", argument=True)]
+
+    def answer(self, caller: Caller) -> Answer:
+        """Load the result and read its edge."""
+        from viscotack.pictures.edge_energy import draw_edge_energy
+        from viscotack.result.edge_energy import edge_energy
+
+        result = saved(self.file, caller)
+        found = edge_energy(result)
+        unit = "m/s" if result.scales is not None else "(R^2 dg/E0*)^(1/3) per time unit"
+        return Answer(
+            found,
+            record=lambda: _record(found, unit),
+            words=lambda: _words(found, unit),
+            pictures={"plot": lambda: draw_edge_energy(found, unit)},
+        )
+
+
+def _record(found: Any, unit: str) -> dict[str, Any]:
+    return {
+        "speed": found.speed.tolist(),
+        "amplification": found.amplification.tolist(),
+        "bulk": found.bulk.tolist(),
+        "interface": found.interface.tolist(),
+        "unit_of_speed": unit,
+        "reference_speed": found.reference_speed,
+        "exponent": found.exponent,
+        "strain": found.strain,
+        "words": list(found.words),
+    }
+
+
+def _words(found: Any, unit: str) -> str:
+    """Return the answer as lines a person reads: some rows, evenly over the logarithm of speed."""
+    speed = found.speed
+    wanted = np.geomspace(speed.min(), speed.max(), _ROWS)
+    near = {int(np.argmin(np.abs(np.log(speed / v)))) for v in wanted}
+    rows = sorted(near, key=lambda i: speed[i])
+    columns = ("speed", "amplification", "bulk", "interface")
+    lines = [f"speed of the edge in {unit}, energies in works of adhesion"]
+    lines += ["  ".join(f"{name:>13}" for name in columns)]
+    lines += ["  ".join(f"{getattr(found, name)[i]:>13.4g}" for name in columns) for i in rows]
+    v0, n = found.reference_speed, found.exponent
+    lines.append(f"Gent and Schultz: 1 + (v/v0)^n with v0 {v0:.4g} and n {n:.3f}")
+    return "\n".join([*lines, *found.words])

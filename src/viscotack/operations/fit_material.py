@@ -1,0 +1,185 @@
+"""The operation ``material fit``: from a laboratory's files to a material."""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.errors import InputError
+
+from .declare.answer import Answer, Caller, Output, picture
+from .declare.cards import Choice, File, Number, Switch, Text, Whole
+from .declare.options import Operation
+from .parts.dma import Dma
+from .parts.shifting import Shifting
+
+if TYPE_CHECKING:
+    from viscotack.lab import FitReport
+    from viscotack.materials.passport import Passport
+
+_MODELS = (
+    "best",
+    "power-law",
+    "relaxation-power-law",
+    "sls",
+    "fractional-zener",
+    "fractional-maxwell",
+    "fractional-kelvin-voigt",
+    "prony",
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FitMaterial(Operation):
+    """Fit a material to a DMA, relaxation or creep test, and issue its passport.
+
+    Sweeps at several temperatures become a master curve first.
+
+    Example: viscotack material fit dma.csv --poisson-ratio 0.5 --reference-temperature "20 degC"
+    --glass-transition "-115 degC" -o pdms.toml --plot fit.png
+    """
+
+    word: ClassVar = "material fit"
+    outputs: ClassVar = (
+        Output(
+            "output",
+            "Write the passport to this file; - is standard output.",
+            flags=("-o", "--output"),
+        ),
+        picture(),
+    )
+
+    files: Annotated[
+        tuple[Path, ...],
+        File(
+            "What the instrument wrote; several files are sweeps of one material.",
+            metavar="FILE...",
+            argument=True,
+        ),
+    ]
+    poisson_ratio: Annotated[
+        float, Number("0.5 for rubber, about 0.35 for a glass.", metavar="NU", example="0.5")
+    ]
+    model: Annotated[
+        str,
+        Choice("What to fit; best: all, and an information criterion chooses.", choices=_MODELS),
+    ] = "best"
+    arms: Annotated[
+        int | None,
+        Whole("Relaxation times of a Prony series; else the data decide.", metavar="N"),
+    ] = None
+    glassy_modulus: Annotated[
+        float | None,
+        Number(
+            'Known from elsewhere and not fitted, "3 GPa"; not for a Prony series.',
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+    rubbery_modulus: Annotated[
+        float | None, Number("In the same way.", unit="Pa", metavar="PRESSURE")
+    ] = None
+    loss: Annotated[bool, Switch("Whether the loss modulus counts.")] = True
+    level: Annotated[float, Number("Confidence level of the intervals.")] = 0.9
+    name: Annotated[
+        str | None, Text("Name of the material; else that of the file.", metavar="WORDS")
+    ] = None
+    source: Annotated[str, Text("Who measured it, for the passport.", metavar="WORDS")] = ""
+    dma: Dma = field(default_factory=Dma)
+    shifting: Shifting = field(default_factory=Shifting)
+
+    def __post_init__(self) -> None:
+        """Check that options of sweeps are given for sweeps."""
+        if self.dma.test in ("relaxation", "creep"):
+            self._refuse_of_sweeps(f"for --test {self.dma.test}")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the files, make one curve of them, and fit."""
+        from viscotack.materials.passport_file import write_passport
+        from viscotack.materials.passport_words import shift_lines
+        from viscotack.pictures.lab import draw_fit
+
+        from .parts.records import fit_record
+
+        report, shift = self._fitted()
+        passport = None
+        if "output" in caller.wants or not hasattr(report.material, "no_contact"):
+            passport = self._passport(report, shift)
+        shifted = [] if passport is None else shift_lines(passport)
+        words = "\n".join([report.words(), *shifted])
+        return Answer(
+            (report, passport),
+            record=lambda: fit_record(report, passport),
+            words=lambda: words,
+            files=(
+                {}
+                if passport is None
+                else {"output": lambda target: write_passport(passport, target)}
+            ),
+            pictures={"plot": lambda: draw_fit(report, passport)},
+            drawn=lambda: _drawn(report, passport) | {"words": words},
+            notes=tuple(f"  Read: {note}" for note in report.observed.source.notes),
+        )
+
+    def _fitted(self) -> "tuple[FitReport, Any]":
+        """Return the fit, and how times shift with temperature."""
+        from viscotack.lab import FrequencySweeps, RelaxationTest, allow_for_shifts, fit
+
+        measured = self.dma.measured(self.files)
+        if isinstance(measured, FrequencySweeps):
+            data, shift, cautions = self.shifting.swept(measured)
+        else:
+            first = measured[0] if isinstance(measured, tuple) else measured
+            found = "relaxation" if isinstance(first, RelaxationTest) else "creep"
+            self._refuse_of_sweeps(f"for a {found} test, which the file holds")
+            data, shift, cautions = self.shifting.stepped(measured)
+        known = {n: getattr(self, n) for n in ("glassy_modulus", "rubbery_modulus")}
+        report = fit(
+            data,
+            poisson_ratio=self.poisson_ratio,
+            model=self.model,
+            arms=self.arms,
+            known={name: value for name, value in known.items() if value is not None},
+            loss=self.loss,
+            level=self.level,
+        )
+        report = allow_for_shifts(report, data, shift)
+        return replace(report, cautions=(*cautions, *report.cautions)), shift
+
+    def _passport(self, report: "FitReport", shift: Any) -> "Passport":
+        from viscotack import __version__
+        from viscotack.lab import issued
+
+        passport = issued(
+            report,
+            name=self.name or self.files[0].stem,
+            shift=shift,
+            reference=self.source,
+            made_by=f"viscotack {__version__}",
+        )
+        # bare names: a path says nothing elsewhere
+        names = ", ".join(file.name for file in self.files)
+        return replace(passport, origin=replace(passport.origin, file=names))
+
+    def _refuse_of_sweeps(self, why: str) -> None:
+        said = {"--frequency-unit": self.dma.frequency_unit, "--shift-by": self.shifting.shift_by}
+        given = [flag for flag, value in said.items() if value is not None]
+        if given:
+            raise InputError(f"{' and '.join(given)} cannot be used {why}; leave it out")
+
+
+def _drawn(report: "FitReport", passport: "Passport | None") -> dict[str, Any]:
+    """Return what a page shows of a fit; no table and no passport of a law for fits only."""
+    from viscotack.materials.passport_tables import passport_text
+
+    from .parts import drawn
+    from .parts.library import material_table
+
+    issued = passport is not None
+    return {
+        "model": report.model,
+        "notes": list(report.observed.source.notes),
+        "table": material_table(report.material) if issued else None,
+        "passport": passport_text(passport) if issued else None,
+        "fit": drawn.fit(report),
+        "shifts": drawn.shifts(passport.shift) if issued else None,
+    }

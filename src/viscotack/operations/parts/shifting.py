@@ -1,0 +1,226 @@
+"""From tests at several temperatures to one curve at one temperature."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from viscotack.errors import InputError
+from viscotack.units import parse
+
+from ..declare.cards import Card, Choice, File, Number, Place, Two
+from ..declare.options import Part
+
+_SEVERAL = 3.0  # K: a chamber holds its temperature better
+_MOVES = ("auto", "none", "free")
+
+
+@dataclass(frozen=True)
+class Moving(Card):
+    """How far moduli move: a word, or a coefficient of volume expansion [1/K]."""
+
+    def read(self, value: Any, place: Place) -> str | float:
+        """Return the word or the coefficient."""
+        if value in _MOVES:
+            return value
+        try:
+            return parse(value, "1/K")
+        except InputError:
+            raise InputError(
+                f"must be {', '.join(_MOVES)} or the coefficient of volume expansion, "
+                f'"6e-4 1/K", got {value!r:.60}'
+            ) from None
+
+    def written(self, value: Any) -> Any:
+        """Return the word, or the coefficient with its unit."""
+        return value if isinstance(value, str) else f"{value!r} 1/K"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shifting(Part):
+    """How tests at several temperatures become one curve; temperatures in K."""
+
+    table: ClassVar = "shift"
+
+    reference_temperature: Annotated[
+        float | None,
+        Number(
+            'Temperature of the master curve, "20 degC"; needed for sweeps at several.',
+            unit="K",
+            metavar="T",
+        ),
+    ] = None
+    glass_transition: Annotated[
+        float | None,
+        Number(
+            "Shift by WLF with c1 = 17.44 and c2 = 51.6 K at this temperature, "
+            '"-115 degC". Without any shift it is found from the overlap of the sweeps.',
+            unit="K",
+            metavar="T",
+        ),
+    ] = None
+    wlf: Annotated[
+        tuple[float, float] | None,
+        Two(
+            'Shift by WLF with these constants, "8.86,101.6 K", at the reference temperature.',
+            metavar="C1,C2",
+            units=("1", "K"),
+        ),
+    ] = None
+    shift_file: Annotated[Path | None, File("Shift by this table of log_aT.", metavar="FILE")] = (
+        None
+    )
+    shift_by: Annotated[
+        str | None,
+        Choice(
+            "What must superpose, where shifts are found from overlap; left out with --vertical: "
+            "the most that the data carry.",
+            choices=("both", "storage", "loss", "tan"),
+        ),
+    ] = None
+    vertical: Annotated[
+        str | float | None,
+        Moving(
+            "How far moduli move with temperature: auto, as far as the data fix it; none; "
+            'free; or by density and temperature, with a volume expansion of "6e-4 1/K".',
+            metavar="WORD|EXPANSION",
+        ),
+    ] = None
+    leave_out: Annotated[
+        tuple[float, ...],
+        Number(
+            'Leave out the sweep at this temperature, "-30 degC". Give it once for each.',
+            unit="K",
+            metavar="T",
+        ),
+    ] = ()
+
+    def __post_init__(self) -> None:
+        """Check that one shift is given, and what it needs."""
+        laws = ("glass_transition", "wlf", "shift_file")
+        named = [f"--{name.replace('_', '-')}" for name in laws if getattr(self, name) is not None]
+        if len(named) > 1:
+            raise InputError(f"give one shift, got {' and '.join(named)}")
+        if named and self.reference_temperature is None:
+            raise InputError(f"{named[0]} needs --reference-temperature")
+        if named and (self.shift_by is not None or self.vertical is not None):
+            raise InputError(
+                f"--shift-by and --vertical are for shifts found from overlap; with {named[0]} "
+                "leave them out"
+            )
+
+    def law(self) -> Any:
+        """Return the law or table that is given; None where shifts are to be found."""
+        from viscotack.materials.shift import WLF
+
+        if self.glass_transition is not None:
+            return WLF.from_glass_transition(self.glass_transition)
+        if self.wlf is not None:
+            assert self.reference_temperature is not None, "checked above"
+            return WLF(self.reference_temperature, *self.wlf)
+        if self.shift_file is not None:
+            from viscotack.lab import read_shifts
+
+            return read_shifts(self.shift_file)
+        return None
+
+    def swept(self, sweeps: Any) -> tuple[Any, Any, tuple[str, ...]]:
+        """Return the master curve of a DMA, how times shift, and what speaks against it."""
+        from viscotack.lab import contradiction, master_curve, superposition
+        from viscotack.materials.shift import WLF
+
+        law, file = self.law(), _named(sweeps.source.path.split(", "))
+        for kelvin in self.leave_out:
+            sweeps = sweeps.chosen(_others(sweeps.temperature, kelvin, file))
+        known = sweeps.temperature[np.isfinite(sweeps.temperature)]
+        several = known.size > 0 and np.ptp(known) > _SEVERAL
+        self._ask_reference(file, known)
+        if law is None and np.ptp(sweeps.angular_frequency) == 0 and several:
+            raise InputError(
+                f"{file}: a temperature ramp at one frequency, nothing overlaps that could tell "
+                'the shift; give --glass-transition "-115 degC", --wlf or --shift-file'
+            )
+        curve = master_curve(
+            sweeps,
+            reference_temperature=self.reference_temperature,
+            shift=law,
+            by=self.shift_by,
+            vertical=self.vertical,
+        )
+        # before anything is counted by less
+        cautions = [contradiction(curve)]
+        if curve.shifts is not None and len(curve.shifts) > 1:
+            cautions += superposition(sweeps, curve.shifts).words()
+        if self.glass_transition is not None:
+            cautions += _below(known, self.glass_transition)
+        shift = law if isinstance(law, WLF) else curve.shifts
+        return curve, shift, tuple(words for words in cautions if words)
+
+    def stepped(self, measured: Any) -> tuple[Any, Any, tuple[str, ...]]:
+        """Return relaxation or creep tests as one at one temperature, and how times shift."""
+        from viscotack.lab import superposed
+        from viscotack.materials.shift import WLF
+
+        law = self.law()
+        tests = measured if isinstance(measured, tuple) else (measured,)
+        file = _named(list(dict.fromkeys(test.source.path for test in tests)))
+        known = np.array([np.nan if t.temperature is None else t.temperature for t in tests])
+        for kelvin in self.leave_out:
+            keep = _others(known, kelvin, file)
+            tests, known = tuple(t for t, k in zip(tests, keep, strict=True) if k), known[keep]
+        if len(tests) == 1 and self.reference_temperature is None:
+            if self.vertical is not None:
+                raise InputError(
+                    f"{file}: one temperature, there is nothing to shift; leave --vertical out"
+                )
+            return tests[0], None, ()
+        self._ask_reference(file, known[np.isfinite(known)])
+        if self.reference_temperature is None:
+            raise InputError(f"{file}: say at which temperature, --reference-temperature")
+        same: Any = tests  # all of them relaxation, or all creep
+        curve, table = superposed(
+            same,
+            reference_temperature=self.reference_temperature,
+            shift=law,
+            vertical=self.vertical,
+        )
+        return curve, law if isinstance(law, WLF) else table, ()
+
+    def _ask_reference(self, file: str, known: Any) -> None:
+        if self.reference_temperature is None and known.size and np.ptp(known) > _SEVERAL:
+            raise InputError(
+                f"{file}: measured from {known.min() - 273.15:.1f} to {known.max() - 273.15:.1f} "
+                "C; say at which temperature the material is wanted, --reference-temperature "
+                '"20 degC"'
+            )
+
+
+def _named(paths: list[str]) -> str:
+    """Return the names of files, of many the first."""
+    return ", ".join(paths) if len(paths) < 4 else f"{paths[0]} and {len(paths) - 1} more"
+
+
+def _others(temperature: Any, asked: float, file: str) -> Any:
+    """Return which points are not of the sweep at a temperature [K]."""
+    near = np.abs(temperature - asked) <= 1.0
+    words = f'--leave-out "{asked - 273.15:.4g} degC"'
+    if not near.any():
+        known = np.unique(np.round(temperature[np.isfinite(temperature)] - 273.15))
+        there = ", ".join(f"{T:g} C" for T in known) or "temperatures that it does not say"
+        raise InputError(f"{words}: {file}: no test within 1 K of it; there are some at {there}")
+    if near.all():
+        raise InputError(f"{words} leaves nothing of {file}")
+    return ~near
+
+
+def _below(temperature: Any, glass: float) -> list[str]:
+    """Return that WLF was used where a glass need not follow it."""
+    count = int(np.sum(temperature < glass))
+    if not count:
+        return []
+    return [
+        f"{count} points lie below the glass transition, down to "
+        f"{np.min(temperature) - 273.15:.4g} C, where a glass need not follow WLF: the highest "
+        "frequencies and the glassy modulus rest on them"
+    ]

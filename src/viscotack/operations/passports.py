@@ -1,0 +1,313 @@
+"""The operations ``material show | convert | export``: passports, and input of other programs."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+import numpy as np
+
+from viscotack.errors import InputError
+
+from .declare.answer import Answer, Caller, Output
+from .declare.cards import Choice, Named, Number, Switch, Text, Two
+from .declare.options import Operation
+from .parts.solid import Known, published
+
+if TYPE_CHECKING:
+    from viscotack.materials.conversion import PronyForm
+    from viscotack.materials.passport import Passport
+
+# Programs whose input is written and read.
+_CODES = ("abaqus", "ansys", "comsol", "radioss", "tamaas", "rheojax", "pyvisco", "reptate")
+# Of these the input states modulus and Poisson ratio.
+_STATING = ("abaqus", "ansys", "tamaas")
+_OUTPUT = Output(
+    "output", "Write to this file; - is standard output.", flags=("-o", "--output"), usual="-"
+)
+
+Temperature = Annotated[
+    float | None,
+    Number('At this temperature, "0 degC" or "273 K".', unit="K", metavar="T"),
+]
+Tolerance = Annotated[float, Number("Relative error allowed to the series.")]
+PressureUnit = Annotated[
+    str | None, Text("Unit of moduli there, MPa.", metavar="UNIT", example="MPa")
+]
+TimeUnit = Annotated[str | None, Text("Unit of times there, s.", metavar="UNIT", example="s")]
+
+
+@dataclass(frozen=True)
+class Band(Two):
+    """Two frequencies; the value is angular [rad/s], and so are numbers without a unit."""
+
+    units: tuple[str, str] = ("rad/s", "rad/s")
+
+    def number(self, value: Any, unit: str) -> float:
+        """Return an angular frequency: a hertz is 2 pi radians a second."""
+        if isinstance(value, str) and "rad" not in value:
+            # the unit library takes hertz for 1/s: the factor is set here, where it is seen
+            return 2 * np.pi * super().number(value, "1/s")
+        return super().number(value, unit)
+
+
+Frequencies = Annotated[
+    tuple[float, float] | None,
+    Band(
+        'Where the Prony series must hold, "1 mHz,1 MHz"; else the measured range.',
+        metavar="LOW,HIGH",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShowMaterial(Operation):
+    """Show a material passport in words, or a published material.
+
+    Example: viscotack material show pdms-10-1
+    """
+
+    word: ClassVar = "material show"
+    takes_own: ClassVar = True
+
+    passport: Known
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the passport."""
+        from viscotack.materials.library import passport_of
+
+        return _answer(passport_of(self.passport, also=caller.also))
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConvertMaterial(Operation):
+    """Convert a passport: to another temperature, to a Prony series, from another program.
+
+    Without -o the passport goes to standard output.
+
+    Examples: viscotack material convert pdms-10-1 --temperature "0 degC" -o cold.toml, or:
+    viscotack material convert card.inp --from abaqus --pressure-unit MPa --time-unit s -o pad.toml
+    """
+
+    word: ClassVar = "material convert"
+    outputs: ClassVar = (_OUTPUT,)
+    takes_own: ClassVar = True
+
+    source: Annotated[
+        str,
+        Named(
+            "A material passport, or the name of a published material such as pdms-10-1. Or, with "
+            "--from, another program's input.",
+            metavar="PASSPORT|FILE",
+            argument=True,
+            published=published,
+        ),
+    ]
+    temperature: Temperature = None
+    prony: Annotated[bool, Switch("As a Prony series; of a power law with a stated error.")] = False
+    frequencies: Frequencies = None
+    tolerance: Tolerance = 3e-4
+    code: Annotated[
+        str | None,
+        Choice("The file is input of this program.", choices=_CODES, flags=("--from",)),
+    ] = None
+    pressure_unit: PressureUnit = None
+    time_unit: TimeUnit = None
+    rubbery_modulus: Annotated[
+        float | None,
+        Number(
+            "Long-term Young's modulus, where that input does not hold it.",
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+    poisson_ratio: Annotated[float | None, Number("In the same way.", metavar="NU")] = None
+
+    @classmethod
+    def kept(cls, given: Any) -> tuple[Any, ...]:
+        """Return the input of another program; a passport may be written over itself."""
+        return super().kept(given) if given.get("code") else ()
+
+    def __post_init__(self) -> None:
+        """Check that options of other programs' input, and of a series, are given for these."""
+        constants = self._constants()
+        if self.code is None:
+            names = (*constants, "pressure_unit", "time_unit")
+            given = [f"--{n.replace('_', '-')}" for n in names if getattr(self, n) is not None]
+            if given:
+                raise InputError(
+                    f"{' and '.join(given)} cannot be used without --from; leave it out"
+                )
+        elif self.source in published():
+            raise InputError(f"{self.source} is a published material; --from takes a file")
+        elif (self.pressure_unit is None) != (self.time_unit is None):
+            raise InputError("give both --pressure-unit and --time-unit")
+        elif constants and self.code in _STATING:
+            raise InputError(
+                f"input of {self.code} holds modulus and Poisson ratio; leave them out"
+            )
+        if self.frequencies is not None and not self.prony:
+            raise InputError("--frequencies go with --prony")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the material and convert it."""
+        from viscotack.materials.library import passport_of
+        from viscotack.materials.passport_file import write_passport
+
+        if self.code is None:
+            passport = passport_of(self.source, also=caller.also)
+        else:
+            passport = self._imported()
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        if self.prony:
+            passport = self._as_series(passport)
+        files = {"output": lambda target: write_passport(passport, target)}
+        return replace(_answer(passport, caller), files=files)
+
+    def _constants(self) -> dict[str, float]:
+        said = {n: getattr(self, n) for n in ("rubbery_modulus", "poisson_ratio")}
+        return {name: value for name, value in said.items() if value is not None}
+
+    def _imported(self) -> "Passport":
+        from viscotack import __version__
+        from viscotack.materials.exchange import Units, imported
+        from viscotack.materials.passport import Origin, Passport
+
+        file, code = Path(self.source), str(self.code)
+        pressure, time = self.pressure_unit, self.time_unit
+        units = Units(pressure, time) if pressure and time else None
+        try:
+            text = file.read_text(encoding="utf-8")
+            solid = imported(text, code, units=units, **self._constants())
+        except (ValueError, UnicodeDecodeError) as error:
+            raise InputError(f"{file}: {error}") from None
+        origin = Origin(file=file.name, format=code, made_by=f"viscotack {__version__}")
+        return Passport(name=file.stem, material=solid, origin=origin)
+
+    def _as_series(self, passport: "Passport") -> "Passport":
+        from viscotack.materials.words import word_of
+
+        form = _series(passport, self.frequencies, self.tolerance)
+        note = f"Prony series of the {word_of(passport.material)}, error {form.error:.1e}"
+        origin = replace(passport.origin, notes=(*passport.origin.notes, note))
+        return replace(
+            passport, material=form.material, frequencies=form.frequencies, origin=origin
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportMaterial(Operation):
+    """Write a material as input of another program, in its convention and in stated units.
+
+    Without units: Pa and s. Without -o it goes to standard output.
+
+    Example: viscotack material export pdms-10-1 --to abaqus --pressure-unit MPa
+    --frequencies "1 mHz,1 GHz" --bulk-modulus "2 GPa" -o pdms.inp
+    """
+
+    word: ClassVar = "material export"
+    outputs: ClassVar = (_OUTPUT,)
+    takes_own: ClassVar = True
+
+    passport: Known
+    to: Annotated[str, Choice("The program to write for.", choices=_CODES)]
+    temperature: Temperature = None
+    frequencies: Frequencies = None
+    tolerance: Tolerance = 3e-4
+    pressure_unit: PressureUnit = None
+    time_unit: TimeUnit = None
+    bulk_modulus: Annotated[
+        float | None,
+        Number(
+            'Of an incompressible solid, for a program that forbids that, "2 GPa".',
+            unit="Pa",
+            metavar="PRESSURE",
+        ),
+    ] = None
+
+    def answer(self, caller: Caller) -> Answer:
+        """Make the series and write it as the program has it."""
+        from viscotack.materials.exchange import Units, exported
+        from viscotack.materials.library import passport_of
+
+        from .parts.tables import as_text
+
+        passport = passport_of(self.passport, also=caller.also)
+        if self.temperature is not None:
+            passport = passport.moved_to(self.temperature)
+        form = _series(passport, self.frequencies, self.tolerance)
+        text = exported(
+            form.material,
+            self.to,
+            units=Units(self.pressure_unit or "Pa", self.time_unit or "s"),
+            notes=_notes(passport, form),
+            bulk_modulus=self.bulk_modulus,
+            shift=_seen_from(passport),
+        )
+        low, high = form.frequencies
+        return Answer(
+            text,
+            record=lambda: {
+                "name": passport.name,
+                "program": self.to,
+                "text": text,
+                "error": form.error,
+                "angular_frequencies_rad_s": [low, high],
+            },
+            words=lambda: "" if "output" in caller.wants else text.rstrip("\n"),
+            files={"output": as_text(lambda: text)},
+        )
+
+
+def _answer(passport: "Passport", caller: Caller | None = None) -> Answer:
+    """Return a passport, in words where it is not written."""
+    from viscotack.materials.passport_words import in_words
+
+    from .parts.records import passport_record
+
+    written = caller is not None and "output" in caller.wants
+    return Answer(
+        passport,
+        record=lambda: passport_record(passport),
+        words=lambda: "" if written else in_words(passport),
+    )
+
+
+def _series(
+    passport: "Passport", frequencies: tuple[float, float] | None, tolerance: float
+) -> "PronyForm":
+    """Return the Prony series of a passport's material."""
+    from viscotack.materials.conversion import prony_form
+    from viscotack.materials.words import word_of
+
+    bounds = frequencies or passport.frequencies
+    if bounds is None and word_of(passport.material) in ("prony", "sls"):
+        unit = passport.material.time_unit
+        bounds = 1e-3 / unit, 1e3 / unit
+    if bounds is None:
+        raise InputError(
+            f"{passport.name} does not say where it was measured; say where the series must hold, "
+            '--frequencies "1 mHz,1 MHz"'
+        )
+    return prony_form(passport.material, frequencies=bounds, tolerance=tolerance)
+
+
+def _seen_from(passport: "Passport") -> Any:
+    """Return the shift of a passport, zero at the temperature of its material."""
+    if passport.shift is None or passport.temperature is None:
+        return None
+    return passport.shift.at_reference(passport.temperature)
+
+
+def _notes(passport: "Passport", form: "PronyForm") -> tuple[str, ...]:
+    from viscotack import __version__
+
+    low, high = (w / (2 * np.pi) for w in form.frequencies)
+    at = "" if passport.temperature is None else f", at {passport.temperature - 273.15:.4g} C"
+    source = passport.origin.reference or passport.origin.file
+    return (
+        f"{' '.join(passport.name.split())}{at}; written by viscotack {__version__}",
+        *([f"source: {' '.join(source.split())}"] if source else []),
+        f"Prony series with {len(form.material.branches)} branches, constant Poisson ratio; "
+        f"largest error {form.error:.1e} of the complex modulus from {low:.3g} to {high:.3g} Hz",
+    )

@@ -1,0 +1,35 @@
+"""The operation ``schema``: what a problem may say, for other programs and for people."""
+
+import json
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from .declare.answer import Answer, Caller
+from .declare.cards import Switch
+from .declare.options import Operation
+
+
+@dataclass(frozen=True, kw_only=True)
+class Schema(Operation):
+    """Print the JSON schema of a problem: every number with its unit, symbol and range.
+
+    It describes the object `problem` of --json, which results and campaigns keep as well.
+
+    Example: viscotack schema > problem.schema.json
+    """
+
+    word: ClassVar = "schema"
+    takes_own: ClassVar = True
+
+    words: Annotated[bool, Switch("Tables in Markdown for people, in place of the schema.")] = False
+
+    def answer(self, caller: Caller) -> Answer:
+        """Read the cards of all nouns."""
+        from viscotack.problem.schema import schema, words
+
+        found = schema(caller.also)
+        return Answer(
+            found,
+            record=lambda: found,
+            words=lambda: words(caller.also) if self.words else json.dumps(found, indent=2),
+        )
