@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 
+from .cards import Known
 from .options import Here, Operation, Option, options, respelled, take
 
 if TYPE_CHECKING:
@@ -141,8 +142,7 @@ def study_text(operation: Operation, folder: str | os.PathLike[str] = ".") -> st
 
 
 def _written(option: Option, value: Any, folder: Path) -> Any:
-    many = option.many or isinstance(value, tuple)
-    if many:
+    if option.many or isinstance(option.card, Known):
         return [_written_one(option, each, folder) for each in value]
     return _written_one(option, value, folder)
 
