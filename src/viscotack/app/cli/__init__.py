@@ -12,7 +12,6 @@ _COMMANDS = (
     "edge_energy",
     "punch",
     "material",
-    "campaign",
     "schema",
     "page",
 )
