@@ -7,10 +7,12 @@ import pytest
 
 from campaign_work import InlineCrew, employ, picky, plan_of
 from command_line import exit_status
-from viscotack.app.cli.campaign import _progress_words
-from viscotack.campaign import Store, run
+from viscotack.campaign import CaseSettings, Store, run
 from viscotack.campaign.running import Progress
 from viscotack.files.lock import locked
+from viscotack.operations import operation
+from viscotack.operations.campaign import _progress_words
+from viscotack.operations.declare.study import read_study, study_text
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
@@ -102,7 +104,10 @@ def test_a_run_that_was_stopped_has_another_exit_status(cases, tmp_path, monkeyp
 
     monkeypatch.setattr("viscotack.campaign.run", killed)
     assert call("run", cases, "--out", tmp_path / "study") == 1
-    assert "is safe" in capsys.readouterr().err
+    out, err = capsys.readouterr()
+    assert out == "" and "ended at once; what is stored in" in err and "is safe" in err
+    assert call("run", cases, "--out", tmp_path / "study", "--json") == 1
+    assert json.loads(capsys.readouterr().out) == {"stopped": True, "reason": "ended at once"}
 
 
 def test_cases_without_a_result_have_an_exit_status(tmp_path, crew, capsys):
@@ -120,11 +125,79 @@ def test_progress_in_words():
     )
 
 
+def test_progress_is_told_now_and_then_and_at_once_when_a_run_is_to_stop(
+    cases, tmp_path, monkeypatch, capsys
+):
+    def some(*_, report, **__):
+        for done in range(3):
+            report(Progress(4, done, 0, rate=1.0))
+        report(Progress(4, 3, 0, rate=1.0, stopped=True))
+        return Progress(4, 3, 0, elapsed_s=1.0, stopped=True)
+
+    monkeypatch.setattr("viscotack.campaign.run", some)
+    assert call("run", cases, "--out", tmp_path / "study") == 1
+    stop = "3 of 4 stored, 0 failed, 1.0 cases/s; finishing the cases in flight"
+    assert capsys.readouterr().err.splitlines() == [stop]
+    monkeypatch.setattr("viscotack.app.cli.reading.LINES", -1.0)
+    assert call("run", cases, "--out", tmp_path / "study") == 1
+    assert len(capsys.readouterr().err.splitlines()) == 4
+
+
+def test_settings_of_the_command_take_the_place_of_those_of_the_plan(cases, tmp_path, monkeypatch):
+    plans = []
+
+    def keep(plan, *_, **__):
+        plans.append(plan)
+        return Progress(2, 2, 0)
+
+    monkeypatch.setattr("viscotack.campaign.run", keep)
+    settings = ["--accuracy", 0.01, "--until", "detached", "--time-limit", "2 min"]
+    more = ["--memory-limit", "300 MB", "--shard", "1/2"]
+    assert call("run", cases, "--out", tmp_path / "study", *settings, *more) == 0
+    (plan,) = plans
+    assert plan.settings == CaseSettings(0.01, "detached", 120.0, 300e6)
+    assert len(plan.cases) == 1 and plan.shard == "1/2"
+
+
+STUDIES = {
+    "campaign plan": {"plan": "cases.csv", "temperature": "20 degC"},
+    "campaign run": {
+        "plan": "cases.csv",
+        "out": "study",
+        "workers": "2",
+        "scheduler": "tls://host:1",
+        "tls_ca": "ca.pem",
+        "shard": "1/2",
+        "accuracy": "0.01",
+        "until": "detached",
+        "time_limit": "1 min",
+        "memory_limit": "100 MB",
+        "temperature": "20 degC",
+        "retry": True,
+    },
+    "campaign status": {"folder": "study"},
+    "campaign verify": {"folder": "study"},
+    "campaign merge": {"folders": ["one", "two"], "out": "all"},
+    "campaign export": {"folder": "study", "trajectories": True},
+}
+
+
+@pytest.mark.parametrize("word", STUDIES)
+def test_a_study_states_what_a_command_does_and_no_request_may(word, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    asked = operation(word).of(**STUDIES[word])
+    (tmp_path / "study.toml").write_text(study_text(asked))
+    assert read_study("study.toml", known=operation).operation == asked
+    assert "folder" in asked.refused["http"] or "other files" in asked.refused["http"]
+
+
 def test_what_is_wrong_is_said_in_a_paragraph(cases, tmp_path, capsys):
     assert "--out is missing" in wrong(capsys, "run", cases)
     assert "no file" in wrong(capsys, "run", tmp_path / "no.csv", "--out", tmp_path / "x")
     assert "until must be" in wrong(capsys, "run", cases, "--out", tmp_path, "--until", "later")
     assert "those of the folder" in wrong(capsys, "run", "--out", tmp_path, "--accuracy", 1e-3)
+    assert "give the plan" in wrong(capsys, "run", "--out", tmp_path, "--shard", "1/2")
+    assert "--out is missing" in wrong(capsys, "merge", tmp_path)
     assert "holds no campaign" in wrong(capsys, "status", tmp_path)
     assert "no file" in wrong(capsys, "export", tmp_path / "no", "--csv", tmp_path / "t.csv")
     assert "say what to write" in wrong(capsys, "export", tmp_path)

@@ -366,3 +366,13 @@ def test_a_plan_is_looked_at_with_files_of_ones_own(case_file, tmp_path):
     plan.write_text(f'problem = "{case_file.name}"\n[[grid]]\ntraction.steepness = 2.0\n')
     status, out, err = call("campaign", "plan", plan)
     assert status == 0 and out.startswith("1 cases"), err
+
+
+def test_a_sweep_has_their_numbers(case_file, tmp_path):
+    (tmp_path / "cases.csv").write_text("traction.steepness\n2.0\n")
+    status, out, err = call(
+        "sweep", case_file, tmp_path / "cases.csv", "--accuracy", 0.02, "--json"
+    )
+    assert status == 0, err
+    (row,) = json.loads(out)["rows"]
+    assert row["outputs"]["largest_contact_radius_m"] > 0

@@ -9,5 +9,9 @@ class InputError(ValueError):
     """
 
 
+class NotInstalled(InputError, ModuleNotFoundError):
+    """A library that comes with an extra is missing; says which one and how to install it."""
+
+
 class OutOfRange(InputError):
     """A problem that a theory, or what was learned, does not answer; says what is out of range."""

@@ -14,7 +14,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, NotInstalled
 
 from .case import Answer, CaseSettings, Work
 from .crew import Gone, Lost, NoWorker
@@ -324,11 +324,11 @@ def cluster(
 
 
 def check_installed() -> None:
-    """Raise ModuleNotFoundError unless Dask is there."""
+    """Raise NotInstalled unless Dask is there."""
     try:
         import distributed  # noqa: F401
     except ImportError:
-        raise ModuleNotFoundError(
+        raise NotInstalled(
             "a cluster needs Dask distributed; install it with pip install 'viscotack[cluster]'"
         ) from None
 

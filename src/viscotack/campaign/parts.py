@@ -26,7 +26,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, NotInstalled
 from viscotack.files.whole import is_draft, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
@@ -43,7 +43,7 @@ def arrow() -> Any:
         import pyarrow.compute
         import pyarrow.parquet
     except ImportError:
-        raise ModuleNotFoundError(
+        raise NotInstalled(
             "campaigns are stored in Parquet, which needs pyarrow; install it with "
             "pip install 'viscotack[campaign]'"
         ) from None

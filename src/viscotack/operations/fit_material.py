@@ -146,8 +146,8 @@ class FitMaterial(Operation):
         return replace(report, cautions=(*cautions, *report.cautions)), shift
 
     def _passport(self, report: "FitReport", shift: Any) -> "Passport":
-        from viscotack import __version__
         from viscotack.lab import issued
+        from viscotack.version import __version__
 
         passport = issued(
             report,

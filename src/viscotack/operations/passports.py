@@ -169,9 +169,9 @@ class ConvertMaterial(Operation):
         return {name: value for name, value in said.items() if value is not None}
 
     def _imported(self) -> "Passport":
-        from viscotack import __version__
         from viscotack.materials.exchange import Units, imported
         from viscotack.materials.passport import Origin, Passport
+        from viscotack.version import __version__
 
         file, code = Path(self.source), str(self.code)
         pressure, time = self.pressure_unit, self.time_unit
@@ -300,7 +300,7 @@ def _seen_from(passport: "Passport") -> Any:
 
 
 def _notes(passport: "Passport", form: "PronyForm") -> tuple[str, ...]:
-    from viscotack import __version__
+    from viscotack.version import __version__
 
     low, high = (w / (2 * np.pi) for w in form.frequencies)
     at = "" if passport.temperature is None else f", at {passport.temperature - 273.15:.4g} C"

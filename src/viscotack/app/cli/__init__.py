@@ -11,7 +11,6 @@ _COMMANDS = (
     "steady_crack",
     "crack_contact",
     "punch",
-    "campaign",
     "study",
     "page",
 )

@@ -14,6 +14,7 @@ import typer
 
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
+from viscotack.files.whole import is_standard_output
 from viscotack.operations import operations
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
@@ -67,7 +68,8 @@ def _commands(word: str, kind: type[Operation]) -> Iterator[tuple[str, Any, str]
     help_ = cleandoc(kind.__doc__ or "")
     card = next((o.card for o in options(kind) if isinstance(o.card, Stated)), None)
     if card is None or card.spelling != "commands":
-        yield word, _command(kind, None), help_
+        in_file = card is not None and card.spelling == "case"
+        yield word, _command(kind, "" if in_file else None), help_
         return
     for indenter in card.indenters:
         yield f"{word} {indenter}", _command(kind, indenter), kind.helps[indenter]
@@ -159,8 +161,10 @@ def _of_problem(name: str, card: Stated, indenter: str | None) -> Iterator[inspe
     if card.spelling == "word":
         words = typer.Argument(metavar=card.metavar, help=card.words, show_default=False)
         yield _parameter(f"{name}__what", str, words, needed=True)
-    words = typer.Argument(metavar="CASE.toml", help=_CASE, show_default=False)
-    yield _parameter(f"{name}__case", Path | None, words)
+    only = card.spelling == "case"
+    told = card.words if only else _CASE
+    words = typer.Argument(metavar="CASE.toml", help=told, show_default=False)
+    yield _parameter(f"{name}__case", Path if only else Path | None, words, needed=only)
     for question in _questions(card, indenter):
         yield _of_question(name, question)
 
@@ -224,6 +228,10 @@ def _checked(
         as_json=as_json,
         reads=[Path(file) for file in (*kind.kept(given), *([case] if case else ()))],
     )
+    for output, file in found.items():
+        if file is not None and not is_standard_output(file):
+            if output.ending and file.suffix != output.ending:
+                raise InputError(f"{file}: the ending must be {output.ending}")
     return found
 
 
@@ -309,21 +317,25 @@ def progress() -> Iterator[Callable[[Mapping[str, Any]], None]]:
     )
 
     # the forecast takes the share of the way for that of the work, which it is about
-    looks = (
-        TextColumn("{task.description}"),
-        BarColumn(),
+    times = (
         TimeElapsedColumn(),
         TextColumn("gone, about"),
         TimeRemainingColumn(),
         TextColumn("to go"),
     )
-    with Progress(*looks, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=1.0, visible=False)
+    words = (TextColumn("{task.fields[words]}", markup=False),)
+    first = (TextColumn("{task.description}"), BarColumn())
+    with Progress(*first, *times, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=1.0, visible=False, words="")
 
         def tell(told: Mapping[str, Any]) -> None:
             if "share" in told:
+                said = told.get("words", "")
+                bar.columns = (*first, *(words if said else times))
                 doing = told.get("doing", "")
-                bar.update(task, completed=told["share"], description=doing, visible=True)
+                bar.update(
+                    task, completed=told["share"], description=doing, words=said, visible=True
+                )
 
         yield tell
 
@@ -334,7 +346,8 @@ def _lines() -> Callable[[Mapping[str, Any]], None]:
 
     def tell(told: Mapping[str, Any]) -> None:
         nonlocal last
-        if "words" in told and monotonic() - last > LINES:
+        is_due = told.get("urgent") or monotonic() - last > LINES
+        if "words" in told and is_due:
             last = monotonic()
             typer.echo(harmless(told["words"]), err=True)
 

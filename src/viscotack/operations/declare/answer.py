@@ -30,6 +30,8 @@ class Output:
         Whether the operation is asked for this file.
     usual : str
         Where it goes when nobody says.
+    ending : str
+        That its name must have, ".mat"; "" for any.
     """
 
     name: str
@@ -40,6 +42,7 @@ class Output:
     done: str = ""
     needed: bool = False
     usual: str = ""
+    ending: str = ""
 
     @property
     def flag(self) -> str:
@@ -69,8 +72,9 @@ class Caller:
     Attributes
     ----------
     tell : callable
-        Is given what an operation tells of itself, such as ``{"share": 0.5}``; it may raise, which
-        ends the operation.
+        Is given what an operation tells of itself: ``share`` of its work, what it is ``doing``,
+        ``words`` on how far it is, whether they are ``urgent``. It may raise, which ends the
+        operation.
     wants : frozenset of str
         Names of the outputs that will be written.
     also : tuple of classes

@@ -359,10 +359,11 @@ class Table(Card):
     def read(self, value: Any, place: Place) -> tuple[Mapping[str, float], ...]:
         """Return the rows."""
         if isinstance(value, str | Path):
-            import csv
+            from viscotack.campaign.listed import Listed
+            from viscotack.files.text import read_text
 
-            with open(place.file(_name(value)), newline="", encoding="utf-8") as stream:
-                value = list(csv.DictReader(stream))
+            path = place.file(_name(value))
+            return tuple(row for _, row in Listed(path, read_text(path)))
         if not isinstance(value, list | tuple) or not all(isinstance(r, Mapping) for r in value):
             raise InputError(f"expected rows, [{{'name': number}}, ...], got {value!r:.60}")
         return tuple({str(k): parse(v, "1") for k, v in row.items()} for row in value)

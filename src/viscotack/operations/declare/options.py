@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin
 from viscotack.errors import InputError, OutOfRange
 
 from .answer import Answer, Caller, Output
-from .cards import Card, File, Known, Named, Place
+from .cards import Card, File, Known, Named, Place, Table
 
 _FLAG = re.compile(r"--([a-z][a-z0-9-]*)")
 # Options that doors have of their own, for every operation.
@@ -64,7 +64,9 @@ class Operation:
     @classmethod
     def kept(cls, given: Mapping[str, Any]) -> tuple[Any, ...]:
         """Return the files among what was given whose place no output may take."""
-        found = [given.get(o.name) for o in options(cls) if isinstance(o.card, File | Named)]
+        found = [
+            given.get(o.name) for o in options(cls) if isinstance(o.card, File | Named | Table)
+        ]
         several = [each if isinstance(each, list | tuple) else [each] for each in found]
         return tuple(file for some in several for file in some if file is not None)
 

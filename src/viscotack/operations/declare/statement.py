@@ -65,7 +65,8 @@ class Stated(Card):
     indenters : tuple of str
         That may be stated by numbers.
     spelling : str
-        Of the command line: the indenter is a command of its own, a word, or always the one.
+        Of the command line: the indenter is a command of its own, a word, or always the one; or
+        only a case file is taken.
     whole : bool
         Whether any problem of a case file will do, whatever its indenter.
     table, expected : str
@@ -77,7 +78,7 @@ class Stated(Card):
 
     argument: bool = field(default=True, kw_only=True)
     indenters: tuple[str, ...] = field(default=("sphere",), kw_only=True)
-    spelling: Literal["flags", "commands", "word"] = field(default="flags", kw_only=True)
+    spelling: Literal["flags", "commands", "word", "case"] = field(default="flags", kw_only=True)
     whole: bool = field(default=True, kw_only=True)
     table: str = field(default="", kw_only=True)
     expected: str = field(default="", kw_only=True)

@@ -1,0 +1,151 @@
+"""The operation ``sweep``: one problem with some of its numbers replaced, a row for each case."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from viscotack.cards import card_of
+from viscotack.errors import InputError
+from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+
+from .declare.answer import Answer, Caller, csv_file
+from .declare.cards import Table, number_of
+from .declare.options import Operation
+from .declare.statement import Stated, Statement
+from .simulate import Accuracy, Until
+
+if TYPE_CHECKING:
+    from viscotack.campaign import CaseSettings
+    from viscotack.campaign.columns import Kind
+
+# Exit status where some cases have no result.
+_SOME_FAILED = 4
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sweep(Operation):
+    """Simulate a problem with some of its numbers replaced, a row for each case.
+
+    The table names the numbers that it replaces by their paths in its first row, in the units that
+    viscotack campaign inputs lists with them. A case that fails has a row that says why, and the
+    exit status is 4. Nothing is kept of a sweep that is stopped, as a campaign keeps it.
+
+    Example: viscotack sweep lens.toml speeds.csv --csv forces.csv
+    """
+
+    word: ClassVar = "sweep"
+    outputs: ClassVar = (csv_file("Write a row for each case; - is standard output."),)
+    takes_own: ClassVar = True
+
+    problem: Annotated[
+        Statement,
+        Stated(
+            "The problem whose numbers are replaced, in SI.",
+            indenters=("sphere", "punch", "profile"),
+            spelling="case",
+        ),
+    ]
+    cases: Annotated[
+        Sequence[Mapping[str, float]],
+        Table(
+            'A row for each case: the path of a number of the problem, such as "protocol.speed", '
+            "and its value. All rows have the same paths.",
+            metavar="CASES.csv",
+            argument=True,
+        ),
+    ]
+    accuracy: Accuracy = DEFAULT_ACCURACY
+    until: Until = "pull-off"
+    time_limit: Annotated[float, number_of(card_of(TimeLimit), metavar="TIME")] = 120.0
+
+    def __post_init__(self) -> None:
+        if any(row.keys() != self.cases[0].keys() for row in self.cases):
+            raise InputError("all cases must replace the same numbers of the problem")
+
+    def answer(self, caller: Caller) -> Answer:
+        """Simulate one case after the other, telling ``share`` and the new ``rows``."""
+        from viscotack.campaign import CaseSettings
+
+        from .parts.tables import rows_as_csv
+
+        kind = self._kind(caller.also)
+        settings = CaseSettings(self.accuracy, self.until, self.time_limit, own=caller.own)
+        rows: list[dict[str, Any]] = []
+        for number, inputs in enumerate(self.cases, 1):
+            rows.append(_row(kind, inputs, settings))
+            words = f"{number} of {len(self.cases)} cases done"
+            caller.tell({"share": number / len(self.cases), "rows": rows[-1:], "words": words})
+        failed = sum(bool(row["reason"]) for row in rows)
+        return Answer(
+            rows,
+            record=lambda: {"rows": rows, "failed": failed},
+            words=lambda: _words(self.problem.problem, rows, failed),
+            files={"csv": rows_as_csv(_flat(rows))},
+            notes=self.problem.notes,
+            status=_SOME_FAILED if failed else 0,
+        )
+
+    def _kind(self, also: tuple[Any, ...]) -> "Kind":
+        """Return what makes the problem of a case from its numbers."""
+        from viscotack.campaign.columns import kind_of_problem
+        from viscotack.campaign.inputs import check_exponent
+
+        check_exponent(self.problem.problem, self.cases[0])
+        return kind_of_problem(self.problem.problem, set(self.cases[0]), also)
+
+
+def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") -> dict[str, Any]:
+    """Return what came of a case: its inputs, its numbers, and why it failed if it did."""
+    from viscotack.campaign import measure
+    from viscotack.campaign.case import Unsolved
+    from viscotack.problem.record import run_id
+
+    from .parts.plain import plain
+
+    began = perf_counter()
+    row: dict[str, Any] = {"inputs": dict(inputs), "outputs": None, "reason": ""}
+    try:
+        problem = kind.problem(inputs)
+        found = measure(problem, settings)
+        outputs = {name: x for name, x in found.items() if not isinstance(x, list | tuple | dict)}
+        row |= {"run_id": run_id(problem), "outputs": plain(outputs)}
+    except (InputError, Unsolved) as error:
+        row["reason"] = str(error)
+    except ArithmeticError:
+        row["reason"] = "a number is too large or too small to compute with; check its unit"
+    return row | {"wall_time_s": perf_counter() - began}
+
+
+def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Return rows of the same columns, for a table."""
+    from viscotack.files.text import cell
+
+    empty = dict.fromkeys(name for row in rows for name in row["outputs"] or ())
+    return [
+        {
+            **row["inputs"],
+            "run_id": row.get("run_id"),
+            **empty,
+            **(row["outputs"] or {}),
+            **row["inputs"],  # of a problem without dimensions they are among the numbers too
+            "reason": cell(row["reason"]),
+            "wall_time_s": row["wall_time_s"],
+        }
+        for row in rows
+    ]
+
+
+def _words(problem: Any, rows: Sequence[Mapping[str, Any]], failed: int) -> str:
+    kind = problem.outputs
+    name = f"pull_off_{kind.name_of('force')}"
+    shown = kind.observables[name]
+    in_si = problem.scales() is not None
+    key = f"{name}_{shown.unit.tail}" if in_si else name
+    unit = shown.unit.si if in_si else shown.unit.text
+    lines = []
+    for row in rows:
+        inputs = ", ".join(f"{path} {value:.6g}" for path, value in row["inputs"].items())
+        found = row["reason"] or f"{shown.words} {row['outputs'][key]:.5g} {unit}"
+        lines.append(f"  {inputs}: {found}")
+    return "\n".join([*lines, f"{len(rows) - failed} of {len(rows)} cases done, {failed} failed"])

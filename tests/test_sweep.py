@@ -1,0 +1,178 @@
+"""One problem with some of its numbers replaced: every door gives the same rows."""
+
+import csv
+import json
+
+import pytest
+
+from command_line import exit_status
+from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
+from viscotack.operations import ask, operation
+from viscotack.operations.declare.answer import Caller
+from viscotack.operations.declare.study import read_study, study_text
+from viscotack.problem.case_file import read_case
+
+CASE = """
+[material]
+model = "elastic"
+rubbery_modulus = "1 MPa"
+poisson_ratio = 0.5
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "1 um"
+[sphere]
+radius = "1 mm"
+[protocol]
+preload_depth = "1 um"
+speed = "10 um/s"
+"""
+ROWS = [
+    {"geometry.radius": 1e-3, "protocol.speed": 1e-5},
+    {"geometry.radius": 2e-3, "protocol.speed": 1e-5},
+    {"geometry.radius": 1e-3, "protocol.speed": -1.0},
+]
+REDUCED = Groups(
+    tabor=1.0,
+    material=StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0),
+    start=AtDepth(5.0),
+    rate=10.0,
+)
+
+
+@pytest.fixture
+def case(tmp_path):
+    (tmp_path / "lens.toml").write_text(CASE)
+    with (tmp_path / "cases.csv").open("w", newline="") as stream:
+        table = csv.DictWriter(stream, list(ROWS[0]))
+        table.writeheader()
+        table.writerows(ROWS)
+    return tmp_path / "lens.toml"
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Solve no problem: its numbers stand for the answer."""
+
+    def numbers(problem, settings):
+        return {"rate": problem.groups().rate, "curve": [1.0], "accuracy": settings.accuracy}
+
+    monkeypatch.setattr("viscotack.campaign.measure", numbers)
+
+
+def timeless(record):
+    """Return rows without the time that they took."""
+    for row in record["rows"]:
+        row.pop("wall_time_s")
+        (row["outputs"] or {}).pop("wall_time_s", None)
+    return record
+
+
+def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
+    command = ["sweep", case, tmp_path / "cases.csv", "--accuracy", 0.02]
+    assert exit_status([*command, "--json", "--csv", tmp_path / "rows.csv"]) == 4
+    told = timeless(json.loads(capsys.readouterr().out))
+    asked = ask("sweep", problem=read_case(case), cases=ROWS, accuracy=0.02)
+    assert told == timeless(json.loads(json.dumps(asked.record())))
+    first, second, bad = told["rows"]
+    assert [row["inputs"] for row in told["rows"]] == ROWS and told["failed"] == 1
+    # the pull-off force grows with the radius as in the elastic theories
+    forces = [row["outputs"]["pull_off_force_N"] for row in (first, second)]
+    assert forces[1] == pytest.approx(2 * forces[0], rel=0.05)
+    assert bad["outputs"] is None and "speed must be positive" in bad["reason"]
+    assert "run_id" in first and "run_id" not in bad
+    with (tmp_path / "rows.csv").open(newline="") as stream:
+        written = list(csv.DictReader(stream))
+    assert [float(row["geometry.radius"]) for row in written] == [1e-3, 2e-3, 1e-3]
+    assert [row["pull_off_force_N"] for row in written] == [*map(str, forces), ""]
+    assert written[2]["reason"] == bad["reason"]
+    words = str(asked).splitlines()
+    assert f"pull-off force {forces[0]:.5g} N" in words[0] and "must be positive" in words[2]
+    assert words[3] == "2 of 3 cases done, 1 failed"
+
+
+def test_rows_are_told_as_they_come_and_whoever_is_told_may_end_it(quick):
+    asked = operation("sweep").of(problem=REDUCED, cases=[{"rate": 1.0}, {"rate": 2.0}])
+    told = []
+    answer = asked.answer(Caller(tell=told.append))
+    assert [one["share"] for one in told] == [0.5, 1.0]
+    assert [row for one in told for row in one["rows"]] == answer.record()["rows"]
+    assert [row["outputs"] for row in answer.found] == [
+        {"rate": rate, "accuracy": 2e-3} for rate in (1.0, 2.0)
+    ]
+
+    class Cancelled(Exception):
+        pass
+
+    def cancel(one):
+        told.append(one)
+        raise Cancelled
+
+    told.clear()
+    with pytest.raises(Cancelled):
+        asked.answer(Caller(tell=cancel))
+    assert len(told) == 1
+
+
+def test_a_case_that_failed_keeps_its_inputs_in_the_table(quick, tmp_path):
+    answer = ask("sweep", problem=REDUCED, cases=[{"rate": 1.0}, {"rate": -1.0}])
+    answer.files["csv"](tmp_path / "rows.csv")
+    with (tmp_path / "rows.csv").open(newline="") as stream:
+        assert [row["rate"] for row in csv.DictReader(stream)] == ["1.0", "-1.0"]
+    assert answer.status == 4
+
+
+@pytest.mark.parametrize(
+    ("cases", "words"),
+    [
+        ([], "cases missing"),
+        ([{"rate": 1.0}, {"tabor": 1.0}], "all cases must replace the same numbers"),
+        ([{"speed": 1.0}], "no number 'speed'"),
+        ([{"rate": "fast"}], "fast"),
+        ([1.0], "expected rows"),
+        ({"rate": 1.0}, "expected rows"),
+    ],
+)
+def test_cases_that_say_nothing_are_refused(cases, words):
+    with pytest.raises(InputError, match=words):
+        ask("sweep", problem=REDUCED, cases=cases)
+
+
+def test_a_table_is_read_as_that_of_a_plan(case, tmp_path):
+    for text, words in (
+        ("protocol.speed\n", "a case a row below it"),
+        ("protocol.speed\n1e-5\nfast\n", "line 3: could not convert"),
+        ("protocol.speed,geometry.radius\n1e-5\n", "line 2: 1 values for 2 columns"),
+    ):
+        (tmp_path / "wrong.csv").write_text(text)
+        with pytest.raises(InputError, match=f"wrong.csv.*{words}"):
+            ask("sweep", problem=case, cases=tmp_path / "wrong.csv")
+
+
+def test_an_exponent_goes_with_what_its_coefficient_follows_from(case):
+    lens = read_case(case)
+    tip = Problem(
+        material=lens.material,
+        traction=lens.traction,
+        geometry=PowerLawProfile(coefficient=200.0, exponent=2.0),
+        protocol=lens.protocol,
+    )
+    with pytest.raises(InputError, match="another shape with every exponent"):
+        ask("sweep", problem=tip, cases=[{"geometry.exponent": 1.5}])
+
+
+def test_the_table_that_is_read_is_not_written(case, tmp_path, capsys):
+    table = tmp_path / "cases.csv"
+    assert exit_status(["sweep", case, table, "--csv", table]) == 2
+    assert "is the file that is read" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("by_file", [True, False])
+def test_a_study_states_the_same_sweep(case, tmp_path, by_file):
+    cases = tmp_path / "cases.csv" if by_file else ROWS
+    problem = case if by_file else read_case(case)
+    asked = operation("sweep").of(problem=problem, cases=cases, until="detached")
+    (tmp_path / "study.toml").write_text(study_text(asked, tmp_path))
+    found = read_study(tmp_path / "study.toml", known=operation).operation
+    assert (found.problem.problem, found.cases) == (asked.problem.problem, asked.cases)
+    assert (found.until, found.accuracy) == ("detached", asked.accuracy)
