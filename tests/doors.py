@@ -156,6 +156,9 @@ class Http:
     def __call__(self, path, **more):
         return self.loop.run_until_complete(self.client.post(path, timeout=600, **more))
 
+    def get(self, path):
+        return self.loop.run_until_complete(self.client.get(path))
+
     def close(self):
         self.loop.run_until_complete(self.client.aclose())
         self.loop.close()

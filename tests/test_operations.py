@@ -2,6 +2,8 @@
 
 import random
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -25,6 +27,7 @@ ROOT = Path(__file__).parents[1]
 FILES = [
     *(ROOT / "examples").glob("from_*/*.csv"),
     *(ROOT / "examples").glob("from_toml/*.toml"),
+    ROOT / "examples/own/plan.toml",
 ]
 SPHERE = {
     "indenter": "sphere",
@@ -44,17 +47,40 @@ PUNCH = {
     "rate": 10.0,
 }
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
-# A question of each operation that is answered soon, from which others are drawn.
+SWEEP = {"cases": [{"protocol.speed": 1e-4}], "problem": "lens.toml", "accuracy": 0.02}
+RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
+DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
+SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
+# Questions of each operation, from which others are drawn.
 ASKED = {
     "advise": [{"problem": SPHERE}, {"problem": "lens.toml"}],
-    "predict": [{"problem": SPHERE}, {"problem": PUNCH}, {"problem": "lens.toml"}],
-    "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
-    "test read": [{"files": ["lens_1_um_s.csv"]}, {"files": LENS}],
+    "campaign inputs": [{"problem": "lens.toml"}],
+    "campaign plan": [{"plan": "plan.toml"}],
     "identify slow": [{"files": ["lens_slow.csv"], "radius": "5.19 mm", "model": ["jkr"]}],
+    "material convert": [{"source": "pdms-10-1", "temperature": "0 degC"}],
+    "material export": [{"passport": "pdms-10-1", "to": "abaqus", "bulk_modulus": "2 GPa"}],
     "material list": [{}],
+    "material show": [{"passport": "pdms-10-1"}],
+    "predict": [{"problem": SPHERE}, {"problem": PUNCH}, {"problem": "lens.toml"}],
+    "schema": [{}],
+    "test read": [{"files": ["lens_1_um_s.csv"]}, {"files": LENS}],
 }
-# Drawn no more often than once: they take seconds.
-SLOW = ("identify rates", "forecast", "report", "simulate")
+# The same of those that take seconds, or need what another has written: not drawn.
+NOT_DRAWN = {
+    "campaign export": [{"folder": "study", "trajectories": True}],
+    "campaign merge": [{"folders": ["one", "two"], "out": "both"}],
+    "campaign run": [{"plan": "plan.toml", "out": "study", "workers": 2}],
+    "campaign status": [{"folder": "study"}],
+    "campaign verify": [{"folder": "study"}],
+    "edge-energy": [{"file": "lens.npz"}],
+    "forecast": [{"study": "study.toml", "speed": ["1 um/s..1 mm/s"], "preload": "1 mN"}],
+    "identify rates": [RATES],
+    "material fit": [DMA | SHIFTED],
+    "report": [{"study": "study.toml"}],
+    "show": [{"file": "lens.npz"}],
+    "simulate": [{"problem": SPHERE | {"preload": 1.0}, "accuracy": 0.02, "until": "pull-off"}],
+    "sweep": [SWEEP],
+}
 
 
 @pytest.fixture
@@ -90,7 +116,7 @@ def agree(question, found):
 
 def drawn(luck):
     """Draw an operation, its options and their values, some of them wrong."""
-    word = luck.choice([each for each in ASKED if each not in SLOW])
+    word = luck.choice(list(ASKED))
     given = dict(luck.choice(ASKED[word]))
     known = options(operation(word))
     for option in luck.sample(known, min(len(known), luck.choice([0, 1, 1, 2, 3]))):
@@ -148,3 +174,179 @@ def test_all_doors_answer_drawn_questions_alike(seed, folder, http):
     for _ in range(10):
         question = drawn(luck)
         agree(question, through_all(question, http))
+
+
+@pytest.mark.parametrize("word", ["simulate", "sweep", "material fit", "identify rates"])
+def test_all_doors_answer_what_takes_seconds_alike(word, folder, http):
+    question = Question(word, NOT_DRAWN[word][0])
+    found = through_all(question, http)
+    assert not found["Python"].refused
+    agree(question, found)
+
+
+def test_doors_that_disagree_are_seen(folder, http, monkeypatch):
+    from viscotack.app.engine.operating import Sent
+
+    question = Question("test read", {"files": ["lens_1_um_s.csv"], "compliance": "2 um/N"})
+    found = through_all(question, http)
+    agree(question, found)
+    monkeypatch.setattr(Sent, "file", lambda self, name: self.folder / "lens_30_um_s.csv")
+    with pytest.raises(AssertionError, match="HTTP"):
+        agree(question, found | {"HTTP": by_http(question, http)})
+
+
+def test_a_number_is_that_of_its_words(folder):
+    said = by_python(Question("test read", {"files": LENS, "compliance": "2 um/N"}))
+    assert (
+        said.record == by_python(Question("test read", {"files": LENS, "compliance": 2e-6})).record
+    )
+
+
+@pytest.mark.parametrize("word", list(ASKED | NOT_DRAWN))
+def test_an_operation_is_written_as_a_study_and_read_again(word, folder):
+    for given in (ASKED | NOT_DRAWN)[word]:
+        asked = take(operation(word), given, Here())
+        (folder / "sub").mkdir(exist_ok=True)
+        for place in (folder, folder / "sub"):
+            study = place / "asked.toml"
+            study.write_text(study_text(asked, place.relative_to(folder)))
+            again = read_study(study.relative_to(folder), known=operation).operation
+            assert normal(again) == normal(asked)
+
+
+def normal(asked):
+    """Return the options of an operation, with names of files as they are from here."""
+    found = {}
+    for option in options(type(asked)):
+        value = getattr(getattr(asked, option.part) if option.part else asked, option.field)
+        if isinstance(option.card, Stated):
+            value = value and value.problem
+        several = value if isinstance(value, tuple) else (value,)
+        found[option.name] = tuple(
+            os.path.normpath(each) if isinstance(each, Path | str) and each else each
+            for each in several
+        )
+    return found
+
+
+def test_every_operation_has_a_question_here():
+    assert (ASKED | NOT_DRAWN).keys() == operations().keys()
+
+
+def test_every_operation_is_known_to_every_door_or_refused_in_words():
+    app = application()
+    posts = {path for path, routes in app.openapi()["paths"].items() if "post" in routes}
+    for word, kind in operations().items():
+        path = word.replace(" ", "/")
+        if reason := kind.refused.get("http"):
+            assert len(reason.split()) > 4
+            assert f"/api/{path}" not in posts
+        else:
+            assert {f"/api/{path}", f"/api/jobs/{path}"} <= posts
+        command = [*word.split(), "case"] if word == "simulate" else word.split()
+        status, out, _ = run([*command, "--help"])
+        assert status == 0
+        flags = [o.flag for o in options(kind) if not o.card.argument]
+        flags = [f for f in flags if f != "--cases" or word != "predict"]
+        assert [flag for flag in flags if flag not in out] == []
+        # what the page draws its form of
+        assert [o["name"] for o in described(kind)["options"]] == [o.name for o in options(kind)]
+
+
+OWN = '''
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, ClassVar
+
+from viscotack.operations.declare.answer import Answer, csv_file
+from viscotack.operations.declare.cards import Choice, File, Number
+from viscotack.operations.declare.options import Operation
+
+
+@dataclass(frozen=True, kw_only=True)
+class Longest(Operation):
+    """Find the longest line of files, in units of a length.
+
+    Example: viscotack lines longest a.csv --unit-length "1 mm"
+    """
+
+    word: ClassVar = "lines longest"
+    outputs: ClassVar = (csv_file(),)
+
+    files: Annotated[tuple[Path, ...], File("Texts.", metavar="FILE...", argument=True)]
+    unit_length: Annotated[float, Number("Of a letter.", unit="m", above=0)] = 1.0
+    by: Annotated[str, Choice("What is counted.", choices=("letters", "words"))] = "letters"
+
+    def answer(self, caller):
+        lines = [line for file in self.files for line in file.read_text().splitlines()]
+        count = {"letters": len, "words": lambda line: len(line.split())}[self.by]
+        found = max(map(count, lines)) * self.unit_length
+        return Answer(
+            found,
+            record=lambda: {"longest_m": found},
+            words=lambda: f"{found:.4g} m",
+            files={"csv": lambda target: target.write(b"1")},
+        )
+'''
+
+
+def test_an_operation_in_a_file_of_its_own_is_known_to_every_door(folder, tmp_path, monkeypatch):
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "longest.py").write_text(OWN)
+    monkeypatch.setattr(
+        viscotack.operations, "__path__", [*viscotack.operations.__path__, str(mine)]
+    )
+    caches = (operations, cli.application, cli.command)
+    for each in caches:
+        each.cache_clear()
+    try:
+        http = Http()
+        for given, expected in (
+            ({"files": ["lens_1_um_s.csv"]}, 58.0),
+            ({"files": LENS, "unit_length": "2 mm", "by": "words"}, 0.016),
+        ):
+            found = through_all(Question("lines longest", given), http)
+            agree(given, found)
+            assert len(found) == 5
+            assert found["Python"].record["longest_m"] == pytest.approx(expected, rel=0.5)
+        wrong = Question("lines longest", {"files": ["lens_1_um_s.csv"], "unit_length": "-1 mm"})
+        found = through_all(wrong, http)
+        agree(wrong, found)
+        assert "unit_length" in found["Python"].refused
+        known = http.get("/api/operations").json()["operations"]
+        assert "lines longest" in [one["word"] for one in known]
+        http.close()
+    finally:
+        monkeypatch.undo()
+        for each in caches:
+            each.cache_clear()
+
+
+def test_operations_of_ones_own_are_found_by_the_environment(tmp_path):
+    (tmp_path / "longest.py").write_text(OWN)
+    environment = os.environ | {"VISCOTACK_OPERATIONS": str(tmp_path)}
+    text = tmp_path / "a.txt"
+    text.write_text("ab\n")
+    command = [sys.executable, "-m", "viscotack", "lines", "longest", str(text)]
+    told = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert told.stdout == "2 m\n"
+
+
+def test_what_is_declared_wrongly_is_found_when_it_is_read():
+    @dataclasses.dataclass(frozen=True)
+    class Bare(viscotack.operations.Operation):
+        radius: float
+
+    with pytest.raises(TypeError, match="Bare.radius has no card"):
+        options(Bare)
+
+
+def test_a_misspelt_option_is_refused_with_the_nearest_name(folder):
+    with pytest.raises(InputError, match="no option 'radious'; perhaps radius is meant"):
+        ask("identify rates", files=LENS, material="pdms-10-1", radious="5 mm")
+
+
+def test_an_operation_that_does_not_exist_is_refused_with_those_that_do():
+    with pytest.raises(InputError, match="there is no operation 'predikt'; there are advise"):
+        ask("predikt")

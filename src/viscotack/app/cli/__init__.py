@@ -32,7 +32,7 @@ def application() -> Any:
 
 
 @lru_cache(maxsize=1)
-def _command() -> Any:
+def command() -> Any:
     """Return the command that the library of the command line makes of the application."""
     from typer.main import get_command
 
@@ -41,4 +41,4 @@ def _command() -> Any:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line with these arguments, or with those of the process."""
-    _command()(None if arguments is None else list(arguments), prog_name="viscotack")
+    command()(None if arguments is None else list(arguments), prog_name="viscotack")
