@@ -95,6 +95,9 @@ def arguments(question):
         if option.name not in question.given:
             continue
         value = question.given[option.name]
+        if option.card.form == "rows":
+            write_rows(value)
+            value = "rows.csv"
         if isinstance(option.card, Stated):
             command, stated = problem_flags(option.card, value)
             word, flags = [*word, *command], [*flags, *stated]
@@ -114,6 +117,12 @@ def arguments(question):
     for name in unknown:
         flags += [f"--{name.replace('_', '-')}", question.given[name]]
     return [*word, *flags, "--json", *(["--"] if places else []), *places]
+
+
+def write_rows(rows):
+    """Write rows as the table that the command line takes in their place."""
+    lines = [",".join(rows[0]), *(",".join(map(repr, row.values())) for row in rows)]
+    Path("rows.csv").write_text("\n".join(lines) + "\n")
 
 
 def problem_flags(card, value):

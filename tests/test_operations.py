@@ -1,5 +1,7 @@
 """Operations: declared once, and answered alike by every door."""
 
+import dataclasses
+import os
 import random
 import shutil
 import subprocess
@@ -8,8 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from doors import OF_THE_SHELL, Http, Question, through_all
-from viscotack.operations import operation
+import viscotack.operations
+from doors import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
+from viscotack.app import cli
+from viscotack.app.api import application
+from viscotack.errors import InputError
+from viscotack.operations import ask, operation, operations
 from viscotack.operations.declare.cards import (
     Choice,
     File,
@@ -20,8 +26,10 @@ from viscotack.operations.declare.cards import (
     Switch,
     Whole,
 )
-from viscotack.operations.declare.options import options
+from viscotack.operations.declare.description import described
+from viscotack.operations.declare.options import Here, options, take
 from viscotack.operations.declare.statement import Stated
+from viscotack.operations.declare.study import read_study, study_text
 
 ROOT = Path(__file__).parents[1]
 FILES = [
