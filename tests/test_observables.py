@@ -380,6 +380,25 @@ def test_a_force_that_relaxes_behind_a_spring_that_stops_is_no_pull_off():
     assert pull_off(replace(result, move=[0] * 6)).force == pytest.approx(3.0, abs=0.1)
 
 
+@pytest.mark.parametrize("steps_left", [1, 4])
+def test_the_edge_of_a_punch_that_runs_out_soon_is_not_interpolated_by_a_line(steps_left):
+    punch = vt.PunchGroups(
+        size=60.0,
+        thickness=3.0,
+        cohesion=0.05,
+        material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        start=vt.AtDepth(1.0),
+        rate=1.0,
+    )
+    x, lowest = np.arange(16.0), 6.4
+    end = 6.2 + steps_left
+    # the travel is a parabola of the place, which a cubic has exactly
+    edge = np.where(x < end, np.sqrt(np.maximum(end - x, 0.0)), np.nan)
+    result = plain(-x, (x - lowest) ** 2 - 50.0, problem=punch, contact_radius=edge)
+    exact = np.sqrt(end - lowest)
+    assert pull_off(result).contact_radius == pytest.approx(exact, rel=1e-9, abs=0)
+
+
 def test_moves_that_do_not_fit_the_steps_are_refused():
     for move in ([0], np.arange(7)[::-1]):
         with pytest.raises(ValueError, match="as many as its steps, and ascend"):
