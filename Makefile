@@ -50,11 +50,14 @@ lint: $(VENV)/.installed
 types: $(VENV)/.installed
 	$(BIN)/pyright
 
-# SEED draws which; a log keeps what was judged, so that it may be stopped.
+# Draws COUNT mutants with SEED, of ROOMS if they are given (ROOMS=bem,theory), one to four minutes each; a
+# log keeps the verdicts, so that it may be stopped.
 SEED ?= 1
+COUNT ?= 40
 mutants: $(VENV)/.installed
 	$(INSTALL) --editable ".[mutants]"
-	$(BIN)/python benchmarks/mutants.py --seed $(SEED) --log out/mutants-$(SEED).jsonl
+	$(BIN)/python benchmarks/mutants.py --seed $(SEED) --count $(COUNT) $(ROOMS:%=--rooms %) \
+		--log out/mutants-$(SEED).jsonl
 
 # Relations that need no reference, between answers to random problems: CHECKS of them or what fits in
 # MINUTES; 80 to 100 a minute of one quiet core. Ends with 1 where one does not hold; what was stopped

@@ -1,20 +1,27 @@
-"""Do tests notice? `python benchmarks/mutants.py --seed 22 --count 40 --log FILE`.
+"""Do tests notice? `python benchmarks/mutants.py --rooms bem,theory --seed 33 --log FILE`.
 
-Mutants of the campaign are drawn with a seed, each is put in a copy of the repository, and the
-campaign's tests are run on it. cosmic-ray (`pip install -e ".[mutants]"`) says which mutants there
-are. Places are drawn first, and then one mutation of each: what can be mutated in many ways, such
-as an arithmetic operator, is no likelier than a comparison. Annotations are no places. A mutant is
-killed when a test fails, also one that would never end. With a log the run goes on where it was.
+Mutants are drawn with a seed, an equal share from each room. Each is put in a copy of the
+repository, and the tests nearest to its module (`judges.py`) are run on it until one fails: the
+doctests of the module first, tests marked slow last. cosmic-ray (`pip install -e ".[mutants]"`)
+enumerates the mutations. Places are drawn first, and then one mutation of each, so that an
+arithmetic operator, which can be mutated in many ways, is no likelier than a comparison.
+Annotations are excluded.
+
+A mutant is killed if a test that passes without it fails or hangs with it. It survives if no test
+fails before the budget of processor time is spent. With a log, a run that was stopped continues
+where it was. `--again LOG` judges the mutants of a log with the tests of today: a mutant is found
+by the name of its module, wherever that stands now, the function around it and the text of the
+line.
 """
 
 from __future__ import annotations
 
 import argparse
 import ast
-import difflib
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -23,78 +30,127 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
-PACKAGE = Path("src/viscotack/campaign")
-COPIED = ("src", "tests", "benchmarks", "docs", "examples", "pyproject.toml")
-# Seconds after which a test is taken for hung, and all tests of a mutant are; undisturbed the
-# longest takes a third of it.
-LIMIT_OF_A_TEST, LIMIT = 90.0, 600.0
-# What a process of the tests may have [bytes]: mutants of limits fill memory and disk.
-MOST_MEMORY, MOST_FILE = 12 << 30, 1 << 30
-# Processes of a mutant are known by this name in their environment, and ended after it.
-MARK = "VISCOTACK_MUTANT"
+from judges import Judges
 
-# What judges a module: the tests that a change there must fail, the nearest first.
-JUDGES = {
-    "case": ("case", "run", "supervisor"),
-    "cases": ("store", "plan", "sharing", "run", "trust"),
-    "cluster": ("crew", "cluster", "run"),
-    "columns": ("plan", "inputs"),
-    "crew": ("crew", "run", "supervisor"),
-    "design": ("plan", "inputs"),
-    "exporting": ("store", "commands", "trust"),
-    "identity": ("case", "sharing", "supervisor"),
-    "inputs": ("inputs", "plan"),
-    "listed": ("plan", "sharing"),
-    "memory": ("supervisor", "case"),
-    "ordering": ("store", "sharing", "trust"),
-    "own": ("trust",),
-    "parts": ("store", "trust", "run"),
-    "plan": ("plan", "inputs", "commands"),
-    "provenance": ("trust", "store"),
-    "running": ("run", "trust", "supervisor"),
-    "sharing": ("sharing",),
-    "standing": ("run", "store", "commands"),
-    "store": ("store", "trust", "sharing", "run", "commands"),
-    "supervisor": ("supervisor", "run"),
-    "verifying": ("trust", "sharing"),
-    "worker": ("supervisor", "run"),
-}
-# Those that read what version 0.1 wrote.
-OLDER = {"parts.py", "provenance.py", "store.py"}
+ROOT = Path(__file__).parents[1]
+PACKAGE = Path("src/viscotack")
+ROOMS = ("bem", "methods", "theory", "problem", "result", "campaign")
+NOT_COPIED = (".git", ".venv", "out", "build", "dist", "__pycache__")
+# Test files that judge a module.
+NEAREST = 12
+# Wall time after which a test, and a whole run, are taken to hang [s]. They end tests that wait;
+# those that compute have limits of processor time (`budget.py`), which a busy machine spares.
+LONGEST_WAIT, LONGEST_RUN = 600.0, 3600.0
+# Memory of a process and size of a file [bytes]: mutants of limits fill memory and disk.
+MOST_MEMORY, MOST_FILE = 12 << 30, 1 << 30
+# Processes of a run carry this name in their environment, and are ended after it.
+MARK = "VISCOTACK_MUTANT"
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A mutation at a place of a module; lines and columns as parsers count them."""
+    """Lines of a module that are replaced by others.
+
+    They are the occurrence with number `nth` of `before` in the function or class `scope`.
+    """
 
     module: str
+    scope: str
+    nth: int
     operator: str
-    occurrence: int
-    begin: tuple[int, int]
-    end: tuple[int, int]
+    before: tuple[str, ...]
+    after: tuple[str, ...]
 
-    def applied(self, source: str) -> str:
-        """Return the module with it."""
-        from cosmic_ray.mutating import mutate_code
-        from cosmic_ray.plugins import get_operator
+    @classmethod
+    def between(cls, module: str, operator: str, source: str, changed: str) -> Mutant:
+        """Compare the text of a module without and with a mutation."""
+        old, new = source.splitlines(), changed.splitlines()
+        least = min(len(old), len(new))
+        first = next((i for i in range(least) if old[i] != new[i]), least)
+        same = (i for i in range(least - first) if old[-1 - i] != new[-1 - i])
+        last = next(same, least - first)
+        before, after = tuple(old[first : len(old) - last]), tuple(new[first : len(new) - last])
+        scope = scope_of(source, first)
+        nth = in_scope(source, before, scope).index(first)
+        return cls(module, scope, nth, operator, before, after)
 
-        changed = mutate_code(source, get_operator(self.operator)(), self.occurrence)
-        assert changed is not None and changed != source
-        return changed
+    @classmethod
+    def of(cls, record: dict[str, Any]) -> Mutant:
+        """Read a mutant from a line of a log."""
+        known = {field.name: record[field.name] for field in fields(cls)}
+        return cls(**known | {key: tuple(known[key]) for key in ("before", "after")})
+
+    def found(self, package: Path) -> tuple[Path, int] | None:
+        """Find module and first line, counted from 0, of the lines in the code of today."""
+        same_name = package.rglob(Path(self.module).name)
+        for path in sorted(same_name, key=lambda path: path != package / self.module):
+            source = path.read_text()
+            inside = in_scope(source, self.before, self.scope)
+            if self.nth < len(inside):
+                return path, inside[self.nth]
+            if len(everywhere := occurrences(source, self.before)) == 1:
+                return path, everywhere[0]
+        return None
+
+    def applied(self, source: str, first: int) -> str:
+        """Apply the mutant to the text of its module."""
+        lines = source.splitlines()
+        lines[first : first + len(self.before)] = self.after
+        return "\n".join(lines) + "\n"
 
 
-def mutants(path: Path) -> Iterator[Mutant]:
-    """Yield all mutants of a module."""
+def occurrences(source: str, block: tuple[str, ...]) -> list[int]:
+    """Find the first lines, counted from 0, of all occurrences of a block of lines."""
+    lines = tuple(source.splitlines())
+    return [i for i in range(len(lines)) if lines[i : i + len(block)] == block]
+
+
+def in_scope(source: str, block: tuple[str, ...], scope: str) -> list[int]:
+    """Find the first lines of the occurrences of a block in one function or class."""
+    return [first for first in occurrences(source, block) if scope_of(source, first) == scope]
+
+
+def scope_of(source: str, line: int) -> str:
+    """Name the function or class around a line, counted from 0; "" for the module."""
+    around = [
+        (node.lineno, node.name)
+        for node in ast.walk(ast.parse(source))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
+        and min([node.lineno, *(x.lineno for x in node.decorator_list)]) <= line + 1
+        and line + 1 <= (node.end_lineno or 0)
+    ]
+    return ".".join(name for _, name in sorted(around))
+
+
+# Drawing. -----------------------------------------------------------------------------------------
+
+
+def drawn(package: Path, rooms: list[str], seed: int, count: int) -> list[Mutant]:
+    """Draw mutants at different places, an equal share from each room."""
+    found = []
+    for index, room in enumerate(rooms):
+        chance = random.Random(f"{seed} {room}")
+        places: dict[tuple[str, tuple[int, int]], list[tuple[str, int]]] = {}
+        for path in sorted((package / room).rglob("*.py")):
+            for begin, operator, occurrence in mutations(path.read_text()):
+                name = path.relative_to(package).as_posix()
+                places.setdefault((name, begin), []).append((operator, occurrence))
+        share = count // len(rooms) + (index < count % len(rooms))
+        for place in chance.sample(sorted(places), share):
+            found.append(mutated(package, place[0], *chance.choice(places[place])))
+    return found
+
+
+def mutations(source: str) -> Iterator[tuple[tuple[int, int], str, int]]:
+    """Yield place, operator and occurrence of all mutations of a module."""
     from cosmic_ray.ast import ast_nodes, get_ast
     from cosmic_ray.plugins import get_operator, operator_names
 
-    source = path.read_text()
     annotated = list(annotations(source))
     nodes = list(ast_nodes(get_ast(source)))
     for name in operator_names():
@@ -104,11 +160,11 @@ def mutants(path: Path) -> Iterator[Mutant]:
         found = (place for node in nodes for place in operator().mutation_positions(node))
         for occurrence, (begin, end) in enumerate(found):
             if not any(first <= begin and end <= last for first, last in annotated):
-                yield Mutant(path.name, name, occurrence, begin, end)
+                yield begin, name, occurrence
 
 
 def annotations(source: str) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
-    """Yield where annotations begin and end: what they say, nothing does."""
+    """Yield first and last place of annotations, which change nothing."""
     for node in ast.walk(ast.parse(source)):
         for name in ("annotation", "returns"):
             found = getattr(node, name, None)
@@ -118,57 +174,105 @@ def annotations(source: str) -> Iterator[tuple[tuple[int, int], tuple[int, int]]
                 yield begin, (found.end_lineno, found.end_col_offset)
 
 
-def drawn(folder: Path, seed: int, count: int) -> list[Mutant]:
-    """Return so many mutants at different places of a package."""
-    places: dict[tuple[str, tuple[int, int]], list[Mutant]] = {}
-    for path in sorted(folder.glob("*.py")):
-        for mutant in mutants(path):
-            places.setdefault((mutant.module, mutant.begin), []).append(mutant)
-    chance = random.Random(seed)
-    return [chance.choice(places[place]) for place in chance.sample(sorted(places), count)]
+def mutated(package: Path, module: str, operator: str, occurrence: int) -> Mutant:
+    """Make the mutant of one mutation of a module."""
+    from cosmic_ray.mutating import mutate_code
+    from cosmic_ray.plugins import get_operator
+
+    source = (package / module).read_text()
+    changed = mutate_code(source, get_operator(operator)(), occurrence)
+    assert changed is not None and changed != source
+    return Mutant.between(module, operator.removeprefix("core/"), source, changed)
 
 
-def tests_for(module: str) -> list[str]:
-    """Return what judges a module, its own examples first."""
-    # the last is of all modules: what they state is frozen
-    judges = dict.fromkeys((*JUDGES[module.removesuffix(".py")], "case"))
-    suites = (f"tests/test_campaign_{suite}.py" for suite in judges)
-    of_older_versions = ["tests/test_saved_by_0_1.py"] if module in OLDER else []
-    return [f"{PACKAGE}/{module}", *suites, *of_older_versions]
+# Judging. -----------------------------------------------------------------------------------------
 
 
-def run_tests(copy: Path, tests: list[str]) -> tuple[bool, str]:
-    """Return whether all tests pass, and the first words on one that does not."""
-    command = [sys.executable, "-m", "pytest", "-x", "-v", "-p", "no:cacheprovider", "--tb=line"]
-    command += ["-o", f"faulthandler_timeout={LIMIT_OF_A_TEST:g}"]
-    command += ["-o", "faulthandler_exit_on_timeout=true"]
-    mark = f"{os.getpid()}-{perf_counter()}"
-    environment = os.environ | {"PYTHONPATH": str(copy / "src"), MARK: mark}
-    environment |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
-    process = subprocess.Popen(
-        [*command, "-m", "not slow and not outside", *tests],
-        cwd=copy,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        preexec_fn=limited,
-        start_new_session=True,
-    )
-    try:
-        words = process.communicate(timeout=LIMIT)[0]
-    except subprocess.TimeoutExpired:
-        words = f"FAILED by hanging for {LIMIT:g} s"
-    end_all(mark, process.pid)
-    process.wait()
-    lines = words.splitlines()
-    failed = [line for line in lines if line.startswith(("FAILED", "ERROR"))]
-    hung = [line for line in lines if line.startswith("tests/") and "PASSED" not in line]
-    return process.returncode == 0, next(iter(failed + hung), "\n".join(lines[-1:]))
+@dataclass
+class Bench:
+    """A copy of the repository in which mutants are judged.
+
+    Tests that fail there without a mutant are collected in `broken` and left out.
+    """
+
+    copy: Path
+    budget: float
+    broken: list[str]
+
+    def judged(self, mutant: Mutant) -> dict[str, Any]:
+        """Judge a mutant: the verdict, the test that killed it and the wall time [s]."""
+        began = perf_counter()
+        place = mutant.found(self.copy / PACKAGE)
+        verdict, by = ("gone", "") if place is None else self._verdict(mutant, *place)
+        facts = {"verdict": verdict, "by": by, "seconds": round(perf_counter() - began, 1)}
+        return asdict(mutant) | facts
+
+    def _verdict(self, mutant: Mutant, path: Path, first: int) -> tuple[str, str]:
+        nearest = Judges(self.copy).of(path)[:NEAREST]
+        tests = [str(test) for test in (path.relative_to(self.copy), *nearest)]
+        source = path.read_text()
+        while True:
+            path.write_text(mutant.applied(source, first))
+            try:
+                failed, words = self._run(tests)
+            finally:
+                path.write_text(source)
+            if not failed:
+                return "survived", words
+            if not self._run([failed])[0]:
+                return "killed", words
+            assert failed not in self.broken, f"a file of tests fails without a mutant: {words}"
+            self.broken.append(failed)
+
+    def _run(self, tests: list[str]) -> tuple[str, str]:
+        """Run tests until one fails: its name, or "", and the last words of pytest."""
+        command = [sys.executable, "-m", "pytest", "-x", "-v", "-p", "no:cacheprovider"]
+        command += ["-p", "budget", f"--budget={self.budget:g}", "--tb=line", "-m", "not outside"]
+        command += ["-o", f"faulthandler_timeout={LONGEST_WAIT:g}"]
+        command += ["-o", "faulthandler_exit_on_timeout=true"]
+        command += [f"--deselect={test}" for test in self.broken]
+        mark = f"{os.getpid()}-{perf_counter()}"
+        paths = os.pathsep.join(str(self.copy / part) for part in ("src", "benchmarks"))
+        environment = os.environ | {"PYTHONPATH": paths, "PYTHONUNBUFFERED": "1", MARK: mark}
+        environment |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+        # a file: the end of a pipe would wait for all processes that a test has left
+        with tempfile.TemporaryFile("w+") as output:
+            process = subprocess.Popen(
+                [*command, *tests],
+                cwd=self.copy,
+                env=environment,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                preexec_fn=limited,
+                start_new_session=True,
+            )
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(LONGEST_RUN)
+            end_all(mark, process.pid)
+            code = process.wait()
+            output.seek(0)
+            return outcome(output.read(), code)
+
+
+def outcome(output: str, code: int) -> tuple[str, str]:
+    """Read the name of the test that failed or hung, or "", and the line on it."""
+    lines = output.splitlines()
+    if code == 0:
+        return "", lines[-1].strip("= ")
+    summary = next((line for line in lines if line.startswith(("FAILED ", "ERROR "))), "")
+    for line in lines:
+        if ended := re.fullmatch(r"(.+::.+) (?:FAILED|ERROR) +\[ *\d+%\]", line):
+            return ended[1], summary
+    if summary:  # a file that cannot be imported
+        return summary.split()[1], summary
+    # a line of a test that has ended ends with the share of tests that have, as in [ 12%]
+    running = [line for line in lines if "::" in line and not re.search(r"\[ *\d+%\]$", line)]
+    name = running[-1].strip() if running else "unknown"
+    return name, f"HUNG {name}"
 
 
 def limited() -> None:
-    """Let this process take no more than there is."""
+    """Limit memory and size of files of this process."""
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, resource.RLIM_INFINITY))
     resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_FILE, resource.RLIM_INFINITY))
 
@@ -184,65 +288,64 @@ def end_all(mark: str, group: int) -> None:
                 os.kill(int(path.parent.name), signal.SIGKILL)
 
 
-def judged(copy: Path, mutant: Mutant) -> dict[str, Any]:
-    """Return what becomes of a mutant."""
-    path = copy / PACKAGE / mutant.module
-    source = path.read_text()
-    changed = mutant.applied(source)
-    began = perf_counter()
-    path.write_text(changed)
-    try:
-        survived, words = run_tests(copy, tests_for(mutant.module))
-    finally:
-        path.write_text(source)
-    before, after = source.splitlines(), changed.splitlines()
-    lines = difflib.unified_diff(before, after, lineterm="", n=0)
-    said = [line for line in lines if line[:1] in "+-" and line[:3] not in ("+++", "---")]
-    facts = {"survived": survived, "by": words, "diff": said}
-    return asdict(mutant) | facts | {"seconds": round(perf_counter() - began, 1)}
+def show(record: dict[str, Any]) -> None:
+    """Print a verdict and the lines of its mutant."""
+    word = record["verdict"]
+    word = word if word == "killed" else word.upper()
+    print(f"{word:8} {record['module']}, {record['scope'] or 'module'}: {record['operator']}")
+    print(f"         {record['seconds']:.0f} s  {record['by']}")
+    for sign, lines in (("-", record["before"]), ("+", record["after"])):
+        for line in lines:
+            print(f"         {sign}{line}", flush=True)
+
+
+def records(log: Path | None) -> list[dict[str, Any]]:
+    """Read the verdicts in a log, none if it does not exist."""
+    if log is None or not log.exists():
+        return []
+    return [json.loads(line) for line in log.read_text().splitlines()]
 
 
 def main() -> None:
     """Draw, judge and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--seed", type=int, required=True)
+    source = parser.add_mutually_exclusive_group(required=True)
+    source.add_argument("--seed", type=int, help="draw with this seed")
+    source.add_argument("--again", type=Path, help="judge the mutants of this log once more")
+    parser.add_argument("--rooms", default=",".join(ROOMS), help="rooms to draw from")
     parser.add_argument("--count", type=int, default=40)
-    parser.add_argument("--log", type=Path, help="what was judged is kept there, a line each")
+    parser.add_argument("--budget", type=float, default=100.0, help="processor time a mutant [s]")
+    parser.add_argument("--log", type=Path, help="file of the verdicts, a line each")
     parser.add_argument("--list", action="store_true", help="draw and show only")
     chosen = parser.parse_args()
-    found = drawn(ROOT / PACKAGE, chosen.seed, chosen.count)
+    if chosen.again:
+        wanted = [Mutant.of(record) for record in records(chosen.again)]
+    else:
+        rooms = chosen.rooms.split(",")
+        if unknown := [room for room in rooms if not (ROOT / PACKAGE / room).is_dir()]:
+            parser.error(f"no room {', '.join(unknown)} in {PACKAGE}")
+        wanted = drawn(ROOT / PACKAGE, rooms, chosen.seed, chosen.count)
     if chosen.list:
-        for mutant in found:
-            print(f"{mutant.module}:{mutant.begin[0]}: {mutant.operator.removeprefix('core/')}")
+        for mutant in wanted:
+            show(asdict(mutant) | {"verdict": "drawn", "by": "", "seconds": 0.0})
         return
-    known: list[dict[str, Any]] = []
-    if chosen.log and chosen.log.exists():
-        known = [json.loads(line) for line in chosen.log.read_text().splitlines()]
-    asked = [(one.module, list(one.begin), one.operator) for one in found]
-    judged_before = [(one["module"], one["begin"], one["operator"]) for one in known]
-    assert asked[: len(known)] == judged_before, "the log is of other mutants; give another --log"
+    known = records(chosen.log)
+    judged_before = [Mutant.of(record) for record in known]
+    assert set(judged_before) <= set(wanted), "the log has other mutants; give another --log"
     with tempfile.TemporaryDirectory(prefix="mutants-") as name:
-        copy = Path(name)
-        for part in COPIED:
-            whole = shutil.copytree if (ROOT / part).is_dir() else shutil.copy
-            whole(ROOT / part, copy / part)
-        if chosen.log:
-            chosen.log.parent.mkdir(parents=True, exist_ok=True)
-        if not known:
-            passed, words = run_tests(copy, tests_for("running.py"))
-            assert passed, f"the tests fail without any mutant: {words}"
-        for mutant in found[len(known) :]:
-            known.append(judged(copy, mutant))
+        copy = Path(name) / "copy"
+        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(*NOT_COPIED))
+        bench = Bench(copy, chosen.budget, [])
+        for mutant in wanted:
+            if mutant in judged_before:
+                continue
+            known.append(bench.judged(mutant))
+            show(known[-1])
             if chosen.log:
+                chosen.log.parent.mkdir(parents=True, exist_ok=True)
                 with chosen.log.open("a") as log:
                     log.write(json.dumps(known[-1]) + "\n")
-            last = known[-1]
-            word = "SURVIVED" if last["survived"] else "killed"
-            where = f"{last['module']}:{last['begin'][0]}"
-            print(f"{word:8} {where:18} {last['seconds']:5.0f} s  {last['by']}", flush=True)
-            for line in last["diff"]:
-                print(f"         {line}", flush=True)
-    killed = sum(not one["survived"] for one in known)
+    killed = sum(record["verdict"] == "killed" for record in known)
     print(f"{killed} of {len(known)} mutants killed")
 
 

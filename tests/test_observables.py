@@ -368,6 +368,37 @@ def test_a_held_force_is_no_pull_off_however_round_off_lets_it_tremble():
             pull_off(plain(-np.arange(7.0), force, **parts))
 
 
+def test_a_force_that_relaxes_behind_a_spring_that_stops_is_no_pull_off():
+    pull = vt.Retract(1.0, vt.AtDepth(-3.0))
+    groups = replace(GROUPS, rate=None, stiffness=2.0, moves=(pull, vt.Dwell(9.0)))
+    # the spring shortens while the machine waits, so the contact goes on opening
+    depth, force = -np.array([0.0, 1.0, 2.0, 3.0, 3.2, 3.3]), -np.array([0.0, 1, 2, 3, 2.5, 2.2])
+    result = plain(depth, force, problem=groups, move=[0, 0, 0, 0, 1, 1])
+    with pytest.raises(ValueError, match="least where the machine turned or stopped"):
+        pull_off(result)
+    # in one move the same force is
+    assert pull_off(replace(result, move=[0] * 6)).force == pytest.approx(3.0, abs=0.1)
+
+
+@pytest.mark.parametrize("steps_left", [1, 4])
+def test_the_edge_of_a_punch_that_runs_out_soon_is_not_interpolated_by_a_line(steps_left):
+    punch = vt.PunchGroups(
+        size=60.0,
+        thickness=3.0,
+        cohesion=0.05,
+        material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        start=vt.AtDepth(1.0),
+        rate=1.0,
+    )
+    x, lowest = np.arange(16.0), 6.4
+    end = 6.2 + steps_left
+    # the travel is a parabola of the place, which a cubic has exactly
+    edge = np.where(x < end, np.sqrt(np.maximum(end - x, 0.0)), np.nan)
+    result = plain(-x, (x - lowest) ** 2 - 50.0, problem=punch, contact_radius=edge)
+    exact = np.sqrt(end - lowest)
+    assert pull_off(result).contact_radius == pytest.approx(exact, rel=1e-9, abs=0)
+
+
 def test_moves_that_do_not_fit_the_steps_are_refused():
     for move in ([0], np.arange(7)[::-1]):
         with pytest.raises(ValueError, match="as many as its steps, and ascend"):

@@ -4,6 +4,7 @@ The peer is the march in the frame of the solid, whose steps are a part of a zon
 """
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from scipy.interpolate import CubicSpline
 from viscotack.bem import Settings, march
 from viscotack.bem.frame import Passage, Way, along, farthest, widths
 from viscotack.bem.memory import Memory, step
+from viscotack.bem.remesh import opening
 from viscotack.materials import Elastic, Modes, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups
@@ -59,6 +61,19 @@ def passage(travel, dt, e0):
 
 
 # --- identities -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("slope", "expected"), [(0.5, 2.0), (0.2, 5.0), (0.01, 7.0)])
+def test_an_opening_is_interpolated_or_that_of_the_zone(slope, expected):
+    # the gap grows by a range of 1 over 1/slope; the last node lies 6 behind the edge
+    x = np.array([0.0, 1.0, 2.0, 3.5, 8.0])
+    state = SimpleNamespace(
+        gap=0.3 + slope * (x - 2.0),
+        surface=SimpleNamespace(position=x),
+        seen=SimpleNamespace(edge=2.0),
+    )
+    law = SimpleNamespace(edge_gap=0.3)
+    assert opening(state, SimpleNamespace(law=law, span=1.0, zone=7.0)) == pytest.approx(expected)
 
 
 def test_without_travel_a_passage_is_the_step_of_the_solid():
