@@ -38,6 +38,16 @@ export class Operations {
     attached.multiple = true;
     attached.id = label.htmlFor = "operation-attached";
     row.append(label, attached);
+    // some answers have no curve to write: what is not asked for is not missed
+    this.outputs = operation.outputs.map(({ name, words }) => {
+      const box = element("input", ""), said = element("label", "", `with the ${name}`), line = element("div", "field");
+      box.type = "checkbox";
+      box.id = said.htmlFor = `operation-with-${name}`;
+      box.title = words;
+      line.append(said, box);
+      this.form.append(line);
+      return { name, box };
+    });
     const go = button("Ask", () => this.ask(attached.files));
     go.id = "operation-ask";
     this.form.append(row, go);
@@ -47,7 +57,8 @@ export class Operations {
   async ask(files) {
     const { operation } = this, body = this.fields.fill(new FormData());
     for (const file of files) body.append("attached", file);
-    for (const name of ["words", ...operation.outputs.map((output) => output.name)]) body.append("outputs", name);
+    body.append("outputs", "words");
+    for (const { name, box } of this.outputs) if (box.checked) body.append("outputs", name);
     const bar = element("progress", ""), going = element("div", "row");
     bar.setAttribute("aria-label", "How far it is");
     going.append(bar);
