@@ -1,0 +1,207 @@
+"""Materials as operations: every door takes what the command line takes."""
+
+import json
+from functools import partial
+
+import numpy as np
+import pytest
+
+from command_line import exit_status
+from viscotack.app.engine.operating import run_operation
+from viscotack.errors import InputError
+from viscotack.lab.fitting import MODELS
+from viscotack.materials import StandardSolid, read_passport, write_passport
+from viscotack.materials.exchange import CODES
+from viscotack.materials.library import published
+from viscotack.operations import ask, operation
+from viscotack.operations.declare.study import read_study, study_text
+
+OPTIONS = {
+    "poisson_ratio": 0.45,
+    "model": "sls",
+    "rubbery_modulus": "1 MPa",
+    "loss": False,
+    "level": 0.8,
+    "name": "a rubber",
+    "source": "nobody",
+    "kind": "E",
+    "temperature_unit": "degC",
+    "modulus_unit": "MPa",
+    "reference_temperature": "-30 degC",
+    "shift_by": "storage",
+    "vertical": "6e-4 1/K",
+    "leave_out": ["-20 degC"],
+}
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    """Make a folder with a DMA at three temperatures that does not say its units."""
+    folder = tmp_path_factory.mktemp("lab")
+    solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.3, poisson_ratio=0.45)
+    rows = ["f,T,storage modulus,loss modulus", "Hz,,,"]
+    for celsius, shift in ((-40, 1.0), (-30, 0.0), (-20, -0.8)):
+        for f in np.geomspace(0.05, 50, 8):
+            E = solid.complex_modulus(2 * np.pi * f * 10**shift) / 1e6
+            rows.append(f"{f:.8g},{celsius},{E.real:.8g},{E.imag:.8g}")
+    (folder / "dma.csv").write_text("\n".join(rows) + "\n")
+    (folder / "shifts.csv").write_text("T,log_aT\nC,\n-40,1\n-30,0\n-20,-0.8\n")
+    write_passport(published("pdms-10-1"), folder / "pdms.toml")
+    return folder
+
+
+def flags(options):
+    """Return options as the command line spells them."""
+    for name, value in options.items():
+        if value is False:
+            yield f"--no-{name}"
+            continue
+        for each in value if isinstance(value, list) else [value]:
+            yield from (f"--{name.replace('_', '-')}", each)
+
+
+def asked(word, folder, given, outputs=()):
+    """Return what a worker process answers to a request with all files of a folder."""
+    files = sorted(str(path) for path in folder.iterdir())
+    request = {"operation": word, "given": given, "outputs": outputs, "files": files}
+    return run_operation(request, lambda told: None, ())
+
+
+def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(lab)
+    assert exit_status(["material", "fit", "dma.csv", *flags(OPTIONS), "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["evidence"]["level"] == 0.8 and len(printed["shift"]["values"]) == 2
+    given = OPTIONS | {"files": ["dma.csv"]}
+    assert json.loads(json.dumps(ask("material fit", **given).record())) == printed
+    answer = asked("material fit", lab, given, ["drawn", "output"])
+    beside = answer.pop("beside")
+    assert answer == printed
+    assert beside["files"]["output"] == beside["drawn"]["passport"]
+
+
+@pytest.mark.parametrize(
+    ("word", "given"),
+    [
+        (
+            "material fit",
+            {"files": ["a.csv", "b.csv"], **OPTIONS, "temperature_in_name": True, "arms": None},
+        ),
+        (
+            "material fit",
+            {
+                "files": ["a.csv"],
+                "poisson_ratio": "0.5",
+                "reference_temperature": "20 degC",
+                "wlf": "8.86,101.6 K",
+                "test": "creep",
+                "decimal": ",",
+            },
+        ),
+        (
+            "material fit",
+            {
+                "files": ["a.csv"],
+                "poisson_ratio": 0.5,
+                "reference_temperature": 293.15,
+                "shift_file": "shifts.csv",
+            },
+        ),
+        ("material show", {"passport": "pdms-10-1"}),
+        (
+            "material convert",
+            {"source": "pdms-10-1", "prony": True, "frequencies": "1 mHz,1 MHz"},
+        ),
+        (
+            "material convert",
+            {
+                "source": "card.inp",
+                "code": "abaqus",
+                "pressure_unit": "MPa",
+                "time_unit": "s",
+                "temperature": "0 degC",
+            },
+        ),
+        (
+            "material export",
+            {
+                "passport": "pdms-10-1",
+                "to": "ansys",
+                "frequencies": "0.1 rad/s,3 kHz",
+                "tolerance": 1e-3,
+                "bulk_modulus": "2 GPa",
+            },
+        ),
+        ("edge-energy", {"file": "lens.npz"}),
+        ("schema", {"words": True}),
+    ],
+)
+def test_a_study_states_every_option(word, given, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "card.inp").write_text("")
+    stated = operation(word).of(**given)
+    study = tmp_path / "study.toml"
+    study.write_text(study_text(stated, tmp_path))
+    back = read_study(study, known=operation).operation
+    # names of files are relative to the study
+    assert study_text(back, tmp_path) == study.read_text()
+    assert len(study.read_text().splitlines()) > len(given) - sum(v is None for v in given.values())
+
+
+def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
+    given = partial(operation("material export").of, passport="pdms-10-1", to="tamaas")
+    said, meant = given(frequencies="1 Hz,10 rad/s"), given(frequencies=[2 * np.pi, 10])
+    assert said == meant
+    with pytest.raises(InputError, match="--frequencies needs two values with a comma"):
+        given(frequencies="1 Hz")
+    with pytest.raises(InputError, match="has no unit"):
+        given(frequencies="1,10")
+
+
+def test_a_law_for_fits_only_is_answered_without_a_passport(lab):
+    given = {"files": ["dma.csv"], "poisson_ratio": 0.45, "kind": "E", "modulus_unit": "MPa"}
+    given |= {"temperature_unit": "degC", "reference_temperature": "-30 degC"}
+    given |= {"shift_file": "shifts.csv", "model": "fractional-kelvin-voigt"}
+    answer = asked("material fit", lab, given, ["drawn"])
+    assert answer["material"]["model"] == "fractional-kelvin-voigt"
+    drawn = answer["beside"]["drawn"]
+    assert drawn["table"] is drawn["passport"] is None
+    assert len(drawn["fit"]["parts"][0]["fitted"]) == len(drawn["fit"]["curve_at"])
+    with pytest.raises(InputError, match="law for fits only"):
+        asked("material fit", lab, given, ["output"])
+
+
+def test_over_http_no_passport_is_read_that_was_not_sent(lab):
+    assert asked("material show", lab, {"passport": "pdms.toml"})["name"].startswith("PDMS")
+    hidden = lab.parent / "secret.toml"
+    hidden.write_text("secret")
+    for word, name in (("show", "passport"), ("convert", "source"), ("export", "passport")):
+        more = {"to": "abaqus"} if word == "export" else {}
+        with pytest.raises(InputError, match="was sent with the request"):
+            asked(f"material {word}", lab, {name: str(hidden), **more})
+    with pytest.raises(InputError, match="pdms-10-1 is a published material; code takes a file"):
+        asked("material convert", lab, {"source": "pdms-10-1", "code": "abaqus"})
+
+
+def test_a_passport_is_converted_in_its_place(lab, tmp_path, capsys):
+    file = tmp_path / "pdms.toml"
+    write_passport(published("pdms-10-1"), file)
+    command = ["material", "convert", file, "--temperature", "0 degC"]
+    assert exit_status([*command, "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert exit_status([*command, "-o", file]) == 0
+    assert capsys.readouterr().out == ""
+    moved = read_passport(file)
+    assert moved.temperature == 273.15 == printed["temperature"]
+    assert printed["material"]["tau0"] == moved.material.tau0
+
+
+def test_what_can_be_chosen_is_what_there_is():
+    def choices(word, name):
+        from viscotack.operations.declare.options import options
+
+        return next(o.card.choices for o in options(operation(word)) if o.name == name)
+
+    assert set(choices("material fit", "model")) == {"best", *MODELS}
+    for word, name in (("convert", "code"), ("export", "to")):
+        assert set(choices(f"material {word}", name)) == set(CODES)
