@@ -11,16 +11,28 @@ from viscotack.units import parse
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import File, Number, Place, Text
-from .declare.options import Operation, Part
+from .declare.options import Here, Operation, Part
 from .declare.study import read_study
 from .identify import IdentifyRates
 from .parts.rig import refusals
 
 _MOST = 50  # speeds between two ends
 
+
+@dataclass(frozen=True)
+class Study(File):
+    """A study of `identify rates`; what it names is read where it may be."""
+
+    def read(self, value: Any, place: Place) -> Path:
+        """Return the path of the file, whose names were looked up."""
+        path = super().read(value, place)
+        _study(path, place)
+        return path
+
+
 StudyFile = Annotated[
     Path,
-    File(
+    Study(
         "As `viscotack identify rates ... -o study.toml` writes it.", metavar="STUDY", argument=True
     ),
 ]
@@ -181,14 +193,20 @@ def _identified(study: Path, caller: Caller) -> Any:
     """Return what the files of a study say."""
     from viscotack.identify.study import answer
 
+    return answer(_study(study, Here(also=caller.also)).study(caller.also))
+
+
+def _study(study: Path, place: Place) -> IdentifyRates:
+    """Return what a study asks, which must be where a forecast starts from."""
     from . import operation
 
-    asked = read_study(study, known=operation, usual=IdentifyRates.word, also=caller.also).operation
+    word = IdentifyRates.word
+    asked = read_study(study, known=operation, usual=word, also=place.also, place=place).operation
     if not isinstance(asked, IdentifyRates):
         raise InputError(
             f"{study} asks to {asked.word}; a forecast starts from a study of {IdentifyRates.word}"
         )
-    return answer(asked.study(caller.also))
+    return asked
 
 
 def _rows(forecast: Any) -> list[dict[str, float]]:

@@ -4,7 +4,7 @@ docs/input.md describes the format; which keys a table has is read from the card
 """
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,7 @@ def read_case(
     *,
     also: Iterable[Any] = (),
     temperature: float | None = None,
+    beside: Callable[[str], Path] | None = None,
 ) -> Problem:
     """Return the problem that a TOML file states in SI.
 
@@ -48,6 +49,8 @@ def read_case(
     temperature : float, optional
         Of the material [K], instead of that in the file; only of a passport, and within the range
         in which it was measured.
+    beside : callable, optional
+        Returns the path of a file that a table names; else it lies beside the case.
 
     Raises
     ------
@@ -58,7 +61,8 @@ def read_case(
         is impossible; with file, table and key.
     """
     path = Path(path)
-    return _stated(path, read_toml(path), known(also), temperature)
+    beside = beside or path.parent.joinpath
+    return _stated(path, read_toml(path), known(also), temperature, beside)
 
 
 def case_of_tables(
@@ -103,7 +107,11 @@ def case_of_tables(
 
 
 def _stated(
-    path: Path | str, tables: Mapping[str, Any], nouns: Nouns, temperature: float | None
+    path: Path | str,
+    tables: Mapping[str, Any],
+    nouns: Nouns,
+    temperature: float | None,
+    beside: Callable[[str], Path] | None = None,
 ) -> Problem:
     """Return the problem of tables that stand in a file, or were sent."""
     shape = _shape_table(path, tables, nouns)
@@ -116,7 +124,7 @@ def _stated(
             f"{path}: the tables {', '.join(missing[:-1])} and {missing[-1]} are missing; see "
             "docs/input.md"
         )
-    found = {name: Table(path, name, tables) for name in names}
+    found = {name: Table(path, name, tables, beside) for name in names}
     if "layer" in found and not plain:
         raise InputError(
             f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
@@ -193,7 +201,7 @@ def shift_deviation(
         Standard deviation of log10 a_T; 0 without a passport, or at its own temperature.
     """
     path = Path(path)
-    table = Table(path, "material", read_toml(path))
+    table = Table(path, "material", read_toml(path), path.parent.joinpath)
     if "passport" not in table.values:
         return 0.0
     passport, stated = _passport(table, known(also), temperature)

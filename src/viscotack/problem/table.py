@@ -4,7 +4,7 @@ Every error names the file, the table and the key, and gives an example.
 """
 
 import difflib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +19,15 @@ OWN = "; one of your own comes --with FILE.py"
 class Table:
     """A table of a file: hands out its keys, and knows which were never asked for."""
 
-    def __init__(self, path: Path | str, name: str, tables: Mapping[str, Any]) -> None:
+    def __init__(
+        self,
+        path: Path | str,
+        name: str,
+        tables: Mapping[str, Any],
+        beside: Callable[[str], Path] | None = None,
+    ) -> None:
         self.path, self.name = path, f"{path}, [{name}]"
+        self._beside = beside
         if not isinstance(tables.get(name), dict):
             raise InputError(f"{path}: the table [{name}] is missing; see docs/input.md")
         self.values: Mapping[str, Any] = tables[name]
@@ -39,16 +46,16 @@ class Table:
     def beside(self, key: str, example: str) -> Path:
         """Return the file that a key names, beside the file that the table stands in.
 
-        Tables that were sent and stand in no file, so that `path` is a word, can name none: nobody
-        reads this machine's files by sending a case.
+        Tables that were sent and stand in no file can name none: nobody reads this machine's files
+        by sending a case.
         """
         name = self.get(key, example)
-        if not isinstance(self.path, Path):
+        if self._beside is None:
             raise InputError(
                 f"{self.name} {key} names a file, {name!r:.60}, and a case that is sent can name "
                 "none; write the numbers themselves"
             )
-        return self.path.parent / str(name)
+        return self._beside(str(name))
 
     def require(self, fields: Iterable[Field]) -> None:
         """Name all at once where several of the keys are missing that some cards describe."""

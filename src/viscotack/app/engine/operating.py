@@ -46,6 +46,10 @@ class Sent:
             )
         return self.folder / name
 
+    def within(self, path: Path) -> "Sent":
+        """Return the place of the names that stand in a file: they were sent with it as well."""
+        return self
+
 
 def warm() -> None:
     """Do once what takes longer the first time."""

@@ -18,10 +18,17 @@ from viscotack.units import parse
 class Place(Protocol):
     """Where a request comes from: how names of files are read there."""
 
-    also: tuple[Any, ...]
+    @property
+    def also(self) -> tuple[Any, ...]:
+        """Nouns of the user's own."""
+        ...
 
     def file(self, name: str) -> Path:
         """Return the path of a file that an option names; InputError where none may be named."""
+        ...
+
+    def within(self, path: Path) -> "Place":
+        """Return the place of the names that stand in a file."""
         ...
 
 

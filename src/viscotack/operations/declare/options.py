@@ -98,6 +98,10 @@ class Here:
         """Return the path of a file."""
         return self.folder / name
 
+    def within(self, path: Path) -> "Here":
+        """Return the place of the names that stand in a file: they lie beside it."""
+        return Here(path.parent, self.also)
+
 
 @dataclass(frozen=True)
 class Option:

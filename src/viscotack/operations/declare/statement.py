@@ -129,7 +129,8 @@ class Stated(Card):
         if flags:
             raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
         kelvin = temperature_of(given)
-        problem = read_case(case, also=place.also, temperature=kelvin)
+        beside = place.within(case).file
+        problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
             command = found if found in ("sphere", "punch", "profile") else "case"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 
+from .cards import Place
 from .options import Here, Operation, Option, options, respelled, take
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ def read_study(
     known: Callable[[str], type[Operation]],
     usual: str = "",
     also: tuple[Any, ...] = (),
+    place: Place | None = None,
 ) -> Asked:
     """Return what a study file asks.
 
@@ -56,6 +58,8 @@ def read_study(
         Word of the operation where the file has none, as those that earlier versions wrote.
     also : tuple of classes
         Nouns of the user's own.
+    place : Place, optional
+        Of the request that named the file; else this machine.
 
     Raises
     ------
@@ -74,7 +78,7 @@ def read_study(
         write = table.pop(_WRITE, {})
         given = _flat(kind, table)
         try:
-            operation = take(kind, given, Here(path.parent, also))
+            operation = take(kind, given, (place or Here(also=also)).within(path))
         except InputError as error:
             raise respelled(error, kind) from None
         return Asked(operation, _files(kind, write, path.parent))
