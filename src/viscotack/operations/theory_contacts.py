@@ -17,7 +17,7 @@ from .parts.tables import as_text
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from viscotack import CrackContact
+    from viscotack.methods.by_crack import CrackContact
 
 _RADIUS = Number('Sphere radius R, "5.19 mm".', unit="m", above=0, metavar="LENGTH")
 _MODULUS = Number('E* = E/(1 - nu^2), "1.94 MPa".', unit="Pa", above=0, metavar="PRESSURE")
