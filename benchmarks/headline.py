@@ -21,8 +21,8 @@ from fuzz.doors import client, in_words, learned_punch, learned_sphere
 from fuzz.relations import in_si
 from viscotack.app.engine.asks import ask_verdict
 from viscotack.app.engine.quick import quick
-from viscotack.operations.declare.state import state_of_toml
 from viscotack.campaign import CaseSettings, measure
+from viscotack.operations.declare.state import state_of_toml
 from viscotack.traction import Tabulated
 
 # Largest effective Tabor number that is simulated beside: seconds each.

@@ -59,6 +59,8 @@ SWEEP = {"cases": [{"protocol.speed": 1e-4}], "problem": "lens.toml", "accuracy"
 RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
 DMA = {"files": ["pdms_dma.csv"], "poisson_ratio": 0.5, "model": "sls"}
 SHIFTED = {"reference_temperature": "20 degC", "glass_transition": "-115 degC"}
+JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
+CRACK = {"modulus_ratio": 0.1, "exponent": 0.6, "speed": [1.0, 10.0]}
 # Questions of each operation, from which others are drawn.
 ASKED = {
     "advise": [{"problem": SPHERE}, {"problem": "lens.toml"}],
@@ -72,6 +74,15 @@ ASKED = {
     "predict": [{"problem": SPHERE}, {"problem": PUNCH}, {"problem": "lens.toml"}],
     "schema": [{}],
     "test read": [{"files": ["lens_1_um_s.csv"]}, {"files": LENS}],
+    "theory crack-contact": [
+        {"problem": SPHERE | {"tabor": 1e4, "preload": 2e5, "rate": 1e3}},
+    ],
+    "theory greenwood": [CRACK],
+    "theory jkr": [JKR],
+    "theory maugis": [JKR | {"strength": "0.1 MPa"}],
+    "theory persson-brener": [CRACK],
+    "theory punch": [{"case": "pad.toml", "stress": "30 kPa"}],
+    "theory steady-crack": [CRACK | {"law": "exponential:0.25"}],
 }
 # The same of those that take seconds, or need what another has written: not drawn.
 NOT_DRAWN = {

@@ -64,9 +64,9 @@ def parse(value: str | float, unit: str) -> float:
         return finite("the number", value, unit)
     match = _NUMBER_AND_UNIT.fullmatch(value)
     if match is None or match[2].startswith(","):
+        what, example = ("number", "5.19") if unit == "1" else ("number and a unit", f"5.19 {unit}")
         raise InputError(
-            f"{value!r:.80} is not a number and a unit; write it like '5.19 {unit}', "
-            "with a decimal point"
+            f"{value!r:.80} is not a {what}; write it like '{example}', with a decimal point"
         )
     number, words = float(match[1]), match[2]
     if words == "" and unit != "1":

@@ -7,10 +7,6 @@ from typing import Any
 
 # Each of these modules adds its commands to the one application.
 _COMMANDS = (
-    "theory",
-    "steady_crack",
-    "crack_contact",
-    "punch",
     "study",
     "page",
 )

@@ -1,11 +1,9 @@
 """The files that a command writes: refused before the work, told of when they fail after it."""
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Mapping
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -76,15 +74,6 @@ def check_files(
             raise InputError(
                 f"{one} {first} and {other} {second} are the same file; give each one of its own"
             )
-
-
-def rows_as_csv(rows: list[dict[str, Any]]) -> bytes:
-    """Return rows of the same keys as a CSV table with a heading."""
-    stream = io.StringIO(newline="")
-    writer = csv.DictWriter(stream, list(rows[0]), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(rows)
-    return stream.getvalue().encode()
 
 
 class Writing:

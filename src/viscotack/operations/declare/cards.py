@@ -318,6 +318,14 @@ class Named(Card):
 
 
 @dataclass(frozen=True)
+class Naming:
+    """Words that end with the path of a file."""
+
+    words: str
+    file: Path
+
+
+@dataclass(frozen=True)
 class Spelled(Card):
     """Words that may name a file behind or without a keyword, such as ``prony:FILE``.
 
@@ -334,12 +342,21 @@ class Spelled(Card):
 
     def read(self, value: Any, place: Place) -> str:
         """Return the words, in which a name of a file is the path of it."""
-        words = _name(value)
+        words, file = self._split(_name(value))
+        return f"{words}{place.file(file)}" if file else words
+
+    def written(self, value: Any) -> Any:
+        """Return the words; `study_text` makes a path among them relative to the study."""
+        words, file = self._split(value)
+        return Naming(words, Path(file)) if file else words
+
+    def _split(self, words: str) -> tuple[str, str]:
+        """Return the words before the name of a file, and that name; "" where there is none."""
         for keyword in self.before:
             head, mark, name = words.rpartition(keyword)
             if mark and name:
-                return f"{head}{mark}{place.file(name)}"
-        return str(place.file(words)) if words.endswith(self.endings or "\0") else words
+                return head + mark, name
+        return ("", words) if words.endswith(self.endings or "\0") else (words, "")
 
 
 @dataclass(frozen=True)

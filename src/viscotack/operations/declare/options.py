@@ -267,7 +267,7 @@ def _one(option: Option, value: Any, place: Place) -> Any:
     try:
         return option.card.read(value, place)
     except InputError as error:
-        words = str(error)
+        words = str(error).removeprefix("it ")
         if option.card.argument or words.startswith(option.flag):
             raise
         joint = " " if words.startswith(("must ", "needs ")) else ": "

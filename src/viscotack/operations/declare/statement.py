@@ -106,7 +106,8 @@ class Stated(Card):
     def written(self, value: Statement) -> Any:
         """Return the problem as it was given, or its record."""
         if isinstance(value.given, Mapping):
-            return {name: entry for name, entry in value.given.items() if entry is not None}
+            said = {name: entry for name, entry in value.given.items() if entry is not None}
+            return said | {n: card.written(said[n]) for n, card in _NAMING.items() if n in said}
         if isinstance(value.given, str | Path):
             return Path(value.given)
         from viscotack.problem.record import to_dict

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
 
-from .cards import Place
+from .cards import Naming, Place
 from .options import Here, Operation, Option, options, respelled, take
 
 if TYPE_CHECKING:
@@ -151,5 +151,13 @@ def _written(option: Option, value: Any, folder: Path) -> Any:
 
 
 def _written_one(option: Option, value: Any, folder: Path) -> Any:
-    found = option.card.written(value)
-    return os.path.relpath(found, folder) if isinstance(found, Path) else found
+    return _relative(option.card.written(value), folder)
+
+
+def _relative(value: Any, folder: Path) -> Any:
+    """Return what is written with the paths in it relative to the folder of the study."""
+    if isinstance(value, Mapping):
+        return {name: _relative(entry, folder) for name, entry in value.items()}
+    if isinstance(value, Naming):
+        return f"{value.words}{_relative(value.file, folder)}"
+    return os.path.relpath(value, folder) if isinstance(value, Path) else value

@@ -1,11 +1,14 @@
-"""A solid that an operation is given: published, in a passport, or as the text of a table."""
+"""A solid that an operation is given: published, in a passport, as a table, or by its numbers."""
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
 
-from ..declare.cards import Named, Spelled
+from ..declare.cards import Named, Number, Spelled
+from ..declare.options import Part
+from ..declare.questions import SPHERE, material_from
 
 if TYPE_CHECKING:
     from viscotack.materials.material import Material
@@ -56,3 +59,40 @@ def solid_of(words: str, also: tuple[Any, ...] = ()) -> "Passport | Material":
 def material_words(words: str) -> Any:
     """Return the card of a material by its word, as the flags of a problem state it."""
     return Spelled(words, metavar="MATERIAL", before=("prony:",), endings=(".toml",))
+
+
+_NUMBERS = {question.name: question.words for question in SPHERE.questions}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reduced(Part):
+    """A solid without dimensions: by a word and its numbers, or in a file."""
+
+    material: Annotated[
+        str | None,
+        material_words(
+            "power-law (also when left out), sls, prony:FILE or a passport FILE.toml, as for "
+            "simulate sphere."
+        ),
+    ] = None
+    modulus_ratio: Annotated[
+        float | None, Number(_NUMBERS["modulus-ratio"], above=0, metavar="K")
+    ] = None
+    exponent: Annotated[float | None, Number(_NUMBERS["exponent"], above=0, metavar="N")] = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What was said, by flag."""
+        said = {
+            "material": self.material,
+            "modulus-ratio": self.modulus_ratio,
+            "exponent": self.exponent,
+        }
+        return {flag: value for flag, value in said.items() if value is not None}
+
+    def stated(self, usual: str = "power-law") -> "tuple[Material, str]":
+        """Return the solid, and the unit of its times if a file states one, else "1".
+
+        `usual` is the word of the material where none is said.
+        """
+        return material_from({"material": usual, **self.given})
