@@ -156,7 +156,7 @@ def drawn(luck):
 def of_problem(luck, stated):
     """Change a number of a problem, or name what is not there."""
     if isinstance(stated, str):
-        return luck.choice([stated, "nothing.toml", "pad.toml", "cone.toml", "lens_slow.csv"])
+        return luck.choice([stated, "nothing.toml", "pad.toml", "cone.toml"])
     name = luck.choice([each for each in stated if each != "indenter"])
     return stated | {name: luck.choice([0.5, 2.0, 10.0, -1.0, 1e-9]) * stated[name]}
 

@@ -183,8 +183,12 @@ class Advise(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Ask every tier."""
         from viscotack.forecast.advice import advise
+        from viscotack.problem import PunchGroups
 
-        advice = advise(self.problem.problem)
+        problem = self.problem.problem
+        if isinstance(problem, PunchGroups):
+            raise InputError("advice is for a sphere, got a punch; viscotack predict answers it")
+        advice = advise(problem)
         return Answer(
             advice,
             record=lambda: asdict(advice) | {"sentences": list(advice.sentences)},

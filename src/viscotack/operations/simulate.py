@@ -143,6 +143,7 @@ class Simulate(Operation):
             until=self.until,
             time_limit=self.time_limit,
             whole=self.whole,
+            points="points" in caller.wants,
             profiles=self.profiles,
         )
         answer = _answer(result, self.plot_kind, caller)

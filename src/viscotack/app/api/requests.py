@@ -3,7 +3,8 @@
 import json
 from typing import Any
 
-from fastapi import Request, UploadFile
+from fastapi import Request
+from starlette.datastructures import UploadFile
 
 from viscotack.app.engine.crew import Refused
 from viscotack.app.engine.jobs import harmless_name

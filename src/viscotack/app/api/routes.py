@@ -64,8 +64,7 @@ def routes(engine: Engine) -> APIRouter:
 
 def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None:
     """Add an operation, to be answered at once or as a job."""
-    word, words = path(kind.word), summary(kind)
-    more = {"requestBody": {"required": True, "content": _content(kind)}}
+    word = path(kind.word)
 
     async def answer(request: Request) -> Answer:
         given, files = await received(request, kind)
@@ -84,19 +83,26 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None
             raise
         return _told(started)
 
-    name = word.replace("/", "_")
-    described = {"description": spelled(cleandoc(kind.__doc__ or ""), kind), "summary": words}
+    name, words = word.replace("/", "_"), summary(kind)
+    more = {"requestBody": {"required": True, "content": _content(kind)}}
+    told = spelled(cleandoc(kind.__doc__ or ""), kind)
     router.post(
-        f"/api/{word}", tags=["operations"], operation_id=name, openapi_extra=more, **described
+        f"/api/{word}",
+        tags=["operations"],
+        operation_id=name,
+        summary=words,
+        description=told,
+        openapi_extra=more,
     )(answer)
     router.post(
         f"/api/jobs/{word}",
         tags=["jobs"],
         operation_id=f"job_{name}",
+        summary=words,
+        description=told,
+        openapi_extra=more,
         status_code=202,
         responses=_FULL,
-        openapi_extra=more,
-        **described,
     )(job)
 
 
@@ -166,7 +172,7 @@ def _page(router: APIRouter, engine: Engine) -> None:
     @router.get("/api/operations", tags=["operations"])
     async def known() -> Answer:
         """List the operations: their options with words, units, choices and defaults."""
-        return Answer(operations=[described(kind) for kind in operations().values()])
+        return Answer(**{"operations": [described(kind) for kind in operations().values()]})
 
     @router.get("/api/forms", tags=["page"])
     async def forms() -> Answer:

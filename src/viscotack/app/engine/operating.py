@@ -16,6 +16,8 @@ from .asks import Asked, Tell
 
 # What may be wanted of every answer beside its files.
 WORDS, DRAWN = "words", "drawn"
+# The curve of a simulation as it grows.
+_POINTS = "points"
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,7 @@ def _wanted(kind: type[Operation], outputs: Any) -> frozenset[str]:
             f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
         )
     needed = {output.name for output in kind.outputs if output.needed}
-    return frozenset(named) | needed
+    return frozenset(named) | needed | {_POINTS}
 
 
 def _beside(kind: type[Operation], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:

@@ -84,7 +84,7 @@ def request_schema(kind: type[Operation], *, sent: bool) -> dict[str, Any]:
 
 def _property(option: Option, sent: bool) -> dict[str, Any]:
     card = option.card
-    found = dict(card.schema)
+    found: dict[str, Any] = dict(card.schema)
     if sent and isinstance(card, File | Named):
         found = {"type": "string", "format": "binary"}
     elif sent and isinstance(card, Number):

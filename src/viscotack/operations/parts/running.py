@@ -20,18 +20,20 @@ Tell = Callable[[Told], None]
 _EVERY = 0.04
 # Profiles that are kept of a run, and nodes of each.
 _PROFILES, _NODES = 60, 160
+_NO_UNITS = (1.0, 1.0, 1.0, 1.0)
 # Of the largest contact, what is drawn of the surface.
 _SEEN = 2.5
 
 
-def run(problem: Any, tell: Tell, *, profiles: bool, **options: Any) -> Result:
+def run(problem: Any, tell: Tell, *, points: bool, profiles: bool, **options: Any) -> Result:
     """Simulate a problem, telling its curve as it grows.
 
-    Tells ``share`` of the work and the new ``points``: time, depth, force, contact radius, in SI
-    where the problem is. Keywords are those of :func:`viscotack.solve`.
+    Tells ``share`` of the work, and the new ``points`` where they are wanted: time, depth, force,
+    contact radius, in SI where the problem is. Other keywords are those of :func:`viscotack.solve`.
     """
-    told = _Told(tell, _units_of(problem))
-    options |= {"throw": False, "progress": told.progress, "watch": told.watch}
+    told = _Told(tell, _units_of(problem) if points else _NO_UNITS)
+    options |= {"throw": False, "progress": told.progress}
+    options |= {"watch": told.watch} if points else {}
     result = _solved(problem, options, profiles)
     told.flush()
     return result

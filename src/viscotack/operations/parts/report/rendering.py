@@ -79,7 +79,7 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
         preload = _unit(study.preload, 1e3, "mN")
     return [
         ("sphere radius", _unit(study.radius, 1e3, "mm")),
-        ("material", fit.passport.name or study.material),
+        ("material", fit.passport.name or str(study.material)),
         ("temperature", "not stated" if temperature is None else f"{temperature - 273.15:.4g} °C"),
         ("preload", preload),
         ("work of adhesion", _interval(found, "work_of_adhesion", 1e3, "mJ/m²")),
