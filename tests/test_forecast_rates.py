@@ -14,11 +14,14 @@ from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
 from viscotack.identify.doubt import allowed, covariance, log_forces
 from viscotack.identify.forward import Forward
-from viscotack.identify.study import Study, read_study, study_text
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
 from viscotack.materials.passport import Evidence
 from viscotack.materials.shift import WLF
+from viscotack.operations import operation
+from viscotack.operations.declare.study import read_study, study_text
+from viscotack.operations.identify import IdentifyRates
+from viscotack.operations.parts.rig import Rig
 
 SOLID = vt.RetardationPowerLaw(
     rubbery_modulus=1e6, glassy_modulus=1e7, exponent=0.5, tau0=1e-2, poisson_ratio=0.5
@@ -120,26 +123,47 @@ def test_what_cannot_be_forecast_is_refused(fit):
 
 
 def test_a_study_comes_back_from_its_file(tmp_path):
-    study = Study(
+    study = IdentifyRates(
         files=(tmp_path / "a.csv", tmp_path / "b.csv"),
         material="pdms-10-1",
         radius=5.19e-3,
         preload=1.5e-3,
         temperature=298.15,
         work_of_adhesion=(0.15, 0.01),
-        reading={"force_unit": "mN", "nominal_speed": 1e-6},
-        evaluation={"compliance": 2e-6, "into": -1},
+        rig=Rig(force_unit="mN", nominal_speed=1e-6, compliance=2e-6, into=-1),
         title='a "lens"',
     )
     path = tmp_path / "study.toml"
     path.write_text(study_text(study, tmp_path))
-    assert read_study(path) == study
+    assert read(path) == study
     path.write_text('files = ["a.csv"]\nmaterial = "x"\nradius = "1 mm"\nspeeds = 3\n')
-    with pytest.raises(InputError, match=r"study.toml: a study has no 'speeds'"):
-        read_study(path)
+    with pytest.raises(InputError, match=r"study.toml: identify rates has no option 'speeds'"):
+        read(path)
     path.write_text('files = ["a.csv"]\nradius = "1 mm"\n')
-    with pytest.raises(InputError, match="material is missing"):
-        read_study(path)
+    with pytest.raises(InputError, match="material missing"):
+        read(path)
+
+
+def read(path):
+    return read_study(path, known=operation, usual="identify rates").operation
+
+
+def test_a_study_that_an_earlier_version_wrote_is_read(tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(
+        'title = "lens"\nfiles = ["a.csv"]\nmaterial = "pdms-10-1"\nradius = "0.005 m"\n'
+        'work_of_adhesion = ["0.15 J/m^2", "0.01 J/m^2"]\ncurves = true\nlevel = 0.9\n\n'
+        '[read]\nforce_unit = "mN"\ncompliance = "2e-06 m/N"\ninto = -1\nretraction_only = true\n'
+    )
+    assert read(path) == IdentifyRates(
+        files=(tmp_path / "a.csv",),
+        material="pdms-10-1",
+        radius=5e-3,
+        work_of_adhesion=(0.15, 0.01),
+        curves=True,
+        title="lens",
+        rig=Rig(force_unit="mN", compliance=2e-6, into=-1, retraction_only=True),
+    )
 
 
 class _Seen(HTMLParser):

@@ -14,9 +14,11 @@ from viscotack.identify import PullOff, forecast_rates, identify_rates, search
 from viscotack.identify import growth as growing
 from viscotack.identify.forward import Forward, Growth
 from viscotack.identify.growth import FoundGrowth, Opening, Share
-from viscotack.identify.study import Study, read_study, study_text
 from viscotack.lab.tack import Measured
 from viscotack.materials.shift import WLF
+from viscotack.operations import operation
+from viscotack.operations.declare.study import read_study, study_text
+from viscotack.operations.identify import IdentifyRates
 from viscotack.theory.crack.contact import GrowingCracks
 
 SOLID = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=5e6, tau0=1e-2, poisson_ratio=0.5)
@@ -117,14 +119,16 @@ def test_words_say_whether_growth_is_needed_and_who_takes_the_energy():
 
 
 def test_a_study_keeps_that_growth_was_asked_for(tmp_path):
-    study = Study(files=(tmp_path / "a.csv",), material="pdms-10-1", radius=5e-3, growth=True)
+    study = IdentifyRates(
+        files=(tmp_path / "a.csv",), material="pdms-10-1", radius=5e-3, growth=True
+    )
     path = tmp_path / "study.toml"
     path.write_text(study_text(study, tmp_path))
     assert "growth = true" in path.read_text()
-    assert read_study(path) == study
-    path.write_text(path.read_text().replace("growth = true", 'growth = "yes"'))
+    assert read_study(path, known=operation).operation == study
+    path.write_text(path.read_text().replace("growth = true", 'growth = "maybe"'))
     with pytest.raises(InputError, match="growth must be true or false"):
-        read_study(path)
+        read_study(path, known=operation)
 
 
 @pytest.mark.slow
