@@ -209,8 +209,8 @@ def test_a_file_of_a_rig_is_read_and_its_place_is_nobodys_business(ask):
 
 def test_a_file_that_is_none_is_refused_by_its_name_alone(ask):
     sent = [("files", ("photo.csv", bytes(range(256)) * 4))]
-    for path in ("/api/test/read", "/api/material/fit"):
-        answer = ask("POST", path, files=sent)
+    for path, data in (("/api/test/read", {}), ("/api/material/fit", {"poisson_ratio": "0.5"})):
+        answer = ask("POST", path, files=sent, data=data)
         assert answer.status_code == 422
         assert "photo.csv" in answer.json()["error"] and "viscotack-" not in answer.text
     twice = ask("POST", "/api/test/read", files=sent * 2)

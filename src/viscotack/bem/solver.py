@@ -60,6 +60,7 @@ class SimulationError(RuntimeError):
 
 def simulate(
     problem: Case,
+    groups: Groups | PunchGroups,
     *,
     settings: Settings,
     until: str,
@@ -70,14 +71,13 @@ def simulate(
     progress: Progress,
     watch: Watch,
 ) -> Result:
-    """Simulate a problem, whatever the range of its forces.
+    """Simulate a problem, stated in its groups as well, whatever the range of its forces.
 
-    Parameters and errors are those of :func:`viscotack.solve`, which checks them and sets the
+    Other parameters and errors are those of :func:`viscotack.solve`, which checks them and sets the
     limits of time and threads.
     """
     began = perf_counter()
     share = _MAIN if estimate_error else 1.0
-    groups = problem.groups()
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
 

@@ -136,6 +136,7 @@ def solve(
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(
             problem,
+            groups,
             settings=chosen,
             until=until,
             estimate_error=estimate_error,

@@ -134,7 +134,8 @@ def number_of(card: Quantity, **more: Any) -> Number:
     words += f"; must {card.range}" if card.bounded else ""
     words += f', for example "{card.example}".' if card.example else "."
     ends = {"above": card.above, "least": card.least, "most": card.most}
-    return Number(words, unit=card.unit, **ends, **more)
+    example = f'"{card.example}"' if card.example else ""
+    return Number(words, unit=card.unit, example=example, **ends, **more)
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ def _option(option: Option, kind: type[Operation]) -> dict[str, Any]:
 def _example(card: Card) -> str:
     """Return what a field may hold, from the example or the first words in quotes of a card."""
     quoted = card.words.split('"')
-    return card.example or (quoted[1] if len(quoted) > 2 else "")
+    return card.example.strip('"') or (quoted[1] if len(quoted) > 2 else "")
 
 
 def request_schema(kind: type[Operation], *, sent: bool) -> dict[str, Any]:
