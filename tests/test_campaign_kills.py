@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from campaign_work import InlineCrew, employ, plan_of, stand_in, told, trouble
-from viscotack.campaign import Store, run, supervisor, verify
-from viscotack.campaign.memory import resident_memory
+from viscotack.campaign import Store, local, run, verify
+from viscotack.pool.memory import resident_memory
 
 HERE = Path(__file__).parent
 CASES = 160
@@ -21,9 +21,9 @@ CHILD = f"""
 import os, signal, sys
 sys.path.insert(0, {str(HERE)!r})
 from campaign_work import trouble
-from viscotack.campaign import parts, read_plan, run, supervisor
+from viscotack.campaign import local, parts, read_plan, run
 
-supervisor.GRACE, parts._MERGED = 0.5, 3
+local.GRACE, parts._MERGED = 0.5, 3
 left = int(sys.argv[3])
 for name in ("fsync", "link", "replace", "unlink"):
     def change(*arguments, before=getattr(os, name), **options):
@@ -80,7 +80,7 @@ def test_fifteen_kills_lose_nothing_and_duplicate_nothing(tmp_path, monkeypatch)
     # how many of them met a run, and how far it had come, is a matter of the moment
     assert kills >= 5 and reported >= 3
 
-    monkeypatch.setattr(supervisor, "GRACE", 0.5)
+    monkeypatch.setattr(local, "GRACE", 0.5)
     end = run(plan, folder, workers=2, work=trouble)
     assert (end.done, end.failed) == (CASES - 2, 2) and not verify(Store(folder)).wrong
     results, failures, *_ = told(folder)

@@ -18,7 +18,7 @@ from typing import Any
 
 from viscotack.files.whole import write_new
 
-from .crew import Crew, Defect, Halted, Lane, Refused
+from .crew import Crew, Defect, Refused
 
 # Finished jobs are kept for those who come back, so many and so long [s].
 _KEPT, _KEPT_FOR = 64, 900.0
@@ -102,7 +102,6 @@ class Job:
     rows: list[Any] = field(default_factory=list)
     error: str = ""
     ended: float | None = None
-    stop: asyncio.Event = field(default_factory=asyncio.Event)
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
     _answer: bytes = b""
@@ -157,24 +156,21 @@ class Engine:
 
     async def begin(self) -> None:
         """Start a process of each lane; Refused where the user's own files are wrong."""
-        lanes = (
-            Lane("quick", 2, ("quick",)),
-            Lane("ask", 2, ("verdict",), nice=4),
-            Lane("work", self.limits.workers, ("simulate",), nice=2),
-        )
-        self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
-        # files of the user's own that are wrong are found out by the first of them
-        await self._crews["quick"].begin()
+        self._crews = {
+            "quick": Crew(2, "quick", self._own),
+            "ask": Crew(2, "verdict", self._own, nice=4),
+            "work": Crew(self.limits.workers, "simulate", self._own, nice=2),
+        }
         for crew in self._crews.values():
-            crew.grow()
+            crew.begin()
+        # files of the user's own that are wrong are found out by the first question
+        await self.ask("forms", {})
 
     async def end(self) -> None:
         """End all jobs and all processes."""
-        for job in self._jobs.values():
-            job.stop.set()
-        tasks = [job.task for job in self._jobs.values() if job.task is not None]
-        await asyncio.gather(*tasks, return_exceptions=True)
-        await asyncio.gather(*(crew.end() for crew in self._crews.values()))
+        await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
+        for crew in self._crews.values():
+            crew.end()
 
     async def ask(self, task: str, asked: dict[str, Any], **more: Any) -> dict[str, Any]:
         """Return the answer of a question that is no job; keywords as of :meth:`Crew.ask`."""
@@ -225,10 +221,8 @@ class Engine:
         if job.over:
             del self._jobs[id]
             return job
-        job.stop.set()
-        while not job.over:
-            await job.news.wait()
-        del self._jobs[id]
+        await self._stop(job)
+        self._jobs.pop(id, None)
         return job
 
     def processes(self) -> list[int]:
@@ -241,19 +235,22 @@ class Engine:
             job.changed()
 
         crew = self._crews[_LANE_OF[job.kind]]
-        options = {"told": job.tell, "stop": job.stop, "begun": begun}
+        options = {"told": job.tell, "begun": begun}
         try:
             answer = await crew.ask(job.kind, asked, seconds=self.limits.job_time, **options)
             job.close("done", answer=answer)
-        except Halted:
-            job.close("cancelled", error="it was cancelled")
         except Refused as error:
             job.close("refused", error=str(error))
         except Defect as error:
             job.close("failed", error=f"this is a defect of viscotack: {error}")
-        except asyncio.CancelledError:
-            job.close("cancelled", error="the server ends")
-            raise
+
+    async def _stop(self, job: Job) -> None:
+        """End a job, and wait until its process is free."""
+        if job.task is not None:
+            job.task.cancel()
+            await asyncio.wait([job.task])
+        if not job.over:
+            job.close("cancelled", error="it was cancelled")
 
     def _forget(self) -> None:
         """Forget jobs that ended long ago, and the oldest of many."""
