@@ -1,5 +1,6 @@
 """What tests of processes share: waiting for a state, and who is there."""
 
+import os
 import time
 from pathlib import Path
 
@@ -26,7 +27,11 @@ def state(process):
 
 def lives(process):
     """Return whether a process is there, and no corpse that nobody has buried."""
-    return state(process) not in ("", "Z", "X")
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return state(process) not in ("Z", "X")
 
 
 def children(process):

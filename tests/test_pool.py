@@ -2,6 +2,7 @@
 
 import os
 import select
+import signal
 from contextlib import contextmanager
 from math import inf
 
@@ -82,10 +83,10 @@ def test_a_task_that_is_stopped_is_interrupted_and_its_process_is_kept(clock, be
 
 def test_a_task_that_is_stopped_before_it_begins_does_not_begin(clock, began):
     with pool_of() as pool:
-        os.kill(pool.processes()[0], 19)  # SIGSTOP: both messages lie there when it goes on
+        os.kill(pool.processes()[0], signal.SIGSTOP)  # both messages lie there when it goes on
         pool.hand(0, "pool_tasks:spin", str(began), Limits(grace=inf))
         pool.stop(0)
-        os.kill(pool.processes()[0], 18)
+        os.kill(pool.processes()[0], signal.SIGCONT)
         assert outcome(pool).kind == "stopped"
         # a request to stop a task that is over is for no other one
         pool.stop(0)
