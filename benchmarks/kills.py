@@ -33,12 +33,12 @@ from viscotack.campaign import (
     Plan,
     Progress,
     Store,
+    local,
     measure,
     merge,
     read_plan,
     run,
     shard_of,
-    supervisor,
     verify,
 )
 from viscotack.campaign import parts as parts_module
@@ -119,7 +119,7 @@ def told(folder: Path) -> Any:
 
 def child(folder: Path, *, real: bool, scheduler: str | None, sort: str, instant: int) -> None:
     """Run or merge, and say what was stored, until somebody kills this process."""
-    supervisor.GRACE, parts_module._MERGED = GRACE, MERGED
+    local.GRACE, parts_module._MERGED = GRACE, MERGED
     if sort in AT_AN_INSTANT:
         die_at(instant, within_merge=sort == "merge of parts")
     if sort == "merge of shards":
@@ -203,7 +203,7 @@ class Harassed:
         self.log, self.reference = folder / "log.jsonl", folder / "undisturbed"
         lines = self.log.read_text().splitlines() if self.log.exists() else []
         self.known: list[dict[str, Any]] = [json.loads(line) for line in lines]
-        supervisor.GRACE = GRACE
+        local.GRACE = GRACE
         if not self.known:
             run(self.plan, self.reference, workers=WORKERS, work=self.work)
             self._share()
@@ -372,7 +372,7 @@ def orphans() -> set[int]:
     for path in Path("/proc").glob("[0-9]*"):
         with suppress(OSError, IndexError):
             parent = int((path / "stat").read_text().rsplit(")", 1)[1].split()[1])
-            if b"viscotack.campaign.worker" in (path / "cmdline").read_bytes() and parent == 1:
+            if b"viscotack.pool.worker" in (path / "cmdline").read_bytes() and parent == 1:
                 found.add(int(path.name))
     return found
 

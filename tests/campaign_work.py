@@ -52,6 +52,13 @@ def unhurried(problem, settings):
     return stand_in(problem, settings)
 
 
+def gated(problem, settings):
+    """Wait for a file, but in the first ten cases."""
+    while problem.rate > 10 and not Path(os.environ["CAMPAIGN_TEST_BEGAN"], "go").exists():
+        sleep(0.01)
+    return stand_in(problem, settings)
+
+
 def picky(problem, settings):
     """Refuse every fifth rate."""
     if problem.rate % 5 == 0:
@@ -104,15 +111,15 @@ class Stubborn:
 
 def stubborn(problem, settings):
     """Wait in the end of an object."""
+    tell_that_it_began()
     Stubborn()
 
 
 def growing(problem, settings):
-    """Take more and more memory."""
-    held = []
-    while True:
-        held.append(np.ones(500_000))
-        sleep(2e-3)
+    """Take 200 MB and go on."""
+    held = np.ones(25_000_000)
+    waiting(problem, settings)
+    return {"held": held}
 
 
 BALLAST = []
@@ -131,12 +138,6 @@ def threads(problem, settings):
 
     row = {name: os.environ.get(name) for name in os.environ if name.endswith("NUM_THREADS")}
     return row | {"blas": max(pool["num_threads"] for pool in threadpool_info())}
-
-
-def brief(problem, settings):
-    """Take a moment."""
-    sleep(0.05)
-    return stand_in(problem, settings)
 
 
 def last_words(problem, settings):

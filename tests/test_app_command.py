@@ -1,9 +1,10 @@
 """The command ``viscotack app``: what it needs, where it listens, what it prints."""
 
 import builtins
+import os
 import re
+import signal
 import socket
-import subprocess
 import sys
 import urllib.request
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 
 from app_server import running
 from command_line import exit_status
+from processes import children, lives, until
 from viscotack.app.cli.page import _query, _token
 
 DOCS = Path(__file__).parents[1] / "docs/api.md"
@@ -86,20 +88,9 @@ def test_a_token_is_needed_beyond_this_machine_and_a_short_one_refused(monkeypat
         _token("0.0.0.0")
 
 
-def test_a_worker_ends_with_the_server():
-    # whose end of the line is closed, however it ended
-    worker = subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "viscotack.app.engine.worker",
-            '{"own": [], "first": [], "nice": 0}',
-        ],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert worker.stdout.readline() == '{"ready": true}\n'
-    worker.stdin.close()
-    assert worker.wait(20) == 0
-    worker.stdout.close()
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells of other processes")
+def test_the_workers_end_with_a_server_that_is_killed():
+    with running() as (_, server):
+        workers = until(lambda: children(server))
+        os.kill(server, signal.SIGKILL)
+        until(lambda: not any(map(lives, workers)))

@@ -10,6 +10,7 @@ import pytest
 import synthetic
 import viscotack as vt
 import viscotack.campaign
+import viscotack.pool
 from viscotack import (
     Apart,
     Approach,
@@ -40,8 +41,10 @@ QUICK = CaseSettings(accuracy=0.02, until="pull-off")
 def test_what_is_stated_is_frozen():
     working = {"_Machine", "_Worker", "Tally"}  # count as they go
     found = {}
-    for module in pkgutil.iter_modules(viscotack.campaign.__path__, "viscotack.campaign."):
-        things = vars(importlib.import_module(module.name)).values()
+    rooms = (viscotack.campaign, viscotack.pool)
+    names = [m.name for r in rooms for m in pkgutil.iter_modules(r.__path__, f"{r.__name__}.")]
+    for name in names:
+        things = vars(importlib.import_module(name)).values()
         found |= {x.__name__: x for x in things if isinstance(x, type) and is_dataclass(x)}
     assert {"Plan", "Part", "Lost", "Kind", "Answer", "Verdict"} <= found.keys()
     thawed = {name for name, kind in found.items() if not kind.__dataclass_params__.frozen}

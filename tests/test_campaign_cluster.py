@@ -23,8 +23,9 @@ from campaign_work import (
     trouble,
     unhurried,
 )
+from processes import until
 from viscotack import InputError
-from viscotack.campaign import NoWorker, Store, cluster, run, supervisor
+from viscotack.campaign import NoWorker, Store, cluster, local, run
 from viscotack.campaign.cluster import Security, security_of
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
@@ -81,13 +82,6 @@ class Cluster:
         for process in [*self.workers, self.scheduler]:
             process.kill()
             process.wait()
-
-
-def until(condition, seconds=60.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it has not come about"
-        time.sleep(0.05)
 
 
 @contextmanager
@@ -174,10 +168,8 @@ def test_no_worker_no_case(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "_FIRST", 5.0)
     plan = plan_of(tmp_path, cases=4)
     with held(tmp_path) as dask:
-        began = time.monotonic()
         with pytest.raises(NoWorker, match="answers, but it has no workers; start some with"):
             run(plan, tmp_path / "a", scheduler=dask.address, work=stand_in)
-        assert time.monotonic() - began < 15
         # one with altered physics, and one whose package cannot be imported
         dask.hire(1, altered(tmp_path / "altered"))
         dask.hire(1, broken_package(tmp_path / "broken"))
@@ -189,6 +181,7 @@ def test_no_worker_no_case(tmp_path, monkeypatch):
         assert Store(tmp_path / "b").failures().num_rows == 0
         # beside one that is fit it is given nothing
         dask.hire(1)
+        dask.await_workers(3)
         assert run(plan, tmp_path / "b", scheduler=dask.address, work=stand_in).done == 4
 
 
@@ -206,7 +199,7 @@ def test_three_files_or_none_are_needed_for_certificates(tmp_path):
 
 @pytest.mark.slow
 def test_limits_bind_on_a_cluster_too(tmp_path, monkeypatch):
-    monkeypatch.setattr(supervisor, "GRACE", 0.5)
+    monkeypatch.setattr(local, "GRACE", 0.5)
     plan = plan_of(tmp_path, cases=20, text="settings.time_limit = 0.3")
     with held(tmp_path) as dask:
         dask.hire(2)

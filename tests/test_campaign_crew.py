@@ -7,7 +7,7 @@ import pytest
 
 import synthetic
 from viscotack import InputError, to_dict
-from viscotack.campaign import CaseSettings, NoWorker, cluster, supervisor
+from viscotack.campaign import CaseSettings, NoWorker, cluster, local
 from viscotack.campaign.case import Answer
 from viscotack.campaign.cluster import DaskCrew, do_case, security_of
 from viscotack.campaign.crew import Gone, Lost
@@ -270,7 +270,7 @@ class Thread:
 
 
 def test_a_thread_of_a_cluster_keeps_a_process_of_its_own(monkeypatch):
-    monkeypatch.setattr(supervisor, "LocalCrew", Thread)
+    monkeypatch.setattr(local, "LocalCrew", Thread)
     monkeypatch.setattr(cluster, "_THREAD", SimpleNamespace())
     monkeypatch.setattr(Thread, "made", [])
     who, settings = identity(), CaseSettings()

@@ -30,6 +30,7 @@ ROOMS = (
     "bem",
     "methods",
     "lab",
+    "pool",
     "campaign",
     "datasets",
     "surrogate",

@@ -1,10 +1,10 @@
 """Campaigns: many problems, what to run, where it is kept, and running it here or on a cluster."""
 
 from viscotack.files.lock import FolderInUse
+from viscotack.pool import NoWorker
 
 from .case import CaseSettings, measure
 from .cluster import Security
-from .crew import NoWorker
 from .exporting import export
 from .inputs import Input, inputs_of
 from .plan import Plan, every_combination, read_plan, space_filling

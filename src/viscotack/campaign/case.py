@@ -19,6 +19,7 @@ from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 from viscotack.methods import solve
+from viscotack.pool.memory import peak_memory
 from viscotack.problem.nouns import known
 from viscotack.problem.record import from_dict
 from viscotack.result import trajectory
@@ -27,7 +28,6 @@ from viscotack.result.parts import spans
 
 from ..result import Outcome, Result
 from .identity import identity, words
-from .memory import peak_memory
 from .own import OwnChanged, nouns_of
 
 Array = npt.NDArray[np.float64]

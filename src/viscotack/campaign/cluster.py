@@ -15,9 +15,10 @@ from time import monotonic
 from typing import Any
 
 from viscotack.errors import InputError, NotInstalled
+from viscotack.pool import NoWorker
 
 from .case import Answer, CaseSettings, Work
-from .crew import Gone, Lost, NoWorker
+from .crew import Gone, Lost
 from .identity import difference, identity
 
 # Seconds to wait for the scheduler; for the first worker; for one that is there to say what it is,
@@ -263,7 +264,7 @@ def do_case(
     """
     if words := difference(identity(), wanted):
         return words
-    from .supervisor import LocalCrew
+    from .local import LocalCrew
 
     crew = getattr(_THREAD, "crew", None)
     if crew is None or _THREAD.packed != packed:

@@ -31,15 +31,11 @@ class Gone(ConnectionError):
     """The cluster's scheduler cannot be reached any more."""
 
 
-class NoWorker(RuntimeError):
-    """Nobody can do the cases: no worker is there, or none that may be given any."""
-
-
 class Crew(Protocol):
     """Workers that take cases."""
 
     def room(self) -> int:
-        """Return how many more cases may be handed in now."""
+        """Return how many more cases may be handed in now; NoWorker if there will be none."""
         ...
 
     def hand(self, number: int, problem: str) -> None:

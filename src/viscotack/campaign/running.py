@@ -15,18 +15,19 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.lock import locked
+from viscotack.pool import NoWorker
 
 from .case import Answer, Work, measure
 from .cases import Cases
 from .cluster import Security, check_installed, cluster
 from .columns import Kind
-from .crew import Crew, Gone, Lost, NoWorker
+from .crew import Crew, Gone, Lost
 from .identity import identity, words
+from .local import local
 from .parts import arrow
 from .plan import Plan
 from .standing import PASSING
 from .store import Store
-from .supervisor import local
 
 # So many cases are stored at once, however short the time since the last ones were.
 _PART = 1000

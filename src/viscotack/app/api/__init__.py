@@ -37,8 +37,8 @@ def application(engine: Engine | None = None) -> "FastAPI":
 
     @asynccontextmanager
     async def alive(app: "FastAPI") -> AsyncIterator[None]:
-        await engine.begin()
         try:
+            await engine.begin()
             yield
         finally:
             await engine.end()

@@ -8,14 +8,13 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from starlette.exceptions import HTTPException
 
-from viscotack.app.engine.crew import Defect, Halted, Refused
+from viscotack.app.engine.crew import Defect, Refused
 from viscotack.app.engine.jobs import TooMany, Unknown
 
 _STATUS: tuple[tuple[type[Exception], int], ...] = (
     (Unknown, 404),
     (TooMany, 429),
     (Refused, 422),
-    (Halted, 422),
 )
 _MOST_SAID = 3
 
@@ -25,7 +24,7 @@ def words_for(app: FastAPI) -> None:
 
     async def refused(request: Request, error: Exception) -> JSONResponse:
         status = next(status for kind, status in _STATUS if isinstance(error, kind))
-        return JSONResponse({"error": str(error) or "it was stopped"}, status)
+        return JSONResponse({"error": str(error)}, status)
 
     async def malformed(request: Request, error: Exception) -> JSONResponse:
         assert isinstance(error, RequestValidationError)

@@ -17,7 +17,7 @@ from typing import Any
 
 from viscotack.files.whole import write_new
 
-from .crew import Crew, Defect, Halted, Lane, Refused
+from .crew import Crew, Defect, Refused
 
 # Finished jobs are kept for those who come back, so many and so long [s].
 _KEPT, _KEPT_FOR = 64, 900.0
@@ -99,6 +99,8 @@ class Job:
         Of the curve that grows, and of the table.
     error : str
         Why it has no answer.
+    upload : Upload, optional
+        Files that were sent with it.
     """
 
     id: str
@@ -108,8 +110,8 @@ class Job:
     points: list[Any] = field(default_factory=list)
     rows: list[Any] = field(default_factory=list)
     error: str = ""
+    upload: Upload | None = None
     ended: float | None = None
-    stop: asyncio.Event = field(default_factory=asyncio.Event)
     news: asyncio.Event = field(default_factory=asyncio.Event)
     task: asyncio.Task[None] | None = None
     _answer: bytes = b""
@@ -137,7 +139,9 @@ class Job:
         news.set()
 
     def close(self, state: str, *, answer: Any = None, error: str = "") -> None:
-        """Say what became of it."""
+        """Say what became of it; the files that were sent with it go."""
+        if self.upload is not None:
+            self.upload.folder.cleanup()
         self.state, self.error, self.ended = state, error, monotonic()
         if answer is not None:
             self.share = 1.0
@@ -164,24 +168,21 @@ class Engine:
 
     async def begin(self) -> None:
         """Start a process of each lane; Refused where the user's own files are wrong."""
-        lanes = (
-            Lane("quick", 2, ("quick",)),
-            Lane("ask", 2, ("verdict",), nice=4),
-            Lane("work", self.limits.workers, ("job",), nice=2),
-        )
-        self._crews = {lane.name: Crew(lane, self._own) for lane in lanes}
-        # files of the user's own that are wrong are found out by the first of them
-        await self._crews["quick"].begin()
+        self._crews = {
+            "quick": Crew(2, "quick", self._own),
+            "ask": Crew(2, "verdict", self._own, nice=4),
+            "work": Crew(self.limits.workers, "job", self._own, nice=2),
+        }
         for crew in self._crews.values():
-            crew.grow()
+            crew.begin()
+        # files of the user's own that are wrong are found out by the first question
+        await self.ask("forms", {})
 
     async def end(self) -> None:
         """End all jobs and all processes."""
-        for job in self._jobs.values():
-            job.stop.set()
-        tasks = [job.task for job in self._jobs.values() if job.task is not None]
-        await asyncio.gather(*tasks, return_exceptions=True)
-        await asyncio.gather(*(crew.end() for crew in self._crews.values()))
+        await asyncio.gather(*(self._stop(job) for job in self._jobs.values()))
+        for crew in self._crews.values():
+            crew.end()
 
     async def ask(self, task: str, asked: dict[str, Any], **more: Any) -> dict[str, Any]:
         """Return the answer of a question that is no job; keywords as of :meth:`Crew.ask`."""
@@ -221,9 +222,9 @@ class Engine:
                 f"{waiting} jobs wait or go on, as many as this server takes; cancel one, or come "
                 "back when some have ended"
             )
-        job = Job(secrets.token_urlsafe(16), asked["operation"])
+        job = Job(secrets.token_urlsafe(16), asked["operation"], upload=upload)
         self._jobs[job.id] = job
-        job.task = asyncio.get_running_loop().create_task(self._run(job, asked, upload))
+        job.task = asyncio.get_running_loop().create_task(self._run(job, asked))
         return job
 
     def job(self, id: str) -> Job:
@@ -239,38 +240,36 @@ class Engine:
         if job.over:
             del self._jobs[id]
             return job
-        job.stop.set()
-        while not job.over:
-            await job.news.wait()
-        del self._jobs[id]
+        await self._stop(job)
+        self._jobs.pop(id, None)
         return job
 
     def processes(self) -> list[int]:
         """Return the numbers of all processes that live."""
         return [pid for crew in self._crews.values() for pid in crew.processes()]
 
-    async def _run(self, job: Job, asked: dict[str, Any], upload: Upload | None) -> None:
+    async def _run(self, job: Job, asked: dict[str, Any]) -> None:
         def begun() -> None:
             job.state = "running"
             job.changed()
 
         crew = self._crews["work"]
-        options = {"told": job.tell, "stop": job.stop, "begun": begun}
+        options = {"told": job.tell, "begun": begun}
         try:
             answer = await crew.ask("job", asked, seconds=self.limits.job_time, **options)
             job.close("done", answer=answer)
-        except Halted:
-            job.close("cancelled", error="it was cancelled")
         except Refused as error:
             job.close("refused", error=str(error))
         except Defect as error:
             job.close("failed", error=f"this is a defect of viscotack: {error}")
-        except asyncio.CancelledError:
-            job.close("cancelled", error="the server ends")
-            raise
-        finally:
-            if upload is not None:
-                upload.folder.cleanup()
+
+    async def _stop(self, job: Job) -> None:
+        """End a job, and wait until its process is free."""
+        if job.task is not None:
+            job.task.cancel()
+            await asyncio.wait([job.task])
+        if not job.over:
+            job.close("cancelled", error="it was cancelled")
 
     def _forget(self) -> None:
         """Forget jobs that ended long ago, and the oldest of many."""

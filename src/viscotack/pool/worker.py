@@ -1,0 +1,162 @@
+"""A worker process: it runs the tasks of a pool one after the other, and ends with its parent.
+
+Messages are pairs over a :class:`Line`. In: ``("setup", {...})`` first, then ``("task", (turn,
+"module:function", asked))`` and ``("stop", turn)``. Out: ``("ready", None)`` or ``("unfit",
+words)``; ``("told", news)`` while a task runs, and one of ``answer``, ``refused``, ``failed`` and
+``stopped`` at its end. A thread beside the task receives messages and sends ``("alive", None)``
+once a second.
+"""
+
+import os
+import queue
+import resource
+import select
+import signal
+import socket
+import threading
+import traceback
+from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
+from typing import Any
+
+from viscotack.errors import InputError
+
+from .event import NoWorker
+from .line import Code, Line
+
+# Seconds between two signs of life of a worker that is at a task.
+BEAT = 1.0
+
+
+class Stopped(BaseException):
+    """Raised inside a task whose answer is no longer wanted."""
+
+
+def serve(handle: int, code: Code) -> None:
+    """Run the tasks that arrive over a socket; return when the peer closes it.
+
+    Parameters
+    ----------
+    handle : int
+        File descriptor of the socket, inherited.
+    code : {"json", "pickle"}
+        Format of the messages.
+    """
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)  # meant for the parent, which decides about tasks
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
+    with suppress(ConnectionError):  # the parent has gone, and needs no answer
+        _Runner(Line(socket.socket(fileno=handle), code, strict=True)).serve()
+
+
+class _Runner:
+    def __init__(self, line: Line) -> None:
+        self._line = line
+        self._messages: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        # a task that was received and not answered keeps this process busy
+        self._received = self._answered = 0
+        # turns of the task that runs, and of the task to stop
+        self._current: int | None = None
+        self._unwanted: int | None = None
+        self._telling = False
+
+    def serve(self) -> None:
+        signal.signal(signal.SIGUSR1, self._check_stopped)
+        threading.Thread(target=self._listen, daemon=True).start()
+        setup = self._messages.get()
+        if setup is None:
+            return
+        try:
+            os.nice(setup["nice"])
+            _bound_memory(setup["address_space"])
+            context = named(setup["prepare"])(setup["given"])
+        except (InputError, NoWorker) as error:
+            return self._say("unfit", str(error))
+        except BaseException as error:
+            return self._say("unfit", f"no worker can begin: {type(error).__name__}: {error}")
+        self._answer(self._line.packed(("ready", None)))
+        while (message := self._next(setup["idle"])) is not None:
+            turn, task, asked = message
+            self._answer(self._done(turn, task, asked, context))
+
+    def _next(self, idle: float | None) -> Any:
+        """Wait for a task; None when none will come, or none has come for a time [s]."""
+        try:
+            return self._messages.get(timeout=idle)
+        except queue.Empty:
+            return None
+
+    def _done(self, turn: int, task: str, asked: Any, context: Any) -> bytes:
+        """Run a task; return the message of its end."""
+        try:
+            try:
+                self._current = turn
+                self._check_stopped()  # the request may have come before the task began
+                return self._line.packed(("answer", named(task)(asked, self._tell, context)))
+            finally:
+                self._current = None
+        except Stopped:
+            return self._line.packed(("stopped", ""))
+        except InputError as error:
+            return self._line.packed(("refused", str(error)))
+        except Exception as error:
+            traceback.print_exc()
+            return self._line.packed(("failed", f"{type(error).__name__}: {error}"))
+
+    def _tell(self, news: Any) -> None:
+        self._telling = True  # half a message would garble all later ones
+        try:
+            self._say("told", news)
+        finally:
+            self._telling = False
+        self._check_stopped()
+
+    def _check_stopped(self, *_: Any) -> None:
+        """Raise Stopped, once, if the task that runs is to stop."""
+        if self._current is not None and self._unwanted == self._current and not self._telling:
+            self._current = None
+            raise Stopped
+
+    def _answer(self, content: bytes) -> None:
+        # counted first: a parent that closes the line after an answer leaves an idle worker
+        self._answered += 1
+        self._line.send(content)
+
+    def _say(self, kind: str, what: Any) -> None:
+        self._line.send(self._line.packed((kind, what)))
+
+    def _listen(self) -> None:
+        """Receive messages and give signs of life until the parent has gone."""
+        with suppress(OSError, EOFError):
+            while True:
+                if select.select([self._line], [], [], BEAT)[0]:
+                    for kind, what in self._line.receive():
+                        self._take(kind, what)
+                elif self._received > self._answered:
+                    self._say("alive", None)
+        if self._received > self._answered:
+            os._exit(1)
+        self._messages.put(None)
+
+    def _take(self, kind: str, what: Any) -> None:
+        if kind == "stop":
+            self._unwanted = what
+            os.kill(os.getpid(), signal.SIGUSR1)  # the main thread is to look up
+        else:
+            self._received += 1
+            self._messages.put(what)
+
+
+def named(function: str) -> Callable[..., Any]:
+    """Import a function by its name, ``"package.module:function"``."""
+    module, _, name = function.partition(":")
+    return getattr(import_module(module), name)
+
+
+def _bound_memory(most: int | None) -> None:
+    """Limit the address space of this process [bytes]: beyond it a task gets a MemoryError."""
+    if most is not None:
+        _, hard = resource.getrlimit(resource.RLIMIT_AS)
+        least = most if hard == resource.RLIM_INFINITY else min(most, hard)
+        resource.setrlimit(resource.RLIMIT_AS, (least, hard))
