@@ -20,6 +20,7 @@ from pathlib import Path
 FOLDERS = {"src": "src", "tests": "tests", "replication": "."}
 # It exports everything: an import of it alone says nothing about what a file uses.
 FACE = "viscotack"
+_PROGRAM = re.compile(r"from (viscotack[\w.]*) import (\w+)")
 
 
 @dataclass(frozen=True)
@@ -111,6 +112,10 @@ def imported(nodes: list[ast.AST], room: str) -> Iterator[tuple[str, str]]:
             origin = [*base, *([node.module] if node.module else [])]
             for alias in node.names:
                 yield alias.asname or alias.name, ".".join([*origin, alias.name])
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            # programs of other processes stand in strings
+            for module, name in _PROGRAM.findall(node.value):
+                yield name, f"{module}.{name}"
 
 
 def dotted(node: ast.AST) -> str:
