@@ -67,7 +67,7 @@ def test_of_a_short_range_the_data_tell_only_that_it_is_short():
     assert ends.closed_below and not ends.closed_above and ends.low > 2
 
 
-@pytest.mark.parametrize("tabor", [0.3, 1.5])
+@pytest.mark.parametrize("tabor", [pytest.param(0.3, marks=pytest.mark.slow), 1.5])
 def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
     fit = identify_slow(of_maugis(tabor, 2))
     assert fit.best.model == "maugis"

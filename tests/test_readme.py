@@ -23,7 +23,7 @@ PAGES = [
 # docs/api.md are run by tests/test_app_command.py.
 NOT_AT_HAND = ("tcp://", "tls://", "viscotack app")
 ASKS_A_SERVER = ROOT / "docs/api.md"
-# From rig files to a report takes half a minute; the README and docs/tack_tests.md have the same lines.
+# From rig files to a report takes half a minute, in the README and in docs/tack_tests.md alike.
 STUDY = ("viscotack identify rates", "viscotack forecast", "viscotack report")
 
 

@@ -249,7 +249,7 @@ def test_a_slow_mode_of_next_to_no_weight_changes_nothing():
     )
 
 
-@pytest.mark.parametrize("order", [0.3, 0.9])
+@pytest.mark.parametrize("order", [0.3, pytest.param(0.9, marks=pytest.mark.slow)])
 def test_a_fractional_solid_has_cracks_at_a_modulus_ratio_of_a_millionth(order):
     solid = FractionalZener(
         rubbery_modulus=1.0, glassy_modulus=1e6, order=order, tau0=1.0, poisson_ratio=0.0

@@ -282,7 +282,7 @@ def _pressed(
 
 
 def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict[int, str]:
-    """Number of each test without a pull-off, and the reason."""
+    """Map the number of each test without a pull-off to the reason."""
     refused = {}
     for i, answer in enumerate(answers):
         if isinstance(answer, InputError):
