@@ -170,7 +170,8 @@ def test_from_rig_files_to_a_report_in_three_commands(tmp_path, capsys):
     assert exit_status(["forecast", str(study), "--speed", "10 um/s", "--json"]) == 0
     (row,) = json.loads(capsys.readouterr().out)["forecast"]
     assert row["low_N"] < row["pull_off_force_N"] < row["high_N"]
-    assert exit_status(["report", str(study), "-o", str(page)]) == 0
+    speeds = ["--speed", "1 um/s", "--speed", "1 mm/s"]
+    assert exit_status(["report", str(study), *speeds, "-o", str(page)]) == 0
     seen = _Seen()
     seen.feed(page.read_text())
     assert seen.headings == 8 and seen.drawings == 3

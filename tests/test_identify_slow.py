@@ -82,6 +82,7 @@ def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
         assert one.criterion > fit.best.criterion + 20 and one.intervals == {}
 
 
+@pytest.mark.slow
 def test_without_a_camera_the_range_is_told_weakly():
     known = (LENS["contact_modulus"], 0.05 * LENS["contact_modulus"])
     by_depth = identify_slow(
@@ -105,6 +106,7 @@ def error_study():
     return module
 
 
+@pytest.mark.slow
 def test_an_elastic_fit_of_a_viscoelastic_test_reads_the_tabor_number_wrong():
     study = error_study()
     tabor, slow = study.read_as_slow(1e-9, models=["jkr"])

@@ -84,8 +84,10 @@ def test_the_readme_leads_to_every_room():
 
 
 def is_long(command):
-    # the study that replication/tests/test_learning_commands.py does in make test
-    return command.startswith("python -m replication.learning")
+    # with words: ten seconds of learning, and the published table from a file
+    return command.startswith(
+        ("python -m replication.learning", "python -m replication.published ")
+    )
 
 
 @pytest.mark.parametrize(
