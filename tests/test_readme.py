@@ -134,6 +134,11 @@ def test_make_targets_of_the_pages_exist(page):
     assert set(words) <= targets
 
 
+def test_every_change_is_held_to_the_slow_tests_too():
+    lines = (ROOT / ".ci" / "run").read_text().splitlines()
+    assert {"make test", "make test-slow"} <= set(lines)
+
+
 def test_first_two_commands_are_demo_and_test():
     assert commands(ROOT / "README.md")[:2] == ["make demo", "make test"]
 
