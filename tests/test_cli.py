@@ -12,7 +12,7 @@ import pytest
 import viscotack
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
-from viscotack import bem
+from viscotack import methods
 from viscotack.app import questions
 from viscotack.materials import Elastic, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups, Problem
@@ -38,7 +38,7 @@ def fake(monkeypatch):
             }
         )
 
-    monkeypatch.setattr(bem, "solve", solve)
+    monkeypatch.setattr(methods, "solve", solve)
     return asked
 
 
@@ -243,7 +243,7 @@ def test_a_start_that_does_not_exist_is_wrong_input(capsys):
 )
 def test_a_defect_is_not_taken_for_wrong_input(broken, monkeypatch, capsys):
     """ValueErrors as well: only those that the package words itself are about the input."""
-    monkeypatch.setattr(bem, "solve", broken)
+    monkeypatch.setattr(methods, "solve", broken)
     assert exit_status([*SPHERE, *ELASTIC]) == 3
     out, err = capsys.readouterr()
     assert out == ""

@@ -16,7 +16,7 @@ import pytest
 import viscotack
 from command_line import exit_status
 from synthetic import jkr_detachment, jkr_result
-from viscotack import bem
+from viscotack import methods
 from viscotack.campaign import read_plan
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
@@ -52,7 +52,7 @@ def saved(tmp_path):
 @pytest.fixture
 def fake(monkeypatch):
     """Replace the simulation by a ready result."""
-    monkeypatch.setattr(bem, "solve", lambda problem, **options: jkr_detachment())
+    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_detachment())
 
 
 def call(*arguments):
@@ -297,7 +297,7 @@ def test_a_table_goes_to_standard_output_and_the_words_beside(saved, capsys):
 def test_files_are_refused_before_the_work(flags, words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     os.symlink("x", "link")
-    monkeypatch.setattr(bem, "solve", lambda *given, **options: 1 / 0)
+    monkeypatch.setattr(methods, "solve", lambda *given, **options: 1 / 0)
     assert words in refused(capsys, *ELASTIC, *flags)
     assert names(tmp_path) == ["link"]
 

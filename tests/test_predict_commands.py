@@ -10,7 +10,7 @@ import pytest
 import viscotack as vt
 from command_line import exit_status
 from synthetic import jkr_result
-from viscotack import bem
+from viscotack import methods
 from viscotack.app.cli import predict_table
 from viscotack.surrogate import physics, store, trust
 
@@ -117,7 +117,7 @@ def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simula
     monkeypatch, capsys
 ):
     words = [*SPHERE, *RATE, "--compare"]
-    monkeypatch.setattr(bem, "solve", lambda problem, **options: jkr_result())
+    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_result())
     found = answer(capsys, *words)
     assert found["simulation"]["pull_off_force"] == pytest.approx(1, rel=1e-4)
     assert found["difference"]["pull_off_force"] == pytest.approx(
@@ -127,7 +127,7 @@ def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simula
     assert call(*words) == 0
     assert "% above; outside its interval" in capsys.readouterr().out
     stopped = "stopped because the step became too small"
-    monkeypatch.setattr(bem, "solve", lambda problem, **options: jkr_result(status=stopped))
+    monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_result(status=stopped))
     assert call(*words, "--json") == 1
     found = json.loads(capsys.readouterr().out)
     assert found["simulation"]["status"] == stopped and found["inside"]
