@@ -176,8 +176,7 @@ class Forward:
         ]
         if not moves and stiffness is None:
             # nothing changes them; retractions from rest are marched together
-            answers = crack_contacts([problem.groups() for problem in problems])
-            return Changed(np.ones(speed.size), _refused(answers, speed))
+            return Changed(np.ones(speed.size), _refused(_rested(problems), speed))
         answers = [_pressed(problem, _APART * gap, moves, stiffness) for problem in problems]
         refused = _refused(answers, speed)
         rigid = self.pulled(work, gap, speed, preload, growth=growth).force
@@ -267,6 +266,14 @@ class Forward:
             energy[at],
             interface[at],
         )
+
+
+def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
+    """Crack contact of each retraction from rest, or the error that refuses it."""
+    try:
+        return crack_contacts([problem.groups() for problem in problems])
+    except InputError as error:
+        return [error] * len(problems)
 
 
 def _pressed(
