@@ -98,6 +98,7 @@ def test_a_warmer_test_is_a_slower_one(fit):
     assert warm.temperature == 303.15
 
 
+@pytest.mark.slow
 def test_a_short_dwell_is_told_from_a_long_one(exact):
     rested = forecast_rates(exact, [1e-4]).force
     long, short = (
