@@ -29,16 +29,19 @@ $(VENV)/.installed: $(VENV)/.demo
 demo: $(VENV)/.demo
 	$(BIN)/python examples/pdms_lens.py
 
+# Four minutes at most on two quiet cores, the install excluded. Prints the 15 slowest and the total: what
+# takes seconds again and again is shared in a fixture, made coarser, or marked slow.
 test: $(VENV)/.installed
-	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q
+	$(BIN)/python -m pytest -m "not slow and not outside" -n 2 -q --durations=15
 
 # TABLE is the table of detachments that replication/README.md says where to get, TACK the folder of
 # public tack tests that docs/tack_tests.md names.
 test-outside: $(VENV)/.installed
 	$(BIN)/python -m pytest -m outside -q --table="$(TABLE)" --tack="$(TACK)"
 
+# Some minutes each; with `make test` twenty minutes at most on two quiet cores.
 test-slow: $(VENV)/.installed
-	$(BIN)/python -m pytest -m slow -n 2 -q
+	$(BIN)/python -m pytest -m slow -n 2 --dist worksteal -q --durations=15
 
 test-processors: $(VENV)/.installed
 	PYTHON=$(BIN)/python .ci/processors

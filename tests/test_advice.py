@@ -2,13 +2,13 @@
 
 import json
 from dataclasses import replace
-from time import process_time
 
 import numpy as np
 import pytest
 
 import viscotack as vt
 from command_line import exit_status
+from effort import calls
 from viscotack.protocol import Dwell
 from viscotack.theory import jkr, maugis, modulus_file, persson_brener, tabulated_modulus
 from viscotack.traction import effective_range
@@ -180,22 +180,18 @@ def test_the_same_start_said_in_three_ways_is_one():
 
 
 @pytest.mark.parametrize(
-    ("case", "soon"),
+    ("case", "most"),
     [
-        (dict(rate=1.0), 0.02),
-        (dict(rate=316.23), 0.02),
+        (dict(rate=1.0), 50_000),
+        (dict(rate=316.23), 50_000),
         # a contact with a crack for its edge is asked there, its cracks being known
-        (dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4), 0.3),
+        (dict(rate=1e6, tabor=8.0, modulus_ratio=0.01, exponent=0.4), 300_000),
     ],
 )
-def test_advice_comes_at_once(case, soon):
+def test_advice_comes_at_once(case, most):
     problem = groups(**case)
-    times = []
-    for _ in range(7):
-        began = process_time()
-        vt.advise(problem)
-        times.append(process_time() - began)
-    assert min(times) < soon
+    vt.advise(problem)
+    assert calls(lambda: vt.advise(problem)) < most
 
 
 # A hand-made table: a wall, a peak, a tail that ends.
@@ -210,9 +206,17 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("law", LAWS)
+REGIMES = [(0.3, 0.01), (1.5, 1.0), (5.0, 1.0), (5.0, 1e4)]
+
+
 @pytest.mark.parametrize(
-    ("effective_tabor", "rate"), [(0.3, 0.01), (1.5, 1.0), (5.0, 1.0), (5.0, 1e4)]
+    ("law", "effective_tabor", "rate"),
+    [
+        # every law in two of the regimes, and every regime with two of the laws
+        pytest.param(law, *regime, marks=[pytest.mark.slow] * ((i + j) % 2))
+        for i, law in enumerate(LAWS)
+        for j, regime in enumerate(REGIMES)
+    ],
 )
 def test_every_law_gets_advice_as_good_as_it_is_said_to_be(law, effective_tabor, rate):
     length = effective_range(LAWS[law])

@@ -19,6 +19,7 @@ from viscotack.app.cli.page import _query, _token
 DOCS = Path(__file__).parents[1] / "docs/api.md"
 
 
+@pytest.mark.slow
 def test_page_and_client_of_the_docs_are_answered(tmp_path, monkeypatch, capsys):
     fences = dict(re.findall(r"```(json|python)\n(.*?)```", DOCS.read_text(), flags=re.S))
     (tmp_path / "case.json").write_text(fences["json"])

@@ -25,7 +25,7 @@ from campaign_work import (
 )
 from processes import until
 from viscotack import InputError
-from viscotack.campaign import NoWorker, Store, cluster, local, run
+from viscotack.campaign import NoWorker, Store, cluster, run
 from viscotack.campaign.cluster import Security, security_of
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")
@@ -120,6 +120,11 @@ def told_by_one_process(tmp_path, plan, monkeypatch, work=stand_in):
     return told(tmp_path / "here")
 
 
+# Clusters of processes take ten seconds and more; what a crew does with its scheduler is held by
+# tests/test_campaign_crew.py.
+
+
+@pytest.mark.slow
 def test_a_cluster_with_certificates_gives_the_same_table_when_a_worker_is_killed(
     tmp_path, monkeypatch, certificates
 ):
@@ -164,6 +169,7 @@ def broken_package(folder):
     return str(folder)
 
 
+@pytest.mark.slow
 def test_no_worker_no_case(tmp_path, monkeypatch):
     monkeypatch.setattr(cluster, "_FIRST", 5.0)
     plan = plan_of(tmp_path, cases=4)
@@ -199,8 +205,8 @@ def test_three_files_or_none_are_needed_for_certificates(tmp_path):
 
 @pytest.mark.slow
 def test_limits_bind_on_a_cluster_too(tmp_path, monkeypatch):
-    monkeypatch.setattr(local, "GRACE", 0.5)
-    plan = plan_of(tmp_path, cases=20, text="settings.time_limit = 0.3")
+    # no case that ends by itself takes so long, beside any load
+    plan = plan_of(tmp_path, cases=20, text="settings.time_limit = 3")
     with held(tmp_path) as dask:
         dask.hire(2)
         end = run(plan, tmp_path / "c", scheduler=dask.address, work=trouble)

@@ -47,6 +47,7 @@ def strike_a_worker(process, chance):
         os.kill(int(chance.choice(found)), signal.SIGKILL)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not resident_memory(), reason="only Linux tells of other processes")
 def test_fifteen_kills_lose_nothing_and_duplicate_nothing(tmp_path, monkeypatch):
     plan = plan_of(tmp_path, cases=CASES, text="settings.time_limit = 1.0")

@@ -83,7 +83,10 @@ def one(work, **settings):
         yield crew
 
 
-@pytest.mark.parametrize("work", [waiting, holding, stubborn])
+@pytest.mark.parametrize(
+    "work",
+    [waiting, holding, pytest.param(stubborn, marks=pytest.mark.slow)],
+)
 def test_a_case_that_never_comes_back_is_ended_with_its_process(work, clock, began):
     with one(work, time_limit=1.0) as crew:
         (before,) = crew.processes()
@@ -341,7 +344,7 @@ def test_sigterm_to_the_group_ends_a_run_in_order(tmp_path):
 
 
 @LINUX
-@pytest.mark.parametrize("work", [waiting, holding])
+@pytest.mark.parametrize("work", [pytest.param(waiting, marks=pytest.mark.slow), holding])
 def test_no_worker_outlives_its_parent(tmp_path, work):
     with running(tmp_path, work) as process:
         until(lambda: len([*tmp_path.glob("[0-9]*")]) == 2)

@@ -283,8 +283,10 @@ def test_a_holder_on_another_machine_is_believed_while_it_gives_signs_of_life(tm
     held_by(tmp_path, "process 7 on elsewhere\n", age=100.0)
     with locked(tmp_path) as hold:
         os.utime(tmp_path / "lock", (0, 0))
+        before = time.time()
         hold.confirm()
-        assert time.time() - (tmp_path / "lock").stat().st_mtime < 10
+        # the clock of files is that of the system in steps of a few milliseconds
+        assert (tmp_path / "lock").stat().st_mtime > before - 1
     assert (tmp_path / "lock").read_text() == "", "it was handed back"
 
 

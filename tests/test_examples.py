@@ -77,6 +77,7 @@ def test_lens_from_a_file_is_the_lens_of_the_demo():
     assert vt.run_id(case) == vt.run_id(demo.lens(demo.PDMS, 100e-6))
 
 
+@pytest.mark.slow
 def test_command_in_the_file_runs(tmp_path):
     command = [sys.executable, "-m", "viscotack", "simulate", "sphere"]
     options = ["--accuracy", "1e-2", "--until", "pull-off", "--csv", str(tmp_path / "lens.csv")]
@@ -114,6 +115,7 @@ def test_a_heavier_load_is_borne_for_a_shorter_time(tmp_path, capsys):
     assert "still in contact" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_files_of_the_rig_are_those_that_their_script_makes():
     spec = importlib.util.spec_from_file_location("make_rig", EXAMPLES / "from_rig" / "make.py")
     module = importlib.util.module_from_spec(spec)

@@ -351,7 +351,7 @@ def test_a_link_is_written_through_by_a_command(saved, tmp_path, capsys):
     assert "<svg" in (tmp_path / "real.svg").read_text()
 
 
-@pytest.mark.parametrize("target", ["-", "/dev/stdout"])
+@pytest.mark.parametrize("target", ["-", pytest.param("/dev/stdout", marks=pytest.mark.slow)])
 def test_a_redirected_output_holds_the_table(target, saved, tmp_path):
     """As with ``>``: the file that the shell opened must not be replaced under its hands."""
     command = [sys.executable, "-m", "viscotack", "show", str(saved), "--csv", target]

@@ -86,6 +86,7 @@ def test_a_series_without_growth_is_said_to_need_none(small):
     assert fit.intervals["strengthening"].low == 1.0
 
 
+@pytest.mark.slow
 def test_an_edge_of_the_lattice_for_each_case_gives_the_forces_of_cracks_of_their_own():
     lattice = GrowingCracks(SOLID, (0.1, 2.0), (1.0, 1.0), [0.4, 0.5, 0.6, 0.7])
     # one unit of time is 0.01 s: an opening speed of h0 per unit is 5 um/s

@@ -67,7 +67,7 @@ def test_of_a_short_range_the_data_tell_only_that_it_is_short():
     assert ends.closed_below and not ends.closed_above and ends.low > 2
 
 
-@pytest.mark.parametrize("tabor", [0.3, 1.5])
+@pytest.mark.parametrize("tabor", [pytest.param(0.3, marks=pytest.mark.slow), 1.5])
 def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
     fit = identify_slow(of_maugis(tabor, 2))
     assert fit.best.model == "maugis"
@@ -82,6 +82,7 @@ def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
         assert one.criterion > fit.best.criterion + 20 and one.intervals == {}
 
 
+@pytest.mark.slow
 def test_without_a_camera_the_range_is_told_weakly():
     known = (LENS["contact_modulus"], 0.05 * LENS["contact_modulus"])
     by_depth = identify_slow(
@@ -105,6 +106,7 @@ def error_study():
     return module
 
 
+@pytest.mark.slow
 def test_an_elastic_fit_of_a_viscoelastic_test_reads_the_tabor_number_wrong():
     study = error_study()
     tabor, slow = study.read_as_slow(1e-9, models=["jkr"])

@@ -1,7 +1,6 @@
 """Layouts that instruments and programs export, and the true cause of a refusal."""
 
 import json
-import time
 
 import numpy as np
 import pytest
@@ -9,6 +8,7 @@ from numpy.testing import assert_allclose
 
 import lab_files
 from command_line import exit_status
+from effort import calls
 from viscotack.lab import read, read_creep, read_dma, read_relaxation, read_shifts
 from viscotack.lab.quantities import is_unit, recognise
 
@@ -449,9 +449,9 @@ def test_a_hundred_thousand_rows_take_seconds(file):
     times = np.geomspace(1e-3, 1e3, rows)
     lines = [f"{t:.9g},{1e6 / (1 + t):.9g},20.0" for t in times]
     path = file("\n".join(["time_s,G_relax,T", "s,Pa,C", *lines, ""]))
-    start = time.perf_counter()
-    test = read_relaxation(path)
-    assert time.perf_counter() - start < 10
+    read = []
+    assert calls(lambda: read.append(read_relaxation(path))) < 50 * rows
+    (test,) = read
     assert len(test) == rows
     assert_allclose(test.modulus[[0, -1]], 1e6 / (1 + times[[0, -1]]), rtol=1e-8)
 

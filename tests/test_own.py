@@ -250,6 +250,7 @@ def test_the_modes_of_cole_cole_are_its_creep():
     assert product == pytest.approx(1.0, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_wide_rounding_is_a_sphere_to_second_order_in_the_contact_over_it():
     material = vt.Elastic(rubbery_modulus=1.5e6, poisson_ratio=0.5)
     law = vt.LennardJones(work_of_adhesion=0.15, equilibrium_gap=1e-6)

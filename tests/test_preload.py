@@ -47,8 +47,10 @@ def pulled(problem, **options):
     [
         case(1500.0, material=ELASTIC),
         case(1200.0, tabor=0.3, rate=20.0, material=POWER_LAW),
-        case(1200.0, tabor=3.0, rate=20.0, material=POWER_LAW),
-        case(1200.0, rate=10.0, material=BROAD),
+        pytest.param(
+            case(1200.0, tabor=3.0, rate=20.0, material=POWER_LAW), marks=pytest.mark.slow
+        ),
+        pytest.param(case(1200.0, rate=10.0, material=BROAD), marks=pytest.mark.slow),
         case(1100.0, rate=5.0, geometry=PowerLawProfile(0.25, 4.0)),
         case(1200.0, rate=5.0, stiffness=0.2),
     ],

@@ -234,6 +234,7 @@ def test_theory_takes_a_case(case_file, capsys):
     assert wished["thickness_m"] > 50e-6
 
 
+@pytest.mark.slow
 def test_theory_draws_its_map(capsys, tmp_path):
     picture = tmp_path / "map.png"
     found = asked(["theory", "punch", *PAD, "--map", "--plot", picture], capsys)["map"]

@@ -23,6 +23,8 @@ PAGES = [
 # docs/api.md are run by tests/test_app_command.py.
 NOT_AT_HAND = ("tcp://", "tls://", "viscotack app")
 ASKS_A_SERVER = ROOT / "docs/api.md"
+# From rig files to a report takes half a minute, in the README and in docs/tack_tests.md alike.
+STUDY = ("viscotack identify rates", "viscotack forecast", "viscotack report")
 
 
 def name(page):
@@ -41,17 +43,28 @@ def commands(page):
     return [line.removeprefix("$ ") for line in lines if line.strip()]
 
 
-def simulations():
-    """Return every `viscotack simulate` and the `show` that may follow it, page by page."""
+def of_the_package(page):
+    """Return the `viscotack` commands of a page that can be run here."""
+    return [
+        line
+        for line in commands(page)
+        if line.startswith("viscotack") and not any(word in line for word in NOT_AT_HAND)
+    ]
+
+
+def short():
+    """Return the commands that take seconds, page by page."""
     found = {
-        name(page): [
-            line
-            for line in commands(page)
-            if line.startswith("viscotack") and not any(word in line for word in NOT_AT_HAND)
-        ]
+        name(page): [line for line in of_the_package(page) if not line.startswith(STUDY)]
         for page in PAGES
     }
     return {name: lines for name, lines in found.items() if lines}
+
+
+def studies():
+    """Return the different studies of the pages, each a tuple of commands."""
+    found = {tuple(x for x in of_the_package(page) if x.startswith(STUDY)) for page in PAGES}
+    return sorted(found - {()})
 
 
 @pytest.fixture
@@ -90,11 +103,11 @@ def test_python_of_the_pages_runs(page, anywhere):
         exec(compile(example, page.name, "exec"), {})
 
 
-@pytest.mark.parametrize("page", simulations())
-def test_commands_of_the_pages_run(page, anywhere):
+def run(lines):
+    """Type commands one after another, simulations of them coarsely."""
     from viscotack.app.cli import application
 
-    for line in simulations()[page]:
+    for line in lines:
         arguments = shlex.split(line)[1:]
         if arguments[0] == "simulate" and "-h" not in arguments and "--help" not in arguments:
             arguments += ["--until", "pull-off", "--accuracy", "1e-2"]
@@ -102,11 +115,28 @@ def test_commands_of_the_pages_run(page, anywhere):
         assert done.exit_code == 0, f"{line}\n{done.output}"
 
 
+@pytest.mark.parametrize("page", short())
+def test_commands_of_the_pages_run(page, anywhere):
+    run(short()[page])
+
+
+@pytest.mark.slow
+def test_studies_of_the_pages_run(anywhere):
+    assert studies()
+    for lines in studies():
+        run(lines)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_make_targets_of_the_pages_exist(page):
     targets = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
     words = [w for line in commands(page) if line.startswith("make ") for w in line.split()[1:]]
     assert set(words) <= targets
+
+
+def test_every_change_is_held_to_the_slow_tests_too():
+    lines = (ROOT / ".ci" / "run").read_text().splitlines()
+    assert {"make test", "make test-slow"} <= set(lines)
 
 
 def test_first_two_commands_are_demo_and_test():

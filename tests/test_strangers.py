@@ -30,7 +30,8 @@ def bounded():
     yield
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert time.process_time() - began < 5.0 and most < 150e6
+    # what is not bounded takes hours; what is takes three seconds at most, or ten beside a load
+    assert time.process_time() - began < 60.0 and most < 150e6
 
 
 @pytest.mark.parametrize(
@@ -145,7 +146,7 @@ def changed(tmp_path, **arrays):
 
 def bomb(path, size):
     """Write an archive whose one array says that it has so many bytes, all of them zero."""
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as file:
         with file.open("time.npy", "w", force_zip64=True) as member:
             member.write(declared((size // 8,)))
             for _ in range(size // 1_000_000):
@@ -174,7 +175,7 @@ def test_a_result_that_is_none_is_refused(tmp_path, arrays, words):
 
 def test_a_small_file_that_unpacks_to_much_is_refused(tmp_path):
     path = bomb(tmp_path / "bomb.npz", 1_100_000_000)
-    assert path.stat().st_size < 3e6
+    assert path.stat().st_size < 6e6
     with pytest.raises(InputError, match="unpacked it would have 1100 MB, more than the 1000 MB"):
         load(path)
     with pytest.raises(InputError, match="more than the 50 MB"):

@@ -77,6 +77,7 @@ def test_intervals_hold_the_true_shift(draws):
     assert 0.4 < np.sqrt(np.mean(score**2)) < 1.4
 
 
+@pytest.mark.slow
 def test_many_points_cost_no_more_than_a_few():
     table = shift_factors(melt(3, points=2000), reference_temperature=REFERENCE)
     few = shift_factors(melt(3), reference_temperature=REFERENCE)

@@ -116,6 +116,7 @@ def test_rows_without_weight_do_not_count():
     assert found(x)[0][x <= 0.5] == pytest.approx(target[x <= 0.5], abs=0.02)
 
 
+@pytest.mark.slow
 def test_a_shop_does_not_fit_twice(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
     from viscotack.surrogate.training.shop import Shop

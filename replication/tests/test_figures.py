@@ -111,6 +111,7 @@ def test_numbers_come_back_as_they_were_kept(tmp_path, monkeypatch):
     assert np.isnan(kept("2.1")["a"][1]) and kept("2.1")["b"]["c"][1] == "word"
 
 
+@pytest.mark.slow
 def test_helping_hands_give_what_one_hand_gives():
     cases = [Work(sphere(10.0, 3.0), estimate=False), Work(sphere(100.0, 3.0), estimate=False)]
     with Hands(2) as hands:

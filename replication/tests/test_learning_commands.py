@@ -36,6 +36,7 @@ def done(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_every_part_is_in_the_files(done):
     out = done / "out"
     numbers = json.loads((out / "numbers.json").read_text())
@@ -49,12 +50,14 @@ def test_every_part_is_in_the_files(done):
     assert len(times) == len(numbers["tables"]["entries"]) == 30
 
 
+@pytest.mark.slow
 def test_json_is_one_object_with_what_was_found_and_written(done):
     found = json.loads((done / "said.json").read_text())
     assert "of 16 entries of Tables 5.1 to 5.4" in " ".join(found["said"])
     assert found["files"][-1].endswith("report.html")
 
 
+@pytest.mark.slow
 def test_the_thesis_stands_beside_each_entry_of_its_tables(done):
     entries = json.loads((done / "out/numbers.json").read_text())["tables"]["entries"]
     for table in TABLES:
@@ -65,12 +68,14 @@ def test_the_thesis_stands_beside_each_entry_of_its_tables(done):
         assert found["Network"] is None
 
 
+@pytest.mark.slow
 def test_r2_by_group_is_in_the_same_table(done):
     head = (done / "out/tables/table_5_2.csv").read_text().splitlines()[0]
     for words in ("a new input", '"R2, a new (mu, k, n)"', "a new mu", "a new n", "a new k"):
         assert words in head
 
 
+@pytest.mark.slow
 def test_the_page_stands_alone_and_says_that_it_was_quick(done):
     page = (done / "out/report.html").read_text()
     assert page.count("data:image/png;base64,") == 10

@@ -83,7 +83,20 @@ def test_the_readme_leads_to_every_room():
         assert f"`python -m {part.room}`" in text
 
 
-@pytest.mark.parametrize("command", sorted({part.command for part in CONTENTS}.union(*STATED)))
+def is_long(command):
+    # with words: ten seconds of learning, and the published table from a file
+    return command.startswith(
+        ("python -m replication.learning", "python -m replication.published ")
+    )
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(command, marks=[pytest.mark.slow] * is_long(command))
+        for command in sorted({part.command for part in CONTENTS}.union(*STATED))
+    ],
+)
 def test_commands_of_the_pages_and_of_the_list_run(command, anywhere):
     words = shlex.split(command)[2:]
     assert run([*words, *SHORT.get(words[0], [])]) == 0

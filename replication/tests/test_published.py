@@ -68,6 +68,7 @@ def rows(table, folder):
     return compare(table, folder / "runs", workers=1)
 
 
+@pytest.mark.slow
 def test_what_the_simulation_says_itself_is_not_off(rows, table):
     assert [inputs_of(row) for row in rows] == CASES
     off = [row["force_difference"] for row in rows]

@@ -210,7 +210,7 @@ def crack_time(load, tabor, material):
     [
         (SOLID, 3.24, 1.3),
         (SOLID, 3.24, 2.0),
-        (SOLID, 8.0, 1.1),
+        pytest.param(SOLID, 8.0, 1.1, marks=pytest.mark.slow),
         (SOLID, 8.0, 3.0),
         (POWER_LAW, 3.24, 1.3),
         (POWER_LAW, 3.24, 2.0),

@@ -178,7 +178,7 @@ def test_the_speed_of_an_edge_that_runs_out_converges():
     assert speeds[0] == pytest.approx(speeds[1], rel=0.01, abs=0)
 
 
-@pytest.mark.parametrize("thickness", [3.24, 32.42, 324.2])
+@pytest.mark.parametrize("thickness", [3.24, 32.42, pytest.param(324.2, marks=pytest.mark.slow)])
 def test_a_viscoelastic_punch_lies_between_the_two_elastic_ones(thickness):
     slow = pull_off_stress(run(material=ELASTIC, thickness=thickness))
     glassy = dict(size=6.485, thickness=thickness / 10, cohesion=0.005, material=ELASTIC)

@@ -174,8 +174,8 @@ def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_shor
         (pressed(MoveTo(50.0, 1.0)), "a move is a MoveTo, verified for histories without"),
         (pressed(*(Dwell(0.1),) * 3), "number of moves is 4, verified from 1 to 3"),
         (
-            pressed(stiffness=1e-3),
-            "stiffness times the Tabor number is 0.01, verified",
+            pressed(stiffness=9e-3),
+            "stiffness times the Tabor number is 0.09, verified",
         ),
     ],
 )

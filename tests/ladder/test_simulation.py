@@ -334,9 +334,9 @@ def test_simulation_is_second_order_in_time():
 
 def test_simulation_is_second_order_in_the_mesh():
     groups = Groups(tabor=1.0, material=standard_solid(0.1), start=AtDepth(5.0), rate=1e3)
-    base = _with(Settings.for_accuracy(1e-4), fine_zones=20.0)
+    base = _with(Settings.for_accuracy(1e-3), fine_zones=20.0)
     sizes, forces = np.array([2.0, 1.0, 0.5]), []
-    for size in (*sizes, 0.125):
+    for size in (*sizes, 0.25):
         settings = _with(
             base,
             nodes_per_zone=6 / size,
@@ -344,8 +344,9 @@ def test_simulation_is_second_order_in_the_mesh():
             growth_outside=0.13 * size,
         )
         forces.append(pull_off_force(_run(groups, settings)))
-    errors = np.array(forces[:3]) - forces[3]
-    assert slope(sizes, errors) == pytest.approx(2.0, abs=0.4), errors
+    # from a mesh to one half as wide the force changes by three quarters of its error
+    changes = -np.diff(forces)
+    assert slope(sizes, changes) == pytest.approx(2.0, abs=0.15), changes
 
 
 def test_energy_residual_is_second_order_in_the_step():

@@ -249,10 +249,17 @@ def test_a_slow_mode_of_next_to_no_weight_changes_nothing():
     )
 
 
-@pytest.mark.parametrize("order", [0.3, 0.9])
-def test_a_fractional_solid_has_cracks_at_a_modulus_ratio_of_a_millionth(order):
+@pytest.mark.parametrize(
+    ("ratio", "order"),
+    [
+        (1e-3, 0.6),
+        pytest.param(1e-6, 0.3, marks=pytest.mark.slow),
+        pytest.param(1e-6, 0.9, marks=pytest.mark.slow),
+    ],
+)
+def test_a_fractional_solid_has_cracks_down_to_a_modulus_ratio_of_a_millionth(ratio, order):
     solid = FractionalZener(
-        rubbery_modulus=1.0, glassy_modulus=1e6, order=order, tau0=1.0, poisson_ratio=0.0
+        rubbery_modulus=1.0, glassy_modulus=1 / ratio, order=order, tau0=1.0, poisson_ratio=0.0
     )
     crack = SteadyCrack(solid, LennardJones(work_of_adhesion=1.0, equilibrium_gap=1.0))
     gamma = np.array([1.01, 2.0, 30.0])

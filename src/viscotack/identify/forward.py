@@ -16,7 +16,8 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
-from viscotack.methods import crack_contact
+from viscotack.methods import CrackContact, crack_contact
+from viscotack.methods.by_crack import crack_contacts
 from viscotack.problem import Problem
 from viscotack.protocol import Apart, AtForce, Move, Retraction
 from viscotack.theory import SteadyCrack, jkr, lennard_jones
@@ -168,23 +169,22 @@ class Forward:
         growth : Growth, optional
             Of the interface.
         """
+        loads = np.broadcast_to(preload, speed.shape)
+        problems = [
+            self.problem(work, gap, float(load), float(v), growth)
+            for v, load in zip(speed, loads, strict=True)
+        ]
+        if not moves and stiffness is None:
+            # nothing changes them; retractions from rest are marched together
+            return Changed(np.ones(speed.size), _refused(_rested(problems), speed))
+        answers = [_pressed(problem, _APART * gap, moves, stiffness) for problem in problems]
+        refused = _refused(answers, speed)
         rigid = self.pulled(work, gap, speed, preload, growth=growth).force
         unit = 1.5 * np.pi * self.radius * work
-        ratio, refused = np.ones(speed.size), {}
-        loads = np.broadcast_to(preload, speed.shape)
-        for i, (v, load) in enumerate(zip(speed, loads, strict=True)):
-            problem = self.problem(work, gap, float(load), float(v), growth)
-            start = Apart(_APART * gap) if moves else AtForce(float(load))
-            protocol = Retraction(start=start, moves=moves, speed=float(v), stiffness=stiffness)
-            try:
-                found = crack_contact(replace(problem, protocol=protocol)).pull_off_force
-            except InputError as error:
-                refused[i] = str(error)
-                continue
-            if found is None:
-                refused[i] = f"there is no pull-off at {v:.3g} m/s; simulate it"
-            elif moves or stiffness is not None:
-                ratio[i] = found * unit / rigid[i]
+        ratio = np.ones(speed.size)
+        for i, answer in enumerate(answers):
+            if i not in refused:
+                ratio[i] = answer.pull_off_force * unit / rigid[i]  # type: ignore
         return Changed(ratio, refused)
 
     def beside(self, material: Material) -> "Neighbour":
@@ -266,6 +266,37 @@ class Forward:
             energy[at],
             interface[at],
         )
+
+
+def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
+    """Crack contact of each retraction from rest, or the error that refuses it."""
+    try:
+        return crack_contacts([problem.groups() for problem in problems])
+    except InputError as error:
+        return [error] * len(problems)
+
+
+def _pressed(
+    problem: Problem, apart: float, moves: tuple[Move, ...], stiffness: float | None
+) -> CrackContact | InputError:
+    """Crack contact of a test with a history or a spring, or the error that refuses it."""
+    drive = replace(problem.protocol, moves=moves, stiffness=stiffness)
+    try:
+        drive = replace(drive, start=Apart(apart)) if moves else drive
+        return crack_contact(replace(problem, protocol=drive))
+    except InputError as error:
+        return error
+
+
+def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict[int, str]:
+    """Map the number of each test without a pull-off to the reason."""
+    refused = {}
+    for i, answer in enumerate(answers):
+        if isinstance(answer, InputError):
+            refused[i] = str(answer)
+        elif answer.pull_off_force is None:
+            refused[i] = f"there is no pull-off at {speed[i]:.3g} m/s; simulate it"
+    return refused
 
 
 def _ranged(found: Curves, effective: Array) -> tuple[Array, Array]:

@@ -165,11 +165,7 @@ def crack_contact(problem: Problem | Groups) -> CrackContact:
     '10.0 within 0.4%'
     """
     groups = groups_of(problem)
-    if groups.effective_tabor > LARGEST_TABOR:
-        raise OutOfRange(
-            f"an effective Tabor number of {groups.effective_tabor:.4g} is too large: the theory "
-            f"goes to {LARGEST_TABOR:g}"
-        )
+    _check_tabor(groups)
     law, unit = groups.traction, groups.material.time_unit
     crack, profile = SteadyCrack(groups.material, law), profile_of(groups.geometry)
     start, largest = start_of(groups, profile)
@@ -244,10 +240,20 @@ def crack_contacts(several: Sequence[Groups]) -> list[CrackContact | InputError]
     for i, groups in enumerate(several):
         series = _receded(groups, crack, found, i)
         try:
+            _check_tabor(groups)
             answers.append(_answer(groups, groups, crack, series, True))
         except InputError as error:
             answers.append(error)
     return answers
+
+
+def _check_tabor(groups: Groups) -> None:
+    """Raise OutOfRange where the theory ends."""
+    if groups.effective_tabor > LARGEST_TABOR:
+        raise OutOfRange(
+            f"an effective Tabor number of {groups.effective_tabor:.4g} is too large: the theory "
+            f"goes to {LARGEST_TABOR:g}"
+        )
 
 
 def _rests(groups: Groups) -> bool:

@@ -20,7 +20,8 @@ class Even:
 
     def __call__(self, x: Any) -> Any:
         """Return the values at x."""
-        place = np.clip((x - self._first) * self._per, 0.0, self._last)
+        # two plain functions: np.clip takes longer than all the rest where arrays are small
+        place = np.minimum(np.maximum((x - self._first) * self._per, 0.0), self._last)
         i = place.astype(np.intp)
         return self._values[i] + (place - i) * self._rise[i]
 
