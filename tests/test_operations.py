@@ -248,6 +248,23 @@ def normal(asked):
     return found
 
 
+def test_a_study_writes_files_but_not_over_those_that_it_reads(folder):
+    study = folder / "asked.toml"
+    asked = 'operation = "test read"\nfiles = ["lens_1_um_s.csv"]\n[write]\n'
+    study.write_text(asked + 'csv = "rows.csv"\n')
+    assert run(["study", study])[0] == 0
+    assert (folder / "rows.csv").read_text().count("\n") == 2
+    before = (folder / "lens_1_um_s.csv").read_bytes()
+    for other in ("lens_1_um_s.csv", "asked.toml"):
+        study.write_text(asked + f'csv = "{other}"\n')
+        status, _, words = run(["study", study])
+        assert status == 2 and "is the file that is read" in words
+    study.write_text('operation = "simulate"\nproblem = "lens.toml"\n[write]\ncsv = "lens.toml"')
+    status, _, words = run(["study", study])
+    assert status == 2 and "is the file that is read" in words
+    assert (folder / "lens_1_um_s.csv").read_bytes() == before
+
+
 def test_every_operation_has_a_question_here():
     assert (ASKED | NOT_DRAWN).keys() == operations().keys()
 

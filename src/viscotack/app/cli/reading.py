@@ -8,13 +8,12 @@ from contextlib import contextmanager
 from inspect import cleandoc
 from pathlib import Path
 from time import monotonic
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import typer
 
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
-from viscotack.files.whole import is_standard_output
 from viscotack.operations import operations
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
@@ -22,7 +21,7 @@ from viscotack.operations.declare.options import Here, Operation, Option, option
 from viscotack.operations.declare.questions import OF_FILE, Question
 from viscotack.operations.declare.statement import Stated, door_of
 
-from .commands import application, wrong_input
+from .commands import AsJson, With, application, wrong_input
 from .writing import Writing, check_files
 
 _SETTINGS = {"max_content_width": 100}
@@ -34,15 +33,10 @@ _GROUPS = {
     "identify": "From measured curves to the interface: work of adhesion and range of attraction.",
     "campaign": "Run many problems: a plan, a folder that survives every stop, a table.",
 }
-_JSON = "Print one JSON object on standard output instead of words."
 # Seconds between two lines of progress.
 LINES = 10.0
 _CASE = (
     "A problem in SI with units, instead of the flags of the problem; docs/input.md describes it."
-)
-_OWN = (
-    "A Python file with laws, materials, shapes or observables of your own, see docs/own.md; it is "
-    "executed. Give it once for each file."
 )
 
 
@@ -101,12 +95,8 @@ def _parameters(kind: type[Operation], indenter: str | None) -> Iterator[inspect
         needed = output.needed
         yield _parameter(output.name, Path if needed else Path | None, words, needed=needed)
     if kind.takes_own:
-        words = typer.Option("--with", metavar="FILE.py", help=_OWN, show_default=False)
-        yield _parameter("with_", list[Path] | None, words)
-    words = typer.Option(
-        "--json", help="Print one JSON object on standard output instead of words."
-    )
-    yield _parameter("json_", bool, words, default=False)
+        yield _parameter("with_", *get_args(With))
+    yield _parameter("json_", *get_args(AsJson), default=False)
 
 
 def _parameter(
@@ -223,15 +213,8 @@ def _checked(
     }
     problem = next((o.name for o in options(kind) if isinstance(o.card, Stated)), "")
     case = (given.get(problem) or {}).get("case") if problem else None
-    check_files(
-        {output.flag: file for output, file in found.items()},
-        as_json=as_json,
-        reads=[Path(file) for file in (*kind.kept(given), *([case] if case else ()))],
-    )
-    for output, file in found.items():
-        if file is not None and not is_standard_output(file):
-            if output.ending and file.suffix != output.ending:
-                raise InputError(f"{file}: the ending must be {output.ending}")
+    reads = [Path(file) for file in (*kind.kept(given), *([case] if case else ()))]
+    check_files(found, as_json=as_json, reads=reads)
     return found
 
 

@@ -8,7 +8,7 @@ from typer import Argument
 from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.answer import Caller
-from viscotack.operations.declare.options import respelled
+from viscotack.operations.declare.options import read_by, respelled
 from viscotack.operations.declare.study import read_study
 
 from .commands import AsJson, With, application, wrong_input
@@ -44,8 +44,7 @@ def study_command(
         asked = read_study(file, known=operation, usual="identify rates", also=also)
         kind = type(asked.operation)
         files = {output: asked.write.get(output.name) for output in kind.outputs}
-        named = {output.flag: target for output, target in files.items()}
-        check_files(named, as_json=as_json, reads=(file,))
+        check_files(files, as_json=as_json, reads=(file, *read_by(asked.operation)))
         paths = tuple(str(path.resolve()) for path in own or ())
         with progress() as tell:
             caller = Caller(tell, frozenset(asked.write), also, paths)

@@ -16,29 +16,25 @@ from viscotack.files.whole import (
     is_standard_output,
     same_file,
 )
+from viscotack.operations.declare.answer import Output
 from viscotack.pictures import plot
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# What is no text: not for standard output, where the answer in words goes.
-_BINARY = {
-    "--plot": "a picture",
-    "--save": "a result",
-    "--parquet": "a Parquet file",
-    "--mat": "a MATLAB file",
-}
-
 
 def check_files(
-    files: Mapping[str, Path | None], *, as_json: bool = False, reads: Iterable[Path | None] = ()
+    files: Mapping[Output, Path | None],
+    *,
+    as_json: bool = False,
+    reads: Iterable[Path | None] = (),
 ) -> None:
     """Refuse files that cannot be written before the work is done, not after it.
 
     Parameters
     ----------
     files : mapping
-        Flag -> file; None where not given.
+        Output -> file; None where not given.
     as_json : bool
         Whether the answer is one JSON object on standard output.
     reads : iterable of path or None
@@ -49,13 +45,15 @@ def check_files(
     InputError
         If a file is wanted twice, or cannot be where or what it is to be.
     """
-    given = {flag: file for flag, file in files.items() if file is not None}
-    for flag, file in given.items():
+    given = {output: file for output, file in files.items() if file is not None}
+    for output, file in given.items():
+        flag = output.flag
         if is_standard_output(file):
-            if flag in _BINARY:
+            if output.kind != "text":
+                what = "a picture" if output.kind == "picture" else "this file"
                 raise InputError(
-                    f"{flag} {file}: {_BINARY[flag]} is not text and does not go to standard "
-                    "output; give the name of a file"
+                    f"{flag} {file}: {what} is not text and does not go to standard output; give "
+                    "the name of a file"
                 )
             if as_json:
                 raise InputError(
@@ -63,8 +61,10 @@ def check_files(
                     f"{flag} the name of a file"
                 )
         else:
-            if flag == "--plot":
+            if output.kind == "picture":
                 plot.check_format(file)
+            if output.ending and file.suffix != output.ending:
+                raise InputError(f"{file}: the ending must be {output.ending}")
             check_target(file)
         for other in reads:
             if other is not None and same_file(other, file):
@@ -72,7 +72,8 @@ def check_files(
     for (one, first), (other, second) in combinations(given.items(), 2):
         if same_file(first, second):
             raise InputError(
-                f"{one} {first} and {other} {second} are the same file; give each one of its own"
+                f"{one.flag} {first} and {other.flag} {second} are the same file; give each one of "
+                "its own"
             )
 
 

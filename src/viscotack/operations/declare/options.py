@@ -308,6 +308,17 @@ def respelled(error: InputError, kind: type[Operation]) -> InputError:
     return known(spelled(str(error), kind))
 
 
+def read_by(operation: Operation) -> tuple[Any, ...]:
+    """Return the files that an operation reads, whose place no output may take."""
+    values = {
+        option.name: getattr(getattr(operation, option.part, operation), option.field)
+        for option in options(type(operation))
+    }
+    stated = (getattr(value, "given", None) for value in values.values())
+    cases = [one.get("case") if isinstance(one, Mapping) else one for one in stated]
+    return (*operation.kept(values), *(case for case in cases if isinstance(case, str | Path)))
+
+
 def summary(kind: type) -> str:
     """Return the first sentence of what an operation is."""
     return cleandoc(kind.__doc__ or "").partition("\n\n")[0].replace("\n", " ")
