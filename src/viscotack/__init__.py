@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from . import datasets as datasets
     from . import lab as lab
     from . import materials as materials
+    from . import operations as operations
     from . import theory as theory
     from .bem import SimulationError as SimulationError
     from .cards import Quantity as Quantity
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     from .methods import CrackContact as CrackContact
     from .methods import crack_contact as crack_contact
     from .methods import solve as solve
+    from .operations import ask as ask
     from .pictures.forecast import draw_prediction as draw_prediction
     from .pictures.lab import draw_fit as draw_fit
     from .pictures.plot import draw_energy as draw_energy
@@ -194,8 +196,9 @@ _NAMES = {
     ),
     "pictures.lab": ("draw_fit",),
     "pictures.forecast": ("draw_prediction",),
+    "operations": ("ask",),
 }
-_ROOMS = ("materials", "theory", "bem", "lab", "campaign", "datasets", "check")
+_ROOMS = ("materials", "theory", "bem", "lab", "campaign", "datasets", "operations", "check")
 _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]

@@ -62,6 +62,12 @@ def ask(word: str, /, **given: Any) -> Answer:
     ------
     ValueError
         If an option is unknown, missing or impossible, or the question has no answer.
+
+    Examples
+    --------
+    >>> found = ask("theory maugis", tabor=1.0)
+    >>> f"{found.record()['pull_off_force']:.4f}"
+    '1.0548'
     """
     kind, also = operation(word), tuple(given.pop("also", ()))
     try:

@@ -12,7 +12,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from inspect import cleandoc
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, TypeVar, get_args, get_origin, get_type_hints
 
 from viscotack.errors import InputError, OutOfRange
 
@@ -69,11 +69,6 @@ class Operation:
         ]
         several = [each if isinstance(each, list | tuple) else [each] for each in found]
         return tuple(file for some in several for file in some if file is not None)
-
-    @classmethod
-    def of(cls, **given: Any) -> Self:
-        """Return the operation with these options: numbers in SI, or texts with units."""
-        return take(cls, given, Here())
 
 
 Asked = TypeVar("Asked", bound=Operation)
