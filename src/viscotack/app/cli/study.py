@@ -23,7 +23,7 @@ def study_command(
         Argument(
             metavar="STUDY.toml",
             help='What is asked: operation = "identify rates", its options by name, and a table '
-            "[write] with the files to be written; docs/studies.md describes it.",
+            "[write] with the files to be written; docs/operations.md describes it.",
             show_default=False,
         ),
     ],

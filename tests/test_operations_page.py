@@ -1,0 +1,136 @@
+"""The page docs/operations.md: generated from the declarations; its examples give one answer."""
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from doors import Http, run
+from viscotack.operations import ask, operations
+from viscotack.operations.declare.options import options
+
+ROOT = Path(__file__).parents[1]
+sys.path.append(str(ROOT / "benchmarks"))
+
+import operations_page  # noqa: E402
+
+PAGE, API = (ROOT / "docs" / name for name in ("operations.md", "api.md"))
+
+
+@pytest.fixture
+def anywhere(tmp_path, monkeypatch):
+    """Work in a folder with the examples and the files that the pages name."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    shutil.copy(ROOT / "examples/from_toml/lens.toml", tmp_path)
+    case = re.search(r"```json\n(.*?)```", API.read_text(encoding="utf-8"), re.S)
+    assert case is not None
+    (tmp_path / "case.json").write_text(case[1])
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def curls(page):
+    """Return the requests of a page that need no job: path, JSON or None, fields of a form."""
+    found = []
+    for line in re.findall(r"^\$ curl (.*)$", page.read_text(encoding="utf-8"), re.M):
+        words = shlex.split(line)
+        (url,) = (word for word in words if word.startswith("localhost"))
+        after = list(zip(words, words[1:], strict=False))
+        body = [word for flag, word in after if flag == "-d"]
+        fields = [word.split("=", 1) for flag, word in after if flag == "-F"]
+        if "/jobs/" not in url:
+            found.append((url.removeprefix("localhost:8642"), *body, fields))
+    return found
+
+
+def post(http, path, *body):
+    """Send what curl would send."""
+    *said, fields = body
+    if said:
+        text = Path(said[0][1:]).read_text() if said[0].startswith("@") else said[0]
+        return http(path, json=json.loads(text))
+    data, files = {}, []
+    for name, value in fields:
+        if value.startswith("@"):
+            files.append((name, (Path(value[1:]).name, Path(value[1:]).read_bytes())))
+        else:
+            data.setdefault(name, []).append(value)
+    return http(path, data=data, files=files)
+
+
+def test_the_table_and_the_reference_are_current():
+    text = PAGE.read_text(encoding="utf-8")
+    assert text == operations_page.page(), "python benchmarks/operations_page.py --write"
+
+
+def test_the_table_has_every_operation_and_the_reference_every_option():
+    table, reference = operations_page.table(), operations_page.reference()
+    for word, kind in operations().items():
+        (row,) = (line for line in table.splitlines() if f"[{word}](" in line)
+        assert kind.refused.get("http", f"`/api/{word.replace(' ', '/')}`") in row
+        assert [cell for cell in row.split("|")[1:-1] if not cell.strip()] == []
+        for option in options(kind):
+            assert f"| `{option.name}` |" in reference
+
+
+def test_links_within_the_page_lead_to_headings():
+    text = PAGE.read_text(encoding="utf-8")
+    headings = re.findall(r"^#+ (.*)$", text, re.M)
+    anchors = {heading.lower().replace(" ", "-") for heading in headings}
+    linked = set(re.findall(r"\]\(#([^)]+)\)", text))
+    assert linked
+    assert linked <= anchors
+
+
+def test_the_example_has_one_answer_in_all_interfaces(anywhere):
+    asked = ask("predict", problem="lens.toml", confidence=0.95)
+    asked.files["curve"](anywhere / "python.csv")
+    status, out, _ = run(["study", "examples/studies/predict.toml", "--json"])
+    assert status == 0
+    assert json.loads(out) == json.loads(json.dumps(asked.record()))
+    (stated,) = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
+    study = anywhere / "examples/studies/predict.toml"
+    assert tomllib.loads(stated) == tomllib.loads(study.read_text(encoding="utf-8"))
+    http = Http()
+    (_, form) = curls(PAGE)
+    sent = post(http, *form).json()
+    http.close()
+    assert sent["pull_off_force_N"] == json.loads(out)["pull_off_force_N"]
+    curve = (anywhere / "python.csv").read_text()
+    assert sent["beside"]["files"]["curve"] == study.with_name("curve.csv").read_text() == curve
+
+
+@pytest.mark.parametrize("page", [PAGE, API], ids=lambda page: page.stem)
+def test_requests_of_the_pages_are_answered(page, anywhere):
+    http = Http()
+    requests = curls(page)
+    assert requests
+    for path, *body in requests:
+        response = post(http, path, *body)
+        assert response.status_code == 200, response.text
+    http.close()
+
+
+def test_an_operation_of_ones_own_is_run_as_the_page_says(anywhere):
+    text = (ROOT / "docs/own.md").read_text(encoding="utf-8")
+    (line,) = re.findall(r"^VISCOTACK_OPERATIONS=(.*)$", text, re.M)
+    folder, command, *rest = shlex.split(line)
+    assert command == "viscotack"
+    environment = os.environ | {"VISCOTACK_OPERATIONS": folder}
+    told = subprocess.run(
+        [sys.executable, "-m", "viscotack", *rest],
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    source = Path("examples/own/operations/lift.py").read_text(encoding="utf-8")
+    assert source.partition("@dataclass")[2] in text
+    assert f"answers `{told.stdout.strip()}`" in text
