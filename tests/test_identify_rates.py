@@ -19,6 +19,7 @@ from viscotack.materials.library import published
 RADIUS, WORK, PRELOAD = 5.19e-3, 0.1523, 1.5e-3
 PDMS = published("pdms-10-1").material
 SPEEDS = np.geomspace(1e-6, 1e-3, 6)
+RIG = Path(__file__).parents[1] / "examples/from_rig"
 CASE = {"material": PDMS, "radius": RADIUS, "preload": PRELOAD}
 # A solid of a moderate contrast is fitted in half the time.
 RUBBER = vt.StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-2, poisson_ratio=0.5)
@@ -254,3 +255,15 @@ def test_travels_of_a_cycle_are_those_of_the_curve_it_was_made_from():
     read = [one.value for one in travels(cycle)]
     true = Forward(PDMS, RADIUS).pulled(WORK, 200e-9, 1e-3, PRELOAD).travels
     assert read == pytest.approx(true, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_the_stiffness_of_a_rig_moves_the_range_of_the_example_series():
+    # as docs/migration.md states
+    speeds = ("1_um_s", "30_um_s", "1000_um_s")
+    found = survey([RIG / f"lens_{speed}.csv" for speed in speeds])
+    gaps = [
+        identify_rates(pull_offs(found.cycles), stiffness=stiffness, **CASE).equilibrium_gap
+        for stiffness in (None, 100.0)
+    ]
+    assert gaps == pytest.approx([201e-9, 85e-9], rel=0.005)

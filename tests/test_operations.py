@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+import tack_files
 import viscotack.operations
 from doors import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
 from viscotack.app import cli
@@ -212,6 +213,18 @@ def test_doors_that_disagree_are_seen(folder, http, monkeypatch):
     monkeypatch.setattr(Sent, "file", lambda self, name: self.folder / "lens_30_um_s.csv")
     with pytest.raises(AssertionError, match="HTTP"):
         agree(question, found | {"HTTP": by_http(question, http)})
+
+
+def test_the_stiffness_that_a_file_names_is_taken_by_every_door(folder, http, monkeypatch):
+    def stiffness_of(series, *, stiffness, **options):
+        raise InputError(f"a rig of {stiffness:g} N/m")
+
+    monkeypatch.setattr("viscotack.identify.study.identify_rates", stiffness_of)
+    (folder / "curve.jpk-force").write_bytes(tack_files.jpk(tack_files.made()))
+    question = Question("identify rates", RATES | {"files": ["curve.jpk-force"]})
+    found = through_all(question, http)
+    agree(question, found)
+    assert found["Python"].refused == f"a rig of {tack_files.STIFFNESS:g} N/m"
 
 
 def test_a_number_is_that_of_its_words(folder):
