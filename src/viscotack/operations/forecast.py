@@ -53,7 +53,7 @@ class Speeds(Text):
         low, high = parse(first, "m/s"), parse(last, "m/s")
         if not 0 < low < high:
             raise InputError(f"{value}: the first of two must be positive and the smaller one")
-        count = min(_MOST, 1 + round(8 * np.log10(high / low)))
+        count = min(_MOST, 1 + round(8 * (np.log10(high) - np.log10(low))))
         return tuple(np.geomspace(low, high, max(count, 2)).tolist())
 
     def written(self, value: Any) -> Any:
@@ -199,14 +199,16 @@ def _identified(study: Path, caller: Caller) -> Any:
 
 def _study(study: Path, place: Place) -> IdentifyRates:
     """Return what a study asks, which must be where a forecast starts from."""
-    from . import operation
-
     word = IdentifyRates.word
-    asked = read_study(study, known=operation, usual=word, also=place.also, place=place).operation
-    if not isinstance(asked, IdentifyRates):
-        raise InputError(
-            f"{study} asks to {asked.word}; a forecast starts from a study of {IdentifyRates.word}"
-        )
+
+    # the word comes before the options: a study may name itself as one that is forecast from
+    def known(found: str) -> type[Operation]:
+        if found != word:
+            raise InputError(f"it asks to {found}; a forecast starts from a study of {word}")
+        return IdentifyRates
+
+    asked = read_study(study, known=known, usual=word, also=place.also, place=place).operation
+    assert isinstance(asked, IdentifyRates), "no other is known"
     return asked
 
 

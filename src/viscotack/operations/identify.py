@@ -205,7 +205,7 @@ class IdentifyRates(Operation):
             found,
             record=lambda: rates_record(fit),
             words=lambda: _rates_words(fit),
-            files={"output": study_file(self)},
+            files={"output": study_file(self, caller.folder)},
             pictures={
                 "plot": lambda: draw_rate_series(fit),
                 "corner": lambda: draw_posterior(posterior(fit.objective, fit.best), fit),

@@ -11,8 +11,8 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .declare.answer import Answer, Caller, picture
-from .declare.cards import Choice, File, Number, Switch
-from .declare.options import Operation
+from .declare.cards import Choice, File, Number, Place, Switch
+from .declare.options import Here, Operation
 from .declare.questions import PUNCH, require
 from .parts.solid import Reduced, material_words
 
@@ -41,6 +41,20 @@ class OfLayer(Reduced):
     ] = None
 
 
+@dataclass(frozen=True)
+class CaseFile(File):
+    """A case in SI; one that was sent names only files that were sent as well."""
+
+    def read(self, value: Any, place: Place) -> Path:
+        """Return the path of the file."""
+        path = super().read(value, place)
+        if not isinstance(place, Here):
+            from viscotack.problem.case_file import read_case
+
+            read_case(path, beside=place.within(path).file)
+        return path
+
+
 @dataclass(frozen=True, kw_only=True)
 class OfPad(Operation):
     """Flat punch on a layer: how thick must a pad be, and what does it hold.
@@ -58,7 +72,7 @@ class OfPad(Operation):
 
     case: Annotated[
         Path | None,
-        File(
+        CaseFile(
             "A problem in SI with units, instead of the flags of the problem; docs/input.md "
             "describes it.",
             metavar="CASE.toml",

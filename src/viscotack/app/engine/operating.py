@@ -79,7 +79,8 @@ def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, 
     try:
         wanted = _wanted(kind, asked.get("outputs", ()))
         question = take(kind, asked["given"], place)
-        answer = question.answer(Caller(lambda told: tell(plain(dict(told))), wanted, also))
+        caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, folder=folder)
+        answer = question.answer(caller)
         # files first: what an answer counts while it writes them is in its record
         beside = _beside(kind, answer, wanted)
         return _without(shown, _record(answer) | beside)

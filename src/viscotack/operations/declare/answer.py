@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
@@ -81,12 +82,15 @@ class Caller:
         Laws, materials, shapes and observables of the user's own.
     own : tuple of str
         The files that they stand in.
+    folder : Path
+        That names in a study are relative to, where it is written to a stream.
     """
 
     tell: Callable[[Told], None] = lambda told: None
     wants: frozenset[str] = frozenset()
     also: tuple[Any, ...] = ()
     own: tuple[str, ...] = ()
+    folder: Path = Path()
 
 
 @dataclass(frozen=True)

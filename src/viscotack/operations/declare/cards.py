@@ -196,9 +196,12 @@ class Whole(Card):
     def read(self, value: Any, place: Place) -> int:
         """Return the number within its range."""
         try:
-            number = int(value) if not isinstance(value, bool | float) else int(f"{value:g}")
+            number = int(value)
         except (TypeError, ValueError, OverflowError):
-            raise InputError(f"expected a whole number, got {value!r:.60}") from None
+            number = None
+        is_fraction = isinstance(value, float) and value != number
+        if number is None or is_fraction or isinstance(value, bool):
+            raise InputError(f"expected a whole number, got {value!r:.60}")
         low = self.least is not None and number < self.least
         if low or (self.most is not None and number > self.most):
             least = "" if self.least is None else f"at least {self.least}"

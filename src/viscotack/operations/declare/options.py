@@ -220,7 +220,10 @@ def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
     for name in sorted(said, key=lambda each: known[each].card.late):
         option, value = known[name], said[name]
         if isinstance(option.card, Known) and isinstance(value, list | tuple):
-            for each, number in zip((name, f"{name}_uncertainty"), value, strict=False):
+            both = name, f"{name}_uncertainty"
+            if option.uncertainty or len(value) != len(both) or both[1] in said:
+                raise InputError(f"{option.flag}: a list has the value and its uncertainty")
+            for each, number in zip(both, value, strict=True):
                 values.setdefault(option.part, {})[each] = _one(option, number, place)
             continue
         values.setdefault(option.part, {})[name] = _read(option, value, place)

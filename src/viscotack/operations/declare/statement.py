@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
@@ -12,7 +13,7 @@ from .cards import Card, Place, Spelled
 if TYPE_CHECKING:
     from viscotack.problem import Case
 
-    from .questions import Door
+    from .questions import Door, Question
 
 # Keys of a statement by numbers, and of one by a file.
 _INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
@@ -152,11 +153,13 @@ class Stated(Card):
             )
         door = door_of(word)
         given = {n.replace("_", "-"): v for n, v in given_of(value).items() if n != _INDENTER}
-        unknown = [name for name in given if name not in {q.name for q in door.questions}]
+        asked = {question.name: question for question in door.questions}
+        unknown = [name for name in given if name not in asked]
         if unknown:
             raise InputError(
                 f"a {word} is not asked {', '.join(map(_flag, unknown))}; leave it out"
             )
+        given = {name: _answered(asked[name], answer) for name, answer in given.items()}
         for name, card in _NAMING.items():
             if name in given:
                 given[name] = card.read(given[name], place)
@@ -188,6 +191,16 @@ def _checked(problem: Any) -> Any:
             f"{type(problem).__name__}"
         )
     return problem
+
+
+def _answered(question: "Question", answer: Any) -> Any:
+    """Return an answer, of a question that has several as a list."""
+    several = list(answer) if isinstance(answer, list | tuple) else [answer]
+    is_plain = all(isinstance(x, str | Real) and not isinstance(x, bool) for x in several)
+    if not is_plain or isinstance(answer, list | tuple) > question.many:
+        wanted = "words" if question.text else "a number"
+        raise InputError(f"{_flag(question.name)} must be {wanted}, got {answer!r:.60}")
+    return several if question.many else answer
 
 
 def _flag(name: str) -> str:

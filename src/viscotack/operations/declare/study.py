@@ -110,14 +110,14 @@ def _files(kind: type[Operation], write: Any, folder: Path) -> dict[str, Path]:
     return {name: folder / file for name, file in write.items()}
 
 
-def study_file(operation: Operation) -> Callable[["Target"], None]:
-    """Return what writes an operation as a study."""
+def study_file(operation: Operation, beside: Path = Path()) -> Callable[["Target"], None]:
+    """Return what writes an operation as a study, to a file or as one that lies in a folder."""
 
     def write(target: "Target") -> None:
         from viscotack.files.whole import is_standard_output, write_whole
 
         inside = isinstance(target, str | os.PathLike) and not is_standard_output(target)
-        folder = Path(os.fspath(target)).parent if inside else Path()  # type: ignore[arg-type]
+        folder = Path(os.fspath(target)).parent if inside else beside  # type: ignore[arg-type]
         write_whole(target, study_text(operation, folder).encode())
 
     return write

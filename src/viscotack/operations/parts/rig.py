@@ -22,7 +22,7 @@ Files = Annotated[
         argument=True,
     ),
 ]
-_SIGNS = {"+": 1, "-": -1, 1: 1, -1: -1}
+_SIGNS = {"+": 1, "-": -1, "1": 1, "-1": -1}
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,10 @@ class Sign(Choice):
 
     def read(self, value: Any, place: Place) -> int:
         """Return the sign as a number."""
-        if isinstance(value, bool) or value not in _SIGNS:
+        sign = None if isinstance(value, bool) else _SIGNS.get(str(value))
+        if sign is None:
             raise InputError(f"must be + or -, got {value!r:.60}")
-        return _SIGNS[value]
+        return sign
 
     def written(self, value: Any) -> str:
         """Return the sign."""
