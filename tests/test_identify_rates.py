@@ -91,6 +91,7 @@ def test_the_truth_is_in_the_intervals_as_often_as_they_say():
     assert 0.8 < np.mean(inside) < 0.97
 
 
+@pytest.mark.slow
 def test_two_near_speeds_do_not_tell_the_range():
     speeds = np.array([1e-5, 1.2e-5])
     fit = identify_rates(series(forces(30.8e-9, speeds), speeds=speeds), **CASE)
@@ -224,6 +225,7 @@ def test_from_the_files_of_a_rig_to_the_interface(tmp_path, capsys):
     assert "go together" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_one_whole_curve_of_a_fast_test_tells_what_an_elastic_fit_of_it_cannot():
     (cycle,) = survey([RIG / "lens_30_um_s.csv"]).cycles
     fit = identify_rates(pull_offs([cycle]), material=PDMS, radius=RADIUS, curves=True)
