@@ -145,7 +145,8 @@ def drawn(luck):
     known = options(operation(word))
     for option in luck.sample(known, min(len(known), luck.choice([0, 1, 1, 2, 3]))):
         if isinstance(option.card, Stated):
-            given[option.name] = of_problem(luck, given[option.name])
+            if option.name in given:
+                given[option.name] = of_problem(luck, given[option.name])
         elif not isinstance(option.card, Folder):
             value = value_of(luck, option)
             given[option.name] = [value] if option.many else value
@@ -153,8 +154,10 @@ def drawn(luck):
                 given.pop("problem")  # on the command line it stands in its place
     if luck.random() < 0.05:
         given[luck.choice(["acuracy", "radious", "x"])] = "1"
-    if luck.random() < 0.05 and given:
-        given.pop(luck.choice(list(given)))
+    # without a problem the command line says which of its flags are missing
+    left = [name for name in given if name != "problem"]
+    if luck.random() < 0.05 and left:
+        given.pop(luck.choice(left))
     return Question(word, given)
 
 
