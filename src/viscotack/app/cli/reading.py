@@ -3,7 +3,7 @@
 import inspect
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from inspect import cleandoc
 from pathlib import Path
@@ -14,7 +14,6 @@ import typer
 
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
-from viscotack.files.whole import is_standard_output
 from viscotack.operations import operations
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
@@ -198,7 +197,7 @@ def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> N
     with wrong_input():
         given = _given(kind, indenter, said)
         files = {output: said[output.name] for output in kind.outputs}
-        files = _checked(kind, given, files, as_json)
+        files = checked(files, (*kind.kept(given), *own), as_json=as_json)
         from viscotack.problem.nouns import own_nouns
 
         also = own_nouns(own)
@@ -210,28 +209,17 @@ def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> N
         finish(answer, files, as_json)
 
 
-def _checked(
-    kind: type[Operation],
-    given: Mapping[str, Any],
-    files: dict[Output, Path | None],
-    as_json: bool,
+def checked(
+    files: Mapping[Output, Path | None], reads: Iterable[str | Path], *, as_json: bool
 ) -> dict[Output, Path | None]:
     """Return the files that are to be written, those that are usual among them."""
     found = {
         output: Path(output.usual) if file is None and output.usual and not as_json else file
         for output, file in files.items()
     }
-    problem = next((o.name for o in options(kind) if isinstance(o.card, Stated)), "")
-    case = (given.get(problem) or {}).get("case") if problem else None
-    check_files(
-        {output.flag: file for output, file in found.items()},
-        as_json=as_json,
-        reads=[Path(file) for file in (*kind.kept(given), *([case] if case else ()))],
-    )
-    for output, file in found.items():
-        if file is not None and not is_standard_output(file):
-            if output.ending and file.suffix != output.ending:
-                raise InputError(f"{file}: the ending must be {output.ending}")
+    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
+        raise InputError(f"{missing[0]} is missing: where the answer is to be written")
+    check_files(found, as_json=as_json, reads=tuple(reads))
     return found
 
 

@@ -16,32 +16,31 @@ from viscotack.files.whole import (
     is_standard_output,
     same_file,
 )
+from viscotack.operations.declare.answer import Output
 from viscotack.pictures import plot
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 # What is no text: not for standard output, where the answer in words goes.
-_BINARY = {
-    "--plot": "a picture",
-    "--save": "a result",
-    "--parquet": "a Parquet file",
-    "--mat": "a MATLAB file",
-}
+_BINARY = {"save": "a result", "parquet": "a Parquet file", "mat": "a MATLAB file"}
 
 
 def check_files(
-    files: Mapping[str, Path | None], *, as_json: bool = False, reads: Iterable[Path | None] = ()
+    files: Mapping[Output, Path | None],
+    *,
+    as_json: bool = False,
+    reads: Iterable[str | Path] = (),
 ) -> None:
     """Refuse files that cannot be written before the work is done, not after it.
 
     Parameters
     ----------
     files : mapping
-        Flag -> file; None where not given.
+        Output -> file; None where not given.
     as_json : bool
         Whether the answer is one JSON object on standard output.
-    reads : iterable of path or None
+    reads : iterable of path
         Files that the command reads, and so must not write.
 
     Raises
@@ -49,12 +48,15 @@ def check_files(
     InputError
         If a file is wanted twice, or cannot be where or what it is to be.
     """
-    given = {flag: file for flag, file in files.items() if file is not None}
+    given = {output.flag: file for output, file in files.items() if file is not None}
+    kinds = {output.flag: output for output in files}
     for flag, file in given.items():
+        output = kinds[flag]
         if is_standard_output(file):
-            if flag in _BINARY:
+            if output.kind != "text":
+                what = _BINARY.get(output.name, "a picture" if output.kind == "picture" else "this")
                 raise InputError(
-                    f"{flag} {file}: {_BINARY[flag]} is not text and does not go to standard "
+                    f"{flag} {file}: {what} is not text and does not go to standard "
                     "output; give the name of a file"
                 )
             if as_json:
@@ -63,11 +65,13 @@ def check_files(
                     f"{flag} the name of a file"
                 )
         else:
-            if flag == "--plot":
+            if output.kind == "picture":
                 plot.check_format(file)
             check_target(file)
+            if output.ending and file.suffix != output.ending:
+                raise InputError(f"{file}: the ending must be {output.ending}")
         for other in reads:
-            if other is not None and same_file(other, file):
+            if same_file(other, file):
                 raise InputError(f"{flag} {file} is the file that is read; give it another name")
     for (one, first), (other, second) in combinations(given.items(), 2):
         if same_file(first, second):
