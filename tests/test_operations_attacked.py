@@ -1,9 +1,14 @@
 """Operations that are asked for what they must not do, and for what has no meaning."""
 
+import shutil
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from doors import run
+from viscotack.app.cli import application
+from viscotack.app.engine.jobs import harmless_name
 from viscotack.app.engine.operating import run_operation
 from viscotack.errors import InputError
 from viscotack.operations import ask, operation
@@ -71,6 +76,13 @@ def test_a_study_that_was_asked_for_over_http_names_files_as_they_were_sent(sent
     assert 'files = ["lens_1000_um_s.csv", "lens_1_um_s.csv", "lens_30_um_s.csv"]' in study
 
 
+@pytest.mark.parametrize("letter", ["x", "\u6f22", "\U00020000"])
+def test_the_name_of_a_file_that_was_sent_is_one_for_a_file_system(letter, tmp_path):
+    name = harmless_name(f"{letter * 300}.csv")
+    (tmp_path / name).touch()
+    assert name.endswith(f"{letter}.csv") and harmless_name(name) == name
+
+
 @pytest.mark.parametrize("sign", [{"a": 1}, [["+"]], ["+"], True, 0, "plus"])
 def test_a_sign_that_is_none_is_refused(sign):
     with pytest.raises(InputError, match=r"--into must be \+ or -"):
@@ -130,3 +142,87 @@ def test_a_single_move_needs_no_list():
         for move in ("dwell 1", ["dwell 1"])
     )
     assert one == several
+
+
+LAB = 'operation = "test read"\nfiles = ["../lens_1_um_s.csv"]\n'
+
+
+@pytest.fixture
+def lab(tmp_path):
+    """A folder with measured curves and a case, and one beside them with studies."""
+    for path in (LENS["lens_1_um_s.csv"], ROOT / "examples/from_toml/lens.toml"):
+        shutil.copy(path, tmp_path)
+    (tmp_path / "studies").mkdir()
+    return tmp_path
+
+
+def study(lab, text):
+    """Return status and words of a study in the folder of studies."""
+    file = lab / "studies/study.toml"
+    file.write_text(text)
+    done = CliRunner().invoke(application(), ["study", str(file)])
+    return done.exit_code, done.output
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        (f'{LAB}[write]\ncsv = "../lens_1_um_s.csv"\n', "lens_1_um_s.csv"),
+        (f'{LAB}[write]\ncsv = "study.toml"\n', "studies/study.toml"),
+        (
+            'operation = "simulate"\nproblem = "../lens.toml"\naccuracy = 0.02\n'
+            'until = "pull-off"\n[write]\ncsv = "../lens.toml"\n',
+            "lens.toml",
+        ),
+    ],
+)
+def test_a_study_never_writes_over_what_it_reads(lab, text, name):
+    status, words = study(lab, text)
+    assert status == 2 and "is the file that is read" in words
+    assert not (lab / name).read_text().startswith(("file,", "time,"))
+
+
+def test_standard_output_is_no_file_of_the_folder_of_a_study(lab):
+    status, words = study(lab, f'{LAB}[write]\ncsv = "-"\n')
+    assert status == 0 and "pull_off_force_N" in words
+    assert not (lab / "studies/-").exists()
+
+
+def test_a_study_prints_what_its_command_prints(lab):
+    expected = CliRunner().invoke(application(), ["material", "convert", "pdms-10-1"]).output
+    assert "passport = 1" in expected
+    _, words = study(lab, 'operation = "material convert"\nsource = "pdms-10-1"\n')
+    assert words == expected
+
+
+def test_a_study_of_a_report_says_where_the_page_goes(lab):
+    status, words = study(lab, 'operation = "report"\nstudy = "other.toml"\n')
+    assert status == 2 and "output is missing" in words
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--corner", "-"], "--corner -: a picture is not text"),
+        (["--corner", "corner.txt"], "its ending must be one of"),
+    ],
+)
+def test_every_picture_is_refused_before_the_work(flags, words):
+    # the files do not exist: they are not asked for
+    status, _, err = run(
+        ["identify", "rates", "none.csv", "--material", "pdms-10-1", "--radius", "1 mm", *flags]
+    )
+    assert status == 2 and words in err
+
+
+@pytest.mark.parametrize(
+    "read", [["--law", "table:read.csv"], ["--material", "prony:read.csv"], ["--with", "read.csv"]]
+)
+def test_no_output_takes_the_place_of_a_file_among_words(read, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("read.csv").write_text("x = 1\n")
+    flags = ["--tabor", "3", "--preload", "10", "--rate", "1", "--csv", "./read.csv"]
+    if read[0] == "--with":
+        flags += ["--material", "elastic"]
+    status, _, err = run(["simulate", "sphere", *flags, *read])
+    assert status == 2 and "is the file that is read" in err

@@ -123,7 +123,7 @@ class ConvertMaterial(Operation):
     poisson_ratio: Annotated[float | None, Number("In the same way.", metavar="NU")] = None
 
     @classmethod
-    def kept(cls, given: Any) -> tuple[Any, ...]:
+    def kept(cls, given: Any) -> tuple[str, ...]:
         """Return the input of another program; a passport may be written over itself."""
         return super().kept(given) if given.get("code") else ()
 

@@ -3,7 +3,7 @@
 import inspect
 import json
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from inspect import cleandoc
 from pathlib import Path
@@ -188,7 +188,7 @@ def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> N
     with wrong_input():
         given = _given(kind, indenter, said)
         files = {output: said[output.name] for output in kind.outputs}
-        files = _checked(kind, given, files, as_json)
+        files = checked(files, (*kind.kept(given), *own), as_json=as_json)
         from viscotack.problem.nouns import own_nouns
 
         also = own_nouns(own)
@@ -200,21 +200,17 @@ def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> N
         finish(answer, files, as_json)
 
 
-def _checked(
-    kind: type[Operation],
-    given: Mapping[str, Any],
-    files: dict[Output, Path | None],
-    as_json: bool,
+def checked(
+    files: Mapping[Output, Path | None], reads: Iterable[str | Path], *, as_json: bool
 ) -> dict[Output, Path | None]:
     """Return the files that are to be written, those that are usual among them."""
     found = {
         output: Path(output.usual) if file is None and output.usual and not as_json else file
         for output, file in files.items()
     }
-    problem = next((o.name for o in options(kind) if isinstance(o.card, Stated)), "")
-    case = (given.get(problem) or {}).get("case") if problem else None
-    reads = [Path(file) for file in (*kind.kept(given), *([case] if case else ()))]
-    check_files(found, as_json=as_json, reads=reads)
+    if missing := [o.flag for o, file in found.items() if o.needed and file is None]:
+        raise InputError(f"{missing[0]} is missing: where the answer is to be written")
+    check_files(found, as_json=as_json, reads=tuple(reads))
     return found
 
 

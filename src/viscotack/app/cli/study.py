@@ -8,12 +8,11 @@ from typer import Argument
 from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.answer import Caller
-from viscotack.operations.declare.options import read_by, respelled
+from viscotack.operations.declare.options import respelled
 from viscotack.operations.declare.study import read_study
 
 from .commands import AsJson, With, application, wrong_input
-from .reading import finish, progress
-from .writing import check_files
+from .reading import checked, finish, progress
 
 
 @application.command("study")
@@ -42,14 +41,13 @@ def study_command(
 
         also = own_nouns(own or ())
         asked = read_study(file, known=operation, usual="identify rates", also=also)
-        kind = type(asked.operation)
+        kind, paths = type(asked.operation), tuple(str(path.resolve()) for path in own or ())
         files = {output: asked.write.get(output.name) for output in kind.outputs}
-        check_files(files, as_json=as_json, reads=(file, *read_by(asked.operation)))
-        paths = tuple(str(path.resolve()) for path in own or ())
-        with progress() as tell:
-            caller = Caller(tell, frozenset(asked.write), also, paths)
-            try:
-                answer = asked.operation.answer(caller)
-                finish(answer, files, as_json)
-            except InputError as error:
-                raise respelled(error, kind) from None
+        try:
+            files = checked(files, (*asked.kept, *paths), as_json=as_json)
+            wants = frozenset(output.name for output, path in files.items() if path is not None)
+            with progress() as tell:
+                answer = asked.operation.answer(Caller(tell, wants, also, paths))
+            finish(answer, files, as_json)
+        except InputError as error:
+            raise respelled(error, kind) from None

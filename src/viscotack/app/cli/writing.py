@@ -27,7 +27,7 @@ def check_files(
     files: Mapping[Output, Path | None],
     *,
     as_json: bool = False,
-    reads: Iterable[Path | None] = (),
+    reads: Iterable[str | Path] = (),
 ) -> None:
     """Refuse files that cannot be written before the work is done, not after it.
 
@@ -37,7 +37,7 @@ def check_files(
         Output -> file; None where not given.
     as_json : bool
         Whether the answer is one JSON object on standard output.
-    reads : iterable of path or None
+    reads : iterable of path
         Files that the command reads, and so must not write.
 
     Raises
@@ -67,7 +67,7 @@ def check_files(
                 raise InputError(f"{file}: the ending must be {output.ending}")
             check_target(file)
         for other in reads:
-            if other is not None and same_file(other, file):
+            if same_file(other, file):
                 raise InputError(f"{flag} {file} is the file that is read; give it another name")
     for (one, first), (other, second) in combinations(given.items(), 2):
         if same_file(first, second):

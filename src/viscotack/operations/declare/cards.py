@@ -75,6 +75,10 @@ class Card:
         """Return a value as a study file states it, so that reading it gives the same value."""
         return value
 
+    def names(self, given: Any) -> tuple[str, ...]:
+        """Return the files that what a user gave names, which nothing must be written over."""
+        return ()
+
     @property
     def schema(self) -> dict[str, Any]:
         """The JSON schema of a value, as HTTP takes it."""
@@ -291,6 +295,10 @@ class File(Card):
         """Return the path; `study_text` makes it relative to the study."""
         return Path(value)
 
+    def names(self, given: Any) -> tuple[str, ...]:
+        """Return the file."""
+        return _as_name(given)
+
 
 @dataclass(frozen=True)
 class Named(Card):
@@ -319,6 +327,10 @@ class Named(Card):
     def written(self, value: Any) -> Any:
         """Return the name, or the path where there is such a file."""
         return value if value in self.published() or not Path(value).is_file() else Path(value)
+
+    def names(self, given: Any) -> tuple[str, ...]:
+        """Return the file; a published name is none."""
+        return () if given in self.published() else _as_name(given)
 
 
 @dataclass(frozen=True)
@@ -353,6 +365,10 @@ class Spelled(Card):
         """Return the words; `study_text` makes a path among them relative to the study."""
         words, file = self._split(value)
         return Naming(words, Path(file)) if file else words
+
+    def names(self, given: Any) -> tuple[str, ...]:
+        """Return the file among the words."""
+        return _as_name(self._split(given)[1]) if isinstance(given, str) else ()
 
     def _split(self, words: str) -> tuple[str, str]:
         """Return the words before the name of a file, and that name; "" where there is none."""
@@ -400,6 +416,10 @@ class Table(Card):
         """Return the rows as tables."""
         return [dict(row) for row in value]
 
+    def names(self, given: Any) -> tuple[str, ...]:
+        """Return the CSV file."""
+        return _as_name(given)
+
     @property
     def schema(self) -> dict[str, Any]:
         """A list of objects of numbers."""
@@ -414,6 +434,10 @@ def is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def _as_name(given: Any) -> tuple[str, ...]:
+    return (str(given),) if isinstance(given, str | Path) and str(given) else ()
 
 
 def _name(value: Any) -> str:

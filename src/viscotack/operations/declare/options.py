@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, TypeVar, get_args, get_origin, get_
 from viscotack.errors import InputError, OutOfRange
 
 from .answer import Answer, Caller, Output
-from .cards import Card, File, Known, Named, Place, Table
+from .cards import Card, Known, Place
 
 _FLAG = re.compile(r"--([a-z][a-z0-9-]*)")
 # Options that doors have of their own, for every operation.
@@ -62,13 +62,14 @@ class Operation:
         raise NotImplementedError
 
     @classmethod
-    def kept(cls, given: Mapping[str, Any]) -> tuple[Any, ...]:
+    def kept(cls, given: Mapping[str, Any]) -> tuple[str, ...]:
         """Return the files among what was given whose place no output may take."""
-        found = [
-            given.get(o.name) for o in options(cls) if isinstance(o.card, File | Named | Table)
-        ]
-        several = [each if isinstance(each, list | tuple) else [each] for each in found]
-        return tuple(file for some in several for file in some if file is not None)
+        found: list[str] = []
+        for option in options(cls):
+            value = given.get(option.name)
+            several = value if option.many and isinstance(value, list | tuple) else [value]
+            found += [name for each in several for name in option.card.names(each)]
+        return tuple(found)
 
 
 Asked = TypeVar("Asked", bound=Operation)
@@ -304,17 +305,6 @@ def respelled(error: InputError, kind: type[Operation]) -> InputError:
     """Return an error with its message as :func:`spelled` has it."""
     known = OutOfRange if isinstance(error, OutOfRange) else InputError
     return known(spelled(str(error), kind))
-
-
-def read_by(operation: Operation) -> tuple[Any, ...]:
-    """Return the files that an operation reads, whose place no output may take."""
-    values = {
-        option.name: getattr(getattr(operation, option.part, operation), option.field)
-        for option in options(type(operation))
-    }
-    stated = (getattr(value, "given", None) for value in values.values())
-    cases = [one.get("case") if isinstance(one, Mapping) else one for one in stated]
-    return (*operation.kept(values), *(case for case in cases if isinstance(case, str | Path)))
 
 
 def summary(kind: type) -> str:

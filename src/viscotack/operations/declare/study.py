@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from viscotack.errors import InputError
 from viscotack.files.toml import read_toml, toml_value
+from viscotack.files.whole import is_standard_output
 
 from .cards import Naming, Place
 from .options import Here, Operation, Option, options, respelled, take
@@ -32,10 +33,13 @@ class Asked:
         With its options.
     write : mapping
         Name of an output -> file.
+    kept : tuple of Path
+        The files that it reads, which must not be written.
     """
 
     operation: Operation
     write: Mapping[str, Path]
+    kept: tuple[Path, ...] = ()
 
 
 def read_study(
@@ -81,7 +85,8 @@ def read_study(
             operation = take(kind, given, (place or Here(also=also)).within(path))
         except InputError as error:
             raise respelled(error, kind) from None
-        return Asked(operation, _files(kind, write, path.parent))
+        kept = tuple(path.parent / name for name in kind.kept(given))
+        return Asked(operation, _files(kind, write, path.parent), (path, *kept))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
 
@@ -100,21 +105,25 @@ def _flat(kind: type[Operation], table: Mapping[str, Any]) -> dict[str, Any]:
 
 def _files(kind: type[Operation], write: Any, folder: Path) -> dict[str, Path]:
     names = [output.name for output in kind.outputs]
-    if not isinstance(write, Mapping) or not all(isinstance(x, str) for x in write.values()):
+    if not isinstance(write, Mapping) or not all(isinstance(x, str) and x for x in write.values()):
         raise InputError(f"[{_WRITE}] has names of files, such as {names[0] if names else 'csv'}")
     unknown = [name for name in write if name not in names]
     if unknown:
         raise InputError(
             f"{kind.word} writes no {unknown[0]!r:.60}; there are {', '.join(names) or 'none'}"
         )
-    return {name: folder / file for name, file in write.items()}
+    # "-" is standard output in every folder
+    return {
+        name: Path(file) if is_standard_output(file) else folder / file
+        for name, file in write.items()
+    }
 
 
 def study_file(operation: Operation, beside: Path = Path()) -> Callable[["Target"], None]:
     """Return what writes an operation as a study, to a file or as one that lies in a folder."""
 
     def write(target: "Target") -> None:
-        from viscotack.files.whole import is_standard_output, write_whole
+        from viscotack.files.whole import write_whole
 
         inside = isinstance(target, str | os.PathLike) and not is_standard_output(target)
         folder = Path(os.fspath(target)).parent if inside else beside  # type: ignore[arg-type]
