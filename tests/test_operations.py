@@ -297,7 +297,7 @@ def test_every_operation_has_a_question_here():
     assert (ASKED | NOT_DRAWN).keys() == operations().keys()
 
 
-def test_every_operation_is_known_to_every_door_or_refused_in_words():
+def test_every_operation_is_known_to_every_door_or_refused_in_words(http):
     app = application()
     posts = {path for path, routes in app.openapi()["paths"].items() if "post" in routes}
     for word, kind in operations().items():
@@ -305,6 +305,10 @@ def test_every_operation_is_known_to_every_door_or_refused_in_words():
         if reason := kind.refused.get("http"):
             assert len(reason.split()) > 4
             assert f"/api/{path}" not in posts
+            for place in ("/api", "/api/jobs"):
+                answer = http(f"{place}/{path}", json={})
+                assert answer.status_code == 422
+                assert answer.json()["error"].endswith(f"not answered over HTTP: {reason}")
         else:
             assert {f"/api/{path}", f"/api/jobs/{path}"} <= posts
         command = [*word.split(), "case"] if word == "simulate" else word.split()

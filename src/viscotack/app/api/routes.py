@@ -56,7 +56,9 @@ def routes(engine: Engine) -> APIRouter:
     router = APIRouter(responses=_REFUSED)
     _jobs(router, engine)
     for kind in operations().values():
-        if "http" not in kind.refused:
+        if reason := kind.refused.get("http"):
+            _refused(router, kind.word, reason)
+        else:
             _operation(router, engine, kind)
     _page(router, engine)
     return router
@@ -104,6 +106,16 @@ def _operation(router: APIRouter, engine: Engine, kind: type[Operation]) -> None
         status_code=202,
         responses=_FULL,
     )(job)
+
+
+def _refused(router: APIRouter, word: str, reason: str) -> None:
+    """Answer an operation that is not served with the reason."""
+
+    async def refuse() -> None:
+        raise Refused(f"{word} is not answered over HTTP: {reason}")
+
+    for place in ("/api", "/api/jobs"):
+        router.post(f"{place}/{path(word)}", include_in_schema=False)(refuse)
 
 
 def _content(kind: type[Operation]) -> dict[str, Any]:
