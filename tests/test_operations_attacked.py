@@ -1,5 +1,6 @@
 """Operations that are asked for what they must not do, and for what has no meaning."""
 
+import os
 import shutil
 from pathlib import Path
 
@@ -12,8 +13,10 @@ from viscotack.app.engine.jobs import harmless_name
 from viscotack.app.engine.operating import run_operation
 from viscotack.errors import InputError
 from viscotack.operations import ask, operation
-from viscotack.operations.declare.options import Here, take
+from viscotack.operations.declare.cards import Spelled
+from viscotack.operations.declare.options import Here, spelled, take
 from viscotack.operations.declare.state import State
+from viscotack.operations.declare.study import read_study, study_text
 from viscotack.operations.parts.examples import EXAMPLES
 
 ROOT = Path(__file__).parents[1]
@@ -226,3 +229,45 @@ def test_no_output_takes_the_place_of_a_file_among_words(read, tmp_path, monkeyp
         flags += ["--material", "elastic"]
     status, _, err = run(["simulate", "sphere", *flags, *read])
     assert status == 2 and "is the file that is read" in err
+
+
+LONG = "[material]\nmodel = 'prony'\n" + "# a branch\n" * 100
+
+
+@pytest.mark.parametrize("material", [LONG, "none.toml", "C:\\x.toml", "a 'b' \"c\".toml"])
+def test_a_study_in_another_folder_has_the_same_material(material, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "studies").mkdir()
+    rates = take(operation("identify rates"), RATES | {"material": material}, Here())
+    text = study_text(rates, "studies")
+    Path("studies/study.toml").write_text(text)
+    again = read_study("studies/study.toml", known=operation).operation
+    assert study_text(again, "studies") == text
+    assert os.path.normpath(again.material) == os.path.normpath(material)
+
+
+@pytest.mark.parametrize("tables", list(EXAMPLES.values()), ids=list(EXAMPLES))
+def test_a_problem_of_tables_is_written_as_a_study(tables, tmp_path):
+    simulate = take(operation("simulate"), {"problem": tables}, Here())
+    (tmp_path / "study.toml").write_text(study_text(simulate, tmp_path))
+    again = read_study(tmp_path / "study.toml", known=operation).operation
+    assert again.problem.problem == simulate.problem.problem
+    assert study_text(again, tmp_path) == study_text(simulate, tmp_path)
+
+
+def test_the_file_among_words_is_behind_the_first_keyword_and_no_part_of_another():
+    card = Spelled("", before=("table:",))
+    files = {
+        "table:a table:b.csv": ("a table:b.csv",),
+        "gent-schultz:1,2:table:c.csv": ("c.csv",),
+        "mytable:0.3": (),
+        "table:": (),
+    }
+    assert {words: card.names(words) for words in files} == files
+
+
+def test_messages_name_options_and_not_flags_and_names_of_files_stay():
+    rates, predict = operation("identify rates"), operation("predict")
+    words = spelled("a--radius b.csv: --radius, --work-of-adhesion-uncertainty or --rate", rates)
+    assert words == "a--radius b.csv: radius, work_of_adhesion_uncertainty or --rate"
+    assert spelled("--modulus-ratio and --size", predict) == "modulus_ratio and size"

@@ -49,10 +49,29 @@ class CaseFile(File):
         """Return the path of the file."""
         path = super().read(value, place)
         if not isinstance(place, Here):
-            from viscotack.problem.case_file import read_case
-
-            read_case(path, beside=place.within(path).file)
+            _check_named(path, place.within(path))
         return path
+
+
+def _check_named(case: Path, place: Place) -> None:
+    """Refuse a case that names a file which is not of its place."""
+    from viscotack.problem.case_file import read_case
+
+    refusals: list[InputError] = []
+
+    def beside(name: str) -> Path:
+        try:
+            return place.file(name)
+        except InputError as error:
+            refusals.append(error)
+            raise
+
+    try:
+        read_case(case, beside=beside)
+    except (InputError, OSError):
+        # what else is wrong with it is said by the answer, after the options, as on this machine
+        if refusals:
+            raise refusals[0] from None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -282,6 +282,6 @@ class Engine:
 def harmless_name(name: str) -> str:
     """Return the name of a file without anything that a path, or a shell, would understand."""
     bare = re.split(r"[/\\]", name)[-1]
-    name = re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")
-    # a file system counts bytes
-    return name.encode()[-100:].decode(errors="ignore") or "file"
+    name = re.sub(r"[^\w.+\- ()]", "_", bare).lstrip(".")[-100:]
+    # a file system counts bytes, up to 255
+    return name.encode()[-255:].decode(errors="ignore") or "file"

@@ -75,6 +75,11 @@ class Card:
         """Return a value as a study file states it, so that reading it gives the same value."""
         return value
 
+    @property
+    def asks(self) -> tuple[str, ...]:
+        """What it is stated by, where that has names of its own."""
+        return ()
+
     def names(self, given: Any) -> tuple[str, ...]:
         """Return the files that what a user gave names, which nothing must be written over."""
         return ()
@@ -320,17 +325,19 @@ class Named(Card):
     def read(self, value: Any, place: Place) -> str:
         """Return the name, the content, or the path of the file."""
         words = _name(value)
-        if words in self.published() or (self.text and words.lstrip().startswith(self.text)):
-            return words
-        return str(place.file(words))
+        return str(place.file(words)) if self._is_file(words) else words
 
     def written(self, value: Any) -> Any:
-        """Return the name, or the path where there is such a file."""
-        return value if value in self.published() or not Path(value).is_file() else Path(value)
+        """Return the name or the content; `study_text` makes a path relative to the study."""
+        return Path(value) if self._is_file(value) else value
 
     def names(self, given: Any) -> tuple[str, ...]:
-        """Return the file; a published name is none."""
-        return () if given in self.published() else _as_name(given)
+        """Return the file; a published name is none, and neither is content."""
+        return tuple(name for name in _as_name(given) if self._is_file(name))
+
+    def _is_file(self, words: str) -> bool:
+        is_content = bool(self.text) and words.lstrip().startswith(self.text)
+        return not is_content and words not in self.published()
 
 
 @dataclass(frozen=True)
@@ -373,9 +380,11 @@ class Spelled(Card):
     def _split(self, words: str) -> tuple[str, str]:
         """Return the words before the name of a file, and that name; "" where there is none."""
         for keyword in self.before:
-            head, mark, name = words.rpartition(keyword)
-            if mark and name:
-                return head + mark, name
+            # the first one, and not the end of another word
+            begin = f":{words}".find(f":{keyword}")
+            end = begin + len(keyword)
+            if begin >= 0 and words[end:]:
+                return words[:end], words[end:]
         return ("", words) if words.endswith(self.endings or "\0") else (words, "")
 
 

@@ -19,7 +19,8 @@ from viscotack.errors import InputError, OutOfRange
 from .answer import Answer, Caller, Output
 from .cards import Card, Known, Place
 
-_FLAG = re.compile(r"--([a-z][a-z0-9-]*)")
+# not where it is a part of a word, as in the name of a file
+_FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*(?!\w)")
 # Options that doors have of their own, for every operation.
 OF_DOORS = ("outputs", "attached", "operation", "write", "json", "with")
 
@@ -291,7 +292,9 @@ def _listed(words: list[str]) -> str:
 
 def spelled(message: str, kind: type[Operation]) -> str:
     """Return a message in which options have the names of HTTP, study files and Python."""
-    flags = {option.flag: option.name for option in options(kind)}
+    asked = {name for option in options(kind) for name in option.card.asks}
+    flags = {f"--{name}": name.replace("-", "_") for name in asked}
+    flags |= {option.flag: option.name for option in options(kind)}
     flags |= {output.flag: output.name for output in kind.outputs}
 
     def name(found: re.Match[str]) -> str:

@@ -108,12 +108,21 @@ class Stated(Card):
         """Return the problem as it was given, or its record."""
         if isinstance(value.given, Mapping):
             said = {name: entry for name, entry in value.given.items() if entry is not None}
-            return said | {n: card.written(said[n]) for n, card in _NAMING.items() if n in said}
+            return {
+                n: _NAMING[n].written(x) if n in _NAMING and isinstance(x, str) else x
+                for n, x in said.items()
+            }
         if isinstance(value.given, str | Path):
             return Path(value.given)
         from viscotack.problem.record import to_dict
 
         return to_dict(value.problem)
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        """The questions of its indenters."""
+        asked = (question.name for word in self.indenters for question in door_of(word).questions)
+        return tuple(dict.fromkeys(asked))
 
     def names(self, given: Any) -> tuple[str, ...]:
         """Return the case file, or the files of a statement by numbers."""
