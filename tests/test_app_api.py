@@ -164,6 +164,20 @@ def test_what_is_no_json_is_no_question(ask, engine):
         ask.wait(engine.ask("state", {"query": object()}))
 
 
+def test_a_question_that_is_nested_too_deeply_is_refused(ask, engine):
+    nested = []
+    for _ in range(2000):
+        nested = [nested]
+    with pytest.raises(Refused, match="nested too deeply"):
+        ask.wait(engine.ask("state", {"tables": nested}))
+    statuses = set()
+    for depth in range(900, 1000, 10):  # what is read, and cannot be handed on, is among them
+        text = '{"problem":' + "[" * depth + "]" * depth + "}"
+        statuses.add(ask("POST", "/api/predict", content=text).status_code)
+    assert statuses == {422}
+    assert ask("POST", "/api/predict", json={"problem": FIRST}).status_code == 200
+
+
 def test_a_server_whose_own_nouns_cannot_be_read_does_not_begin(tmp_path):
     engine = Engine(own=[str(tmp_path / "nothing.py")])
     app = application(engine)
@@ -291,7 +305,7 @@ def test_a_file_that_is_none_is_refused_by_its_name_alone(ask):
         (".bashrc", "bashrc"),
         ("a;rm -rf~\0.csv", "a_rm -rf__.csv"),
         ("..", "file"),
-        ("é" * 300 + ".csv", "é" * 48 + ".csv"),
+        ("é" * 300 + ".csv", "é" * 96 + ".csv"),
     ],
 )
 def test_the_name_of_a_file_is_harmless(name, bare):

@@ -157,6 +157,8 @@ class Crew:
             self._pool.hand(question.number, _TASK, question.asked, question.limits)
         except (TypeError, ValueError) as error:
             return _end(question, "failed", f"the question is no JSON: {error}")
+        except RecursionError:
+            return _end(question, "refused", "the question is nested too deeply")
         self._running[question.number] = question
         question.begun()
 
