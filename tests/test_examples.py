@@ -30,6 +30,7 @@ def test_every_example_is_run_here():
         "from_dma",  # its commands are run with the pages
         "from_rig",
         "own",  # test_own.py is all about them
+        "studies",  # test_operations_page.py
         "hysteresis.py",
         "dwell_time.py",
         "dead_load.py",

@@ -283,7 +283,7 @@ def test_a_table_goes_to_standard_output_and_the_words_beside(saved, capsys):
     [
         (["--csv", "-", "--json"], "--json and --csv - both go to standard output"),
         (["--plot", "-"], "--plot -: a picture is not text"),
-        (["--save", "-"], "--save -: a result is not text"),
+        (["--save", "-"], "--save -: this file is not text"),
         (["--csv", "x", "--save", "x"], "--csv x and --save x are the same file"),
         (["--csv", "x", "--save", "./x"], "--csv x and --save x are the same file"),
         (["--csv", "x", "--save", "link"], "--csv x and --save link are the same file"),

@@ -12,7 +12,7 @@ from difflib import get_close_matches
 from functools import lru_cache
 from inspect import cleandoc
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
 
 from viscotack.errors import InputError, OutOfRange
 
@@ -71,6 +71,11 @@ class Operation:
             several = value if option.many and isinstance(value, list | tuple) else [value]
             found += [name for each in several for name in option.card.names(each)]
         return tuple(found)
+
+    @classmethod
+    def of(cls, **given: Any) -> Self:
+        """Return the operation with these options: numbers in SI, or texts with units."""
+        return take(cls, given, Here())
 
 
 Asked = TypeVar("Asked", bound=Operation)
