@@ -83,6 +83,7 @@ def one(work, **settings):
         yield crew
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "work",
     [waiting, holding, pytest.param(stubborn, marks=pytest.mark.slow)],
@@ -118,6 +119,7 @@ def test_a_suspended_worker_is_killed_at_the_time_limit(clock):
         assert answer_of(crew).failure == "time limit"
 
 
+@pytest.mark.slow
 @LINUX
 def test_a_suspended_worker_is_killed_when_it_gives_no_sign_of_life(clock, began, monkeypatch):
     heard, receive = [], Line.receive
@@ -152,6 +154,7 @@ def test_a_run_that_was_halted_takes_no_case_for_slow(clock, monkeypatch):
             assert not crew.collect(0.0)
 
 
+@pytest.mark.slow
 @LINUX
 def test_a_case_that_takes_too_much_memory_is_ended():
     # what the worker has at rest is not counted, nor what an earlier case has left there
@@ -328,6 +331,7 @@ def running(tmp_path, work, cases=400, text=""):
         process.communicate()
 
 
+@pytest.mark.slow
 @LINUX
 def test_sigterm_to_the_group_ends_a_run_in_order(tmp_path):
     # all cases but the first ten wait for a file, so that the run is not over before
@@ -343,6 +347,7 @@ def test_sigterm_to_the_group_ends_a_run_in_order(tmp_path):
         assert Store(tmp_path / "c").results().num_rows == int(done) <= 12
 
 
+@pytest.mark.slow
 @LINUX
 @pytest.mark.parametrize("work", [pytest.param(waiting, marks=pytest.mark.slow), holding])
 def test_no_worker_outlives_its_parent(tmp_path, work):

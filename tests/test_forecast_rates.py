@@ -94,6 +94,7 @@ def test_times_in_doubt_are_speeds_in_doubt(forward):
     assert np.sqrt(covariance(rows)[0, 0]) == pytest.approx(slope[0] * scatter, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_warmer_test_is_a_slower_one(fit):
     warm = forecast_rates(fit, [1e-4], temperature=303.15, theory=0.0)
     same = forecast_rates(fit, [1e-4 * RUBBER.shift_factor(303.15)], theory=0.0)

@@ -76,6 +76,7 @@ def test_what_the_simulation_says_itself_is_not_off(rows, table):
     assert [row["force"] for row in rows] == table.pull_off_force.tolist()
 
 
+@pytest.mark.slow
 def test_only_what_is_apart_is_decided_by_a_converged_run(rows, folder):
     decided = [row for row in rows if "table_error" in row]
     assert [row is rows[1] for row in decided] == [True]
@@ -86,6 +87,7 @@ def test_only_what_is_apart_is_decided_by_a_converged_run(rows, folder):
         assert len((folder / "runs" / name / "cases.csv").read_text().splitlines()) == 1 + count
 
 
+@pytest.mark.slow
 def test_work_that_is_not_known_is_not_compared(rows):
     known = [np.isfinite(row["work_difference"]) for row in rows]
     assert known == [True, True, False, True]
@@ -95,6 +97,7 @@ def test_work_that_is_not_known_is_not_compared(rows):
     assert [row["in_tension"] for row in rows] == [False, False, False, True]
 
 
+@pytest.mark.slow
 def test_the_page_names_the_row_that_is_off(rows):
     text = page(rows)
     assert "1 rows are off by more than 2 %, 25.00 % of the table" in text
@@ -104,6 +107,7 @@ def test_the_page_names_the_row_that_is_off(rows):
     assert "1 rows hold 0.01" in " ".join(text.split())
 
 
+@pytest.mark.slow
 def test_the_command_writes_the_page_and_its_pictures(table, folder, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     source = write_rows(tmp_path / "rows.csv", table)
@@ -148,6 +152,7 @@ def test_the_answer_at_once_tells_the_published_rows(published):
     assert np.median(np.abs(off)) < 5e-3
 
 
+@pytest.mark.slow
 def test_the_corrected_table_has_ours_beside_theirs(rows, table):
     """Rows that are apart have their converged run; others are there if they are in the sample."""
     found = corrected(rows, table, accuracy=2e-3)
