@@ -12,6 +12,7 @@ from viscotack.campaign.running import Progress
 from viscotack.files.lock import locked
 from viscotack.operations import operation
 from viscotack.operations.campaign import _progress_words
+from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
 
 ROWS = [("0.3", "0.1", "0.8", "2.0", "100.0"), ("1.0", "0.1", "0.6", "3.0", "1000.0")]
@@ -185,7 +186,7 @@ STUDIES = {
 @pytest.mark.parametrize("word", STUDIES)
 def test_a_study_states_what_a_command_does_and_no_request_may(word, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    asked = operation(word).of(**STUDIES[word])
+    asked = take(operation(word), STUDIES[word], Here())
     (tmp_path / "study.toml").write_text(study_text(asked))
     assert read_study("study.toml", known=operation).operation == asked
     assert "folder" in asked.refused["http"] or "other files" in asked.refused["http"]

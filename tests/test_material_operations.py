@@ -1,7 +1,6 @@
 """Materials as operations: every door takes what the command line takes."""
 
 import json
-from functools import partial
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from viscotack.materials import StandardSolid, read_passport, write_passport
 from viscotack.materials.exchange import CODES
 from viscotack.materials.library import published
 from viscotack.operations import ask, operation
+from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
 
 OPTIONS = {
@@ -139,7 +139,7 @@ def test_a_fit_is_the_same_through_every_door_with_any_option(lab, tmp_path, mon
 def test_a_study_states_every_option(word, given, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "card.inp").write_text("")
-    stated = operation(word).of(**given)
+    stated = take(operation(word), given, Here())
     study = tmp_path / "study.toml"
     study.write_text(study_text(stated, tmp_path))
     back = read_study(study, known=operation).operation
@@ -149,13 +149,16 @@ def test_a_study_states_every_option(word, given, tmp_path, monkeypatch):
 
 
 def test_numbers_are_frequencies_in_radians_and_texts_in_hertz():
-    given = partial(operation("material export").of, passport="pdms-10-1", to="tamaas")
-    said, meant = given(frequencies="1 Hz,10 rad/s"), given(frequencies=[2 * np.pi, 10])
+    def given(frequencies):
+        options = {"passport": "pdms-10-1", "to": "tamaas", "frequencies": frequencies}
+        return take(operation("material export"), options, Here())
+
+    said, meant = given("1 Hz,10 rad/s"), given([2 * np.pi, 10])
     assert said == meant
     with pytest.raises(InputError, match="--frequencies needs two values with a comma"):
-        given(frequencies="1 Hz")
+        given("1 Hz")
     with pytest.raises(InputError, match="has no unit"):
-        given(frequencies="1,10")
+        given("1,10")
 
 
 def test_a_law_for_fits_only_is_answered_without_a_passport(lab):

@@ -9,6 +9,7 @@ from command_line import exit_status
 from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
 from viscotack.operations import ask, operation
 from viscotack.operations.declare.answer import Caller
+from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.problem.case_file import read_case
 
@@ -92,7 +93,9 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
 
 
 def test_rows_are_told_as_they_come_and_whoever_is_told_may_end_it(quick):
-    asked = operation("sweep").of(problem=REDUCED, cases=[{"rate": 1.0}, {"rate": 2.0}])
+    asked = take(
+        operation("sweep"), {"problem": REDUCED, "cases": [{"rate": 1.0}, {"rate": 2.0}]}, Here()
+    )
     told = []
     answer = asked.answer(Caller(tell=told.append))
     assert [one["share"] for one in told] == [0.5, 1.0]
@@ -171,7 +174,9 @@ def test_the_table_that_is_read_is_not_written(case, tmp_path, capsys):
 def test_a_study_states_the_same_sweep(case, tmp_path, by_file):
     cases = tmp_path / "cases.csv" if by_file else ROWS
     problem = case if by_file else read_case(case)
-    asked = operation("sweep").of(problem=problem, cases=cases, until="detached")
+    asked = take(
+        operation("sweep"), {"problem": problem, "cases": cases, "until": "detached"}, Here()
+    )
     (tmp_path / "study.toml").write_text(study_text(asked, tmp_path))
     found = read_study(tmp_path / "study.toml", known=operation).operation
     assert (found.problem.problem, found.cases) == (asked.problem.problem, asked.cases)
