@@ -22,7 +22,7 @@ from random_problems import words as test_words
 
 from viscotack import AtDepth, Groups, pull_off_depth, pull_off_force, solve, work_to_pull_off
 from viscotack.bem import SimulationError
-from viscotack.bem.twins.plain import plain_solve
+from viscotack.bem.twins.plain_sphere import plain_solve
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY
 

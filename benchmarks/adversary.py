@@ -19,10 +19,10 @@ import numpy as np
 
 from viscotack import Groups, PunchGroups, solve, summary
 from viscotack.campaign.columns import KINDS
-from viscotack.surrogate import physics, punch, punch_physics, store
+from viscotack.surrogate import physics, punch_physics, punch_surrogate, store
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.punch import PunchSurrogate
-from viscotack.surrogate.training import punch as punches
+from viscotack.surrogate.punch_surrogate import PunchSurrogate
+from viscotack.surrogate.training import train_punch as punches
 from viscotack.surrogate.training.rows import LEARNED, Rows, joined, read
 
 # Cases that are varied at a time, how far the first variations reach in halves of the range, and by
@@ -72,7 +72,7 @@ class OfPunch:
     @staticmethod
     def learned() -> PunchSurrogate:
         """Return what is to be caught."""
-        return punch.shipped()
+        return punch_surrogate.shipped()
 
     @staticmethod
     def row(place: np.ndarray) -> np.ndarray:

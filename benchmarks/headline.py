@@ -19,8 +19,8 @@ import viscotack as vt
 from fuzz.cases import OWN, Luck, contact
 from fuzz.doors import client, in_words, learned_punch, learned_sphere
 from fuzz.relations import in_si
-from viscotack.app.engine.asks import ask_verdict
-from viscotack.app.engine.quick import quick
+from viscotack.app.engine.overview import quick
+from viscotack.app.engine.page_tasks import ask_verdict
 from viscotack.campaign import CaseSettings, measure
 from viscotack.operations.declare.state import state_of_toml
 from viscotack.traction import Tabulated

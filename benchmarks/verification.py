@@ -36,7 +36,7 @@ from viscotack import (
     solve,
 )
 from viscotack.bem import Settings
-from viscotack.bem.twins.plain import plain_solve
+from viscotack.bem.twins.plain_sphere import plain_solve
 from viscotack.materials import RetardationPowerLaw
 
 PAGE = Path(__file__).resolve().parents[1] / "docs/verification.md"

@@ -24,7 +24,7 @@ from viscotack.operations import ask, operation
 from viscotack.operations.declare.cards import File, Known, Named, Spelled, Switch
 from viscotack.operations.declare.options import options, spelled
 from viscotack.operations.declare.statement import Stated
-from viscotack.operations.parts.plain import plain
+from viscotack.operations.parts.json_data import plain
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)

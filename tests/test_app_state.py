@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import viscotack as vt
-from viscotack.app.engine.asks import ask_state
 from viscotack.app.engine.forms import forms
-from viscotack.app.engine.quick import quick
+from viscotack.app.engine.overview import quick
+from viscotack.app.engine.page_tasks import ask_state
 from viscotack.errors import InputError
 from viscotack.forecast import advise, predict
 from viscotack.forecast.closed_forms import closed_forms, edge_curve
@@ -18,8 +18,8 @@ from viscotack.operations.declare.options import Here
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.declare.statement import Stated
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.json_data import plain
 from viscotack.operations.parts.library import material_table
-from viscotack.operations.parts.plain import plain
 from viscotack.problem.case_file import case_of_tables, read_case
 from viscotack.problem.record import to_dict
 from viscotack.theory import lennard_jones

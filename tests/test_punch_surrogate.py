@@ -9,12 +9,12 @@ from scipy.interpolate import PchipInterpolator
 import viscotack as vt
 from viscotack.forecast.tiers import AT_ONCE, SOON
 from viscotack.result.trajectory import PRESSED, TENSILE
-from viscotack.surrogate import punch
 from viscotack.surrogate import punch_physics as physics
+from viscotack.surrogate import punch_surrogate
 from viscotack.surrogate.line import OUTPUTS, PRESSING, SHAPE
 from viscotack.surrogate.model import Scaled
 from viscotack.surrogate.network import Networks, single
-from viscotack.surrogate.punch import PunchSurrogate, shipped
+from viscotack.surrogate.punch_surrogate import PunchSurrogate, shipped
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 from viscotack.surrogate.trust import INPUTS as TOLD
 
@@ -157,7 +157,7 @@ def test_thin_and_thick_elastic_layers_are_those_of_theory():
 
 def test_both_limits_are_those_that_were_simulated():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.punch import LIMITS, read
+    from viscotack.surrogate.training.train_punch import LIMITS, read
 
     rows = read(LIMITS)
     slow, fast = (10 ** limit.mean(axis=0) for limit in shipped().way(rows.groups))
@@ -243,8 +243,8 @@ def test_a_simulation_lies_in_the_intervals(case):
 
 def test_rows_kept_apart_are_told_as_well_as_the_page_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.punch import LEARNED, parts, read, scored
     from viscotack.surrogate.training.rows import joined
+    from viscotack.surrogate.training.train_punch import LEARNED, parts, read, scored
 
     rows = joined([one.chosen(parts(len(one))[1]) for one in map(read, LEARNED)])
     found = scored(shipped(), rows)
@@ -322,8 +322,8 @@ def test_rows_of_a_table_are_those_of_single_predictions():
 
 def test_a_surrogate_comes_back_from_its_file(tmp_path):
     one, path, rows = random_surrogate(), tmp_path / "one.npz", random_rows(20)
-    punch.save(one, path, {"made": "today"})
-    again, facts = punch.load(path)
+    punch_surrogate.save(one, path, {"made": "today"})
+    again, facts = punch_surrogate.load(path)
     assert facts["made"] == "today"
     said, found = one.evaluate(rows), again.evaluate(rows)
     assert np.array_equal(found.work_to_pull_off, said.work_to_pull_off)
@@ -339,12 +339,12 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
         (replace(one, trust=Trust(one.trust.reach, np.full((4, 7), np.nan))), "finite numbers"),
         (replace(one, slow=single(one.slow, 0)), "limits of its own"),
     ):
-        punch.save(wrong, path, {})
+        punch_surrogate.save(wrong, path, {})
         with pytest.raises(ValueError, match=words):
-            punch.load(path)
-    whole = punch.SHIPPED.read_bytes()
+            punch_surrogate.load(path)
+    whole = punch_surrogate.SHIPPED.read_bytes()
     assert len(whole) < 5e5
     for content in (b"nothing", whole[: len(whole) // 2], whole[:5000] + b"x" + whole[5001:]):
         path.write_bytes(content)
         with pytest.raises(ValueError, match="not the file of a surrogate of punches|checksum"):
-            punch.load(path)
+            punch_surrogate.load(path)

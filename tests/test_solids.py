@@ -9,7 +9,7 @@ import viscotack as vt
 from viscotack.campaign.random_solids import LAST, STRETCHED, creep_spectrum, random_solid
 from viscotack.forecast.tiers import AT_ONCE
 from viscotack.materials.conversion import slowed
-from viscotack.surrogate import alike, physics, solids, store
+from viscotack.surrogate import alike, linear_solids, physics, store
 from viscotack.theory import lennard_jones
 
 # Of the solid 7 with k = 0.1: how many times, first weight and time.
@@ -59,7 +59,7 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
 
 
 def test_a_power_law_has_the_same_answer_through_either_door():
-    random, made = np.random.default_rng(3), solids.shipped()
+    random, made = np.random.default_rng(3), linear_solids.shipped()
     groups = physics.LOW * (physics.HIGH / physics.LOW) ** random.random((200, 5))
     mu, k, n, depth, rate = groups.T
     creep = [
@@ -81,11 +81,11 @@ def test_a_power_law_has_the_same_answer_through_either_door():
 def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
     from viscotack import datasets
-    from viscotack.surrogate.training.solids import CHOSEN, parts, read
+    from viscotack.surrogate.training.train_solids import CHOSEN, parts, read
 
     tests = read(datasets.load("solids"))
     tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
-    made, facts = solids.load(solids.SHIPPED)
+    made, facts = linear_solids.load(linear_solids.SHIPPED)
     said = made.evaluate(tests.like(made))
     stated = facts["scores"]["judged by, drawn evenly"]
     for name, found, true in (
@@ -100,7 +100,7 @@ def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
     from viscotack.surrogate.training import likeness
 
     tests, creep = likeness.made_up(150, 50)
-    found = solids.shipped().like(*tests, creep)
+    found = linear_solids.shipped().like(*tests, creep)
     slow = likeness.first(tests, creep)
     begun = np.column_stack(
         [np.log(slow.groups[:, 1]), np.log(slow.groups[:, 2]), np.log10(slow.groups[:, 4])]
@@ -175,19 +175,19 @@ def test_what_is_out_of_range_is_said(changed, words):
 
 
 def test_a_damaged_file_is_refused(tmp_path):
-    content = bytearray(solids.SHIPPED.read_bytes())
+    content = bytearray(linear_solids.SHIPPED.read_bytes())
     content[len(content) // 2] ^= 1
     path = tmp_path / "solids.npz"
     path.write_bytes(content)
     with pytest.raises(ValueError, match="is not what was learned of solids, or damaged"):
-        solids.load(path)
+        linear_solids.load(path)
     path.write_bytes(b"")
     with pytest.raises(ValueError, match="is not what was learned of solids, or damaged"):
-        solids.load(path)
+        linear_solids.load(path)
 
 
 def test_the_file_says_what_it_is_worth():
-    _, facts = solids.load(solids.SHIPPED)
+    _, facts = linear_solids.load(linear_solids.SHIPPED)
     even = facts["scores"]["judged by, drawn evenly"]
     assert 0.88 <= even["force"]["cover"] <= 0.95 and 0.88 <= even["work"]["cover"] <= 0.95
     assert even["force"]["mse"] < 1e-5 and even["work"]["mse"] < 1e-4
@@ -235,7 +235,7 @@ def test_the_lists_of_the_set_begin_as_they_are_drawn_and_no_part_has_a_solid_of
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
     from viscotack import datasets
     from viscotack.datasets.drawing_solids import rows
-    from viscotack.surrogate.training.solids import parts, read
+    from viscotack.surrogate.training.train_solids import parts, read
 
     for file, first, seed in (("solids.csv", 0, 23), ("stretched.csv", STRETCHED, 24)):
         lines = datasets.plan_path("solids").with_name(file).read_text("utf-8").splitlines()

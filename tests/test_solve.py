@@ -7,7 +7,7 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError
 from viscotack.bem.mesh import Grading
-from viscotack.bem.twins.plain import plain_solve
+from viscotack.bem.twins.plain_sphere import plain_solve
 from viscotack.geometry import Cone, PowerLawProfile
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.methods import solve

@@ -8,14 +8,14 @@ import pytest
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack.result import trajectory  # noqa: E402
-from viscotack.surrogate import line, physics, punch  # noqa: E402
+from viscotack.surrogate import line, physics, punch_surrogate  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
-from viscotack.surrogate.training import punch as punches  # noqa: E402
+from viscotack.surrogate.training import train_punch as punches  # noqa: E402
 from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
-from viscotack.surrogate.training.punch import parts  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
+from viscotack.surrogate.training.train_punch import parts  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
@@ -232,7 +232,7 @@ def test_the_training_of_punches_runs_on_few_rows(tmp_path, monkeypatch):
     monkeypatch.setattr(punches, "LINE", quick)
     facts = punches.make(tmp_path, workers=2)
     assert facts["rows"]["judging"] > 50
-    made, said = punch.load(tmp_path / "punch.npz")
+    made, said = punch_surrogate.load(tmp_path / "punch.npz")
     assert said["scores"] == facts["scores"]
     assert facts["scores"]["all"]["stress"]["median"] < 0.1
     assert 0.7 < facts["scores"]["all"]["stress"]["cover"] <= 1.0

@@ -13,7 +13,7 @@ from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.surface import stiffness
-from viscotack.bem.twins.plain import hat_matrix, mean_compliance, plain_solve
+from viscotack.bem.twins.plain_sphere import hat_matrix, mean_compliance, plain_solve
 from viscotack.geometry import Frictionless
 from viscotack.materials import Elastic, Modes, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve

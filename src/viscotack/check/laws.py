@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.cards import check_carded
-from viscotack.materials.solids import Elastic
+from viscotack.materials.branched_solids import Elastic
 from viscotack.problem import Groups
 from viscotack.protocol import AtForce
 from viscotack.result.observables import pull_off_force

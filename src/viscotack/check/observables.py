@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from viscotack.materials.solids import StandardSolid
+from viscotack.materials.branched_solids import StandardSolid
 from viscotack.problem import Groups
 from viscotack.problem.nouns import known
 from viscotack.protocol import AtForce

@@ -7,7 +7,7 @@ import numpy as np
 
 from viscotack.cards import check_carded
 from viscotack.geometry import PowerLawProfile
-from viscotack.materials.solids import Elastic
+from viscotack.materials.branched_solids import Elastic
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
 from viscotack.result.observables import pull_off_force

@@ -4,8 +4,8 @@ from .advice import Advice, advise
 from .answer import predict
 from .closed_forms import Estimate
 from .prediction import Prediction, prediction_summary
+from .prediction_table import predict_table
 from .preload_threshold import threshold_contact_radius
-from .table import predict_table
 
 __all__ = [
     "Advice",

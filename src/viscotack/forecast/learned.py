@@ -19,17 +19,17 @@ from viscotack.traction import LennardJones
 
 from .allow_list import ANY, Verified
 from .beyond import Beyond, beyond
+from .equivalent_power_law import alike_words, like_of, unlike_words
 from .prediction import MEASURED, Prediction, of_theory, with_curve
 from .question import Question
 from .refusals import out_of_range
-from .solids import alike_words, like_of, unlike_words
 from .two_peaks import two_peaks
 
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
+    from viscotack.surrogate.linear_solids import Solids
     from viscotack.surrogate.model import Surrogate
     from viscotack.surrogate.short_range import Said
-    from viscotack.surrogate.solids import Solids
 
 Array = npt.NDArray[np.float64]
 
@@ -289,6 +289,6 @@ def _learned() -> Surrogate:
 
 
 def _solids() -> Solids:
-    from viscotack.surrogate import solids
+    from viscotack.surrogate import linear_solids
 
-    return solids.shipped()
+    return linear_solids.shipped()

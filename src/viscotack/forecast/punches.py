@@ -20,7 +20,7 @@ from .question import Question
 from .refusals import out_of_range
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.punch import PunchSurrogate
+    from viscotack.surrogate.punch_surrogate import PunchSurrogate
 
 Array = npt.NDArray[np.float64]
 
@@ -94,9 +94,9 @@ def inputs_of(groups: PunchGroups) -> dict[str, float]:
 
 
 def _learned() -> PunchSurrogate:
-    from viscotack.surrogate import punch
+    from viscotack.surrogate import punch_surrogate
 
-    return punch.shipped()
+    return punch_surrogate.shipped()
 
 
 def _row(groups: PunchGroups, learned: PunchSurrogate) -> Array:

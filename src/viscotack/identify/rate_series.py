@@ -21,10 +21,10 @@ from viscotack.materials import Material, Passport
 from .doubt import allowed, covariance, log_forces
 from .forward import Forward
 from .growth import FoundGrowth, found_growth
+from .interpolated_forces import Table
 from .objective import Best, Interval, Objective
 from .pull_off import PullOff
 from .search import LEAST_TABOR, Data, Search, closely, plain_table, pulled_with_growth, widely
-from .table import Table
 from .yielding import Yielding, yielding_near
 
 Array = npt.NDArray[np.float64]

@@ -16,9 +16,9 @@ from viscotack.errors import InputError
 from .doubt import theory_covariance
 from .forward import Forward
 from .growth import Opening, growing, growth_parameters
+from .interpolated_forces import Table
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff
-from .table import Table
 from .yielding import Yielding
 
 Array = npt.NDArray[np.float64]

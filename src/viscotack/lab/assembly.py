@@ -8,12 +8,12 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
+from .columns import Columns, Table, Units
 from .diagnosis import cause, has_sweep
 from .doubts import doubtful_modulus
 from .grouping import GAP, grouped
 from .lab_file import LabFile
 from .sweeps import FrequencySweeps, Source
-from .table import Columns, Table, Units
 
 Array = npt.NDArray[np.float64]
 

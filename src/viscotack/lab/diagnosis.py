@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from .arrays import KINDS
-from .table import Columns
+from .columns import Columns
 
 TESTS = ("dma", "relaxation", "creep", "shifts")
 

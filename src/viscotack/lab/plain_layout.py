@@ -7,9 +7,9 @@ E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) are of this kind.
 import csv
 import re
 
+from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .quantities import recognise
-from .table import Table, first_headings, stated_temperature, tabulated
 
 _LOOKED = 200  # lines in which the headings are looked for
 _SEPARATORS = ("\t", ";", ",", None)

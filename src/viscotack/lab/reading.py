@@ -24,12 +24,12 @@ from . import (
     workbook_layout,
 )
 from .arrays import KINDS
+from .columns import Columns, Table, Units
 from .diagnosis import test_of
 from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, load
 from .quantities import kelvin, radians_per_second, scale
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
-from .table import Columns, Table, Units
 
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest

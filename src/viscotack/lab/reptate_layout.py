@@ -11,10 +11,10 @@ from pathlib import PurePath
 
 import numpy as np
 
+from .columns import Table, tabulated
 from .doubts import doubtful_temperature
 from .lab_file import LabFile
 from .quantities import bare, recognise
-from .table import Table, tabulated
 
 _PARAMETERS = re.compile(r"\s*([\w()\[\],]+\s*=[^;=]*;\s*)+([\w()\[\],]+\s*=[^;=]*)?;?\s*")
 _ONE = re.compile(r"\s*\w+\s*=[^;=\s]*\s*;?\s*")

@@ -9,9 +9,9 @@ above the headings of one interval.
 
 import re
 
+from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .plain_layout import cells
-from .table import Table, first_headings, stated_temperature, tabulated
 
 _LABEL = re.compile(r"\s*[^\t;,]*[^\W\d][^\t;,]*:\s*")
 _WHOLE = re.compile(r"\s*[0-9]+\s*")

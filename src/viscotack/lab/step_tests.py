@@ -18,12 +18,12 @@ from .assembly import (
     source_of,
     temperatures,
 )
+from .columns import Columns, Table
 from .diagnosis import test_of
 from .doubts import doubtful_modulus
 from .grouping import GAP
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
-from .table import Columns, Table
 
 Array = npt.NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from viscotack.errors import InputError
 
+from .columns import Table, tabulated
 from .lab_file import LabFile
-from .table import Table, tabulated
 
 _STEPS = ("Results Step Id", "Procedure Step Id")
 _DEEPEST = 50  # levels of brackets; an export has ten

@@ -6,9 +6,9 @@ export of one step may do without ``[step]``; it begins with ``Filename`` and ha
 Exported with all variables a table has eighty columns; those that are not needed are passed over.
 """
 
+from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .plain_layout import cells
-from .table import Table, first_headings, stated_temperature, tabulated
 
 _STEP = "[step]"
 _LOOKED = 500  # lines in which the table of an export of one step begins

@@ -8,10 +8,10 @@ belong to all.
 import re
 from collections.abc import Sequence
 
+from .columns import Table, tabulated
 from .lab_file import LabFile
 from .plain_layout import cells, is_comment, is_number, separators
 from .quantities import recognise
-from .table import Table, tabulated
 
 _LOOKED = 200  # lines in which the headings are looked for
 _WITHIN = re.compile(

@@ -13,9 +13,9 @@ from typing import Any
 
 from viscotack.errors import InputError
 
+from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LARGEST, LabFile
 from .plain_layout import is_number
-from .table import Table, first_headings, stated_temperature, tabulated
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for

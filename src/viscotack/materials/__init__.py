@@ -1,5 +1,6 @@
 """Linear viscoelastic solids, and their memory as exponential modes."""
 
+from viscotack.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.materials.fractional import FractionalZener
 from viscotack.materials.library import published
 from viscotack.materials.material import Material
@@ -8,7 +9,6 @@ from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport, write_passport
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
 from viscotack.materials.shift import WLF, Arrhenius, TabulatedShift
-from viscotack.materials.solids import Elastic, Prony, StandardSolid
 from viscotack.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 
 __all__ = [

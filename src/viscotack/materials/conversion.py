@@ -21,11 +21,11 @@ import numpy.typing as npt
 from viscotack.cards import conform
 from viscotack.errors import InputError
 from viscotack.materials import checks
+from viscotack.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Material
 from viscotack.materials.scaling import scaled
-from viscotack.materials.solids import Elastic, Prony, StandardSolid
 
 Array = npt.NDArray[np.float64]
 

@@ -5,10 +5,10 @@ from typing import Any
 
 from viscotack.cards import Pairs, cards
 from viscotack.files.toml import toml_value
+from viscotack.materials.branched_solids import Prony, StandardSolid
 from viscotack.materials.conversion import prony_form, relaxation_form, retardation_series
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import WLF, Arrhenius, FittedShift, Shift, TabulatedShift
-from viscotack.materials.solids import Prony, StandardSolid
 from viscotack.materials.words import units_of, word_of
 
 VERSION = 1

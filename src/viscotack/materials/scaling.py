@@ -22,7 +22,7 @@ def scaled(material: Any, *, modulus: float, time: float) -> Any:
 
     Examples
     --------
-    >>> from viscotack.materials.solids import StandardSolid
+    >>> from viscotack.materials.branched_solids import StandardSolid
     >>> solid = StandardSolid(
     ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=2.0, poisson_ratio=0.5
     ... )

@@ -5,10 +5,10 @@ from typing import Any
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.materials.fractional import FractionalZener
 from viscotack.materials.material import Material
 from viscotack.materials.power_law import RelaxationPowerLaw, RetardationPowerLaw
-from viscotack.materials.solids import Elastic, Prony, StandardSolid
 from viscotack.materials.springpots import FractionalKelvinVoigt, FractionalMaxwell
 
 _ALL = ("rubbery_modulus", "poisson_ratio")

@@ -68,7 +68,7 @@ class IdentifySlow(Operation):
         from viscotack.identify import fitted_force, identify_slow, slow_test
         from viscotack.pictures.identify import draw_slow_test
 
-        from .parts.plain import drawn
+        from .parts.json_data import drawn
         from .parts.records import slow_record
 
         found = self.rig.survey(self.files)

@@ -101,7 +101,7 @@ def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") ->
     from viscotack.campaign.case import Unsolved
     from viscotack.problem.record import run_id
 
-    from .parts.plain import plain
+    from .parts.json_data import plain
 
     began = perf_counter()
     row: dict[str, Any] = {"inputs": dict(inputs), "outputs": None, "reason": ""}

@@ -18,12 +18,12 @@ from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY
 from viscotack.problem import plane, revolution
+from viscotack.problem.case_table import OWN, Table, refuse_unknown
 from viscotack.problem.law_table import law_from_table
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.problem import Problem
 from viscotack.problem.prony_file import read_prony
 from viscotack.problem.protocol_table import protocol_from_table
-from viscotack.problem.table import OWN, Table, refuse_unknown
 from viscotack.units import parse
 
 _COMMON = ("material", "interface", "protocol")

@@ -7,7 +7,7 @@ from typing import Any
 from viscotack.cards import Field, cards
 from viscotack.errors import InputError
 from viscotack.files.quantities import read_quantities
-from viscotack.problem.table import OWN, Table
+from viscotack.problem.case_table import OWN, Table
 from viscotack.traction import LAWS, LennardJones, Tabulated, Traction, grows
 from viscotack.units import finite, positive
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.problem.table import Table
+from viscotack.problem.case_table import Table
 from viscotack.protocol import (
     Apart,
     AtDepth,

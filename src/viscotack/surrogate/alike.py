@@ -8,8 +8,8 @@ There any solid is like one of the retardation power laws that simulations are k
 with its own modulus ratio k and an exponent and a time that make the logarithms of the two creeps
 agree best. Creep is sampled at fifteen fixed multiples of h0/v, so that no rate and no temperature
 is an input: a solid that is slower, pulled slower, has the same samples. How much each of them
-counts, and where the search begins, is told by :mod:`viscotack.surrogate.solids`; from there a few
-steps suffice. A power law is like itself.
+counts, and where the search begins, is told by :mod:`viscotack.surrogate.linear_solids`; from there
+a few steps suffice. A power law is like itself.
 """
 
 from __future__ import annotations

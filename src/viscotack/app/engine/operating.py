@@ -10,9 +10,9 @@ from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.answer import Answer, Caller
 from viscotack.operations.declare.options import Operation, respelled, take
-from viscotack.operations.parts.plain import plain
+from viscotack.operations.parts.json_data import plain
 
-from .asks import Asked, Tell
+from .page_tasks import Asked, Tell
 
 # What may be wanted of every answer beside its files.
 WORDS, DRAWN = "words", "drawn"

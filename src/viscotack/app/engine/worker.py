@@ -8,12 +8,12 @@ from viscotack.errors import InputError
 
 # Task -> module and function; a module is imported by the first task that needs it.
 TASKS = {
-    "forms": ("asks", "ask_forms"),
-    "state": ("asks", "ask_state"),
-    "quick": ("asks", "ask_quick"),
-    "verdict": ("asks", "ask_verdict"),
-    "theory": ("asks", "ask_theory"),
-    "moduli": ("asks", "ask_moduli"),
+    "forms": ("page_tasks", "ask_forms"),
+    "state": ("page_tasks", "ask_state"),
+    "quick": ("page_tasks", "ask_quick"),
+    "verdict": ("page_tasks", "ask_verdict"),
+    "theory": ("page_tasks", "ask_theory"),
+    "moduli": ("page_tasks", "ask_moduli"),
     "operation": ("operating", "run_operation"),
     "job": ("operating", "run_operation"),
 }

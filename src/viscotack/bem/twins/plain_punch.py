@@ -27,7 +27,7 @@ import numpy.typing as npt
 from scipy.linalg import toeplitz
 from scipy.special import sici, xlogy
 
-from viscotack.bem.twins.plain import crossing, relaxed_depth, retract
+from viscotack.bem.twins.plain_sphere import crossing, relaxed_depth, retract
 from viscotack.geometry import Base
 from viscotack.problem import Problem, PunchGroups
 from viscotack.result import Result

@@ -22,6 +22,7 @@ of 0.5 goes to a program that forbids it with a bulk modulus, which does not rel
 
 from viscotack.errors import InputError
 from viscotack.materials import checks
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange import (
     abaqus,
     ansys,
@@ -34,7 +35,6 @@ from viscotack.materials.exchange import (
 )
 from viscotack.materials.exchange.units import SI, Card, Units
 from viscotack.materials.shift import Shift
-from viscotack.materials.solids import Prony
 
 CODES = {
     "abaqus": abaqus,

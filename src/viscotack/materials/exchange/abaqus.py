@@ -6,6 +6,7 @@ instantaneous.
 """
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
@@ -18,7 +19,6 @@ from viscotack.materials.exchange.units import (
     units_of,
 )
 from viscotack.materials.shift import WLF, Arrhenius
-from viscotack.materials.solids import Prony
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:

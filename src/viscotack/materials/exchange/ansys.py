@@ -7,6 +7,7 @@ series apart. ``TBDATA`` takes a first place and up to six numbers: three pairs.
 from scipy.constants import gas_constant
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
@@ -19,7 +20,6 @@ from viscotack.materials.exchange.units import (
     units_of,
 )
 from viscotack.materials.shift import WLF, Arrhenius
-from viscotack.materials.solids import Prony
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:

@@ -8,6 +8,7 @@ stand in comments here, as that file has no place for them.
 import re
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
@@ -18,7 +19,6 @@ from viscotack.materials.exchange.units import (
     told_incompressible,
     units_of,
 )
-from viscotack.materials.solids import Prony
 
 _MODULUS = re.compile(r"long-term Young's modulus\s+(\S+)")
 _POISSON = re.compile(r"Poisson ratio\s+(\S+)")

@@ -8,8 +8,8 @@ import csv
 import io
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import Card, Units, from_ratios, number
-from viscotack.materials.solids import Prony
 
 _PRESSURES = ("Pa", "kPa", "MPa", "GPa")
 _NAMES = ["tau_i", "alpha_i", "E_0", "E_i"]

@@ -6,6 +6,7 @@ same number states the long-term moduli; they stand in a comment here.
 """
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
@@ -18,7 +19,6 @@ from viscotack.materials.exchange.units import (
     told_incompressible,
     units_of,
 )
-from viscotack.materials.solids import Prony
 
 _ELASTIC = "long-term Young's modulus and Poisson ratio of the material law:"
 

@@ -8,6 +8,7 @@ slowest, and a comment says so.
 import re
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
@@ -17,7 +18,6 @@ from viscotack.materials.exchange.units import (
     series,
     shear_factor,
 )
-from viscotack.materials.solids import Prony
 
 _SLOWER = 1e4
 _PLATEAU = "the last mode stands for the rubbery modulus, which modes have not; Poisson ratio"

@@ -9,8 +9,8 @@ import json
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import Card, Units, refuse_units, series, shear_factor
-from viscotack.materials.solids import Prony
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:

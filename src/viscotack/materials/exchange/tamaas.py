@@ -7,8 +7,8 @@ lengths of its model must go with the unit of pressure.
 import ast
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import Card, Units, head, series, shear_factor, units_of
-from viscotack.materials.solids import Prony
 
 _NAMES = ("model.E", "model.nu", "shear_moduli", "characteristic_times")
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from viscotack.errors import InputError
+from viscotack.materials.branched_solids import Prony
 from viscotack.materials.checks import positive
 from viscotack.materials.shift import Shift
-from viscotack.materials.solids import Prony
 from viscotack.units import parse
 
 _COMMENT = re.compile(r"units:\s*pressure\s+(\S+?),\s*time\s+(\S+)")

@@ -27,10 +27,10 @@ from viscotack.materials.constants import ContactModulus, ModulusRatio
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
+from viscotack.problem.case_table import OWN
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
-from viscotack.problem.table import OWN
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start, check_number_of_moves
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
 from viscotack.traction import LennardJones

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .plain import drawn
+from .json_data import drawn
 
 if TYPE_CHECKING:
     from viscotack.lab import FitReport

@@ -4,7 +4,7 @@ from dataclasses import asdict
 from math import isfinite
 from typing import Any
 
-from .plain import plain
+from .json_data import plain
 
 # name in Python -> name in tables, with the unit
 _MEASURED = {

@@ -13,7 +13,7 @@ from viscotack.problem.outputs import Kind
 from viscotack.result import Outcome, Result, columns
 
 from ..declare.answer import Told
-from .plain import drawn
+from .json_data import drawn
 
 Tell = Callable[[Told], None]
 # Seconds between two tellings of a curve that grows.

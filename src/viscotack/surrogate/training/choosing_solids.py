@@ -18,7 +18,7 @@ from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.datasets.drawing_solids import NAMES, rows
 from viscotack.files.whole import write_whole
 
-from .. import solids, store
+from .. import linear_solids, store
 from ..alike import TIMES
 from ..physics import RATE
 from .likeness import Tests, first
@@ -79,7 +79,7 @@ def _unlike(tests: Tests, creep: Array) -> Array:
 def _widths(tests: Tests, creep: Array) -> Array:
     """Return the squares of the widths of intervals."""
     tabor, k, preload = tests
-    made = solids.shipped()
+    made = linear_solids.shipped()
     like = made.like(tabor, k, preload, creep)
     said = made.evaluate(like)
     ends = made.intervals(like, said).pull_off_force[:, 1]

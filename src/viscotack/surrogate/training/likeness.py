@@ -31,8 +31,8 @@ from ..alike import (
     crept,
     left,
 )
+from ..linear_solids import WIDEST, begin_inputs, bell
 from ..model import Scaled
-from ..solids import WIDEST, begin_inputs, bell
 from .fitting import Fit, Task, fit
 
 Array = npt.NDArray[np.float64]

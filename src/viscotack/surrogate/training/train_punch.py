@@ -1,11 +1,11 @@
 """The surrogate of the punch, from its datasets to its file and its scores.
 
-``python -m viscotack.surrogate.training.punch --out DIR``. First the two limits and the relaxed
-start are learned, then where between the limits the stress is, then work and curve; each is looked
-at twice, for what a network leaves over is smooth. Fitted networks are kept in the folder, so that
-a run that was stopped goes on. Of the rows one part is kept apart to measure how wide intervals
-must be, and one to judge; which, is the same in every run. So it is with the rows of `punch_faces`,
-from none of which anything else is learned.
+``python -m viscotack.surrogate.training.train_punch --out DIR``. First the two limits and the
+relaxed start are learned, then where between the limits the stress is, then work and curve; each is
+looked at twice, for what a network leaves over is smooth. Fitted networks are kept in the folder,
+so that a run that was stopped goes on. Of the rows one part is kept apart to measure how wide
+intervals must be, and one to judge; which, is the same in every run. So it is with the rows of
+`punch_faces`, from none of which anything else is learned.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from viscotack.datasets.files import checksum
 from viscotack.problem.outputs import PLANE
 from viscotack.version import __version__
 
-from .. import punch
 from .. import punch_physics as physics
+from .. import punch_surrogate
 from ..model import Scaled
 from ..network import Networks, added, together
-from ..punch import PunchSurrogate, told, with_work
 from ..punch_physics import Array
+from ..punch_surrogate import PunchSurrogate, told, with_work
 from ..trust import OF, Trust, error_inputs
 from .calibration import HOW, Apart, errors_of, levels_of, reach_task, untested
 from .calibration import scored as of_reach
@@ -265,14 +265,14 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
         "rows": {"learned": len(learned), "measuring": len(measuring), "judging": len(judging)},
         "scores": scores,
     }
-    punch.save(made, folder / "punch.npz", facts)
+    punch_surrogate.save(made, folder / "punch.npz", facts)
     say("done")
     return facts
 
 
 def main() -> None:
     """Train and say what it is worth."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.punch")
+    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.train_punch")
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     given = parser.parse_args()

@@ -1,7 +1,7 @@
 """The surrogate of any linear solid, from the sets `solids` and `rough` to its file and its scores.
 
-``python -m viscotack.surrogate.training.solids --out DIR``: a network learns where the search for
-the power law that a solid is like begins (:mod:`viscotack.surrogate.training.likeness`); others
+``python -m viscotack.surrogate.training.train_solids --out DIR``: a network learns where the search
+for the power law that a solid is like begins (:mod:`viscotack.surrogate.training.likeness`); others
 learn from simulated tests how what that one leaves over bends force and work; then it is learned
 how far errors reach, and measured how many times that half an interval must be. Solids that are
 kept apart are never learned from, and the family of the stretched exponentials neither.
@@ -26,10 +26,10 @@ from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
 from viscotack.version import __version__
 
-from .. import physics, solids, store
+from .. import linear_solids, physics, store
 from ..alike import TIMES, Alike
+from ..linear_solids import BEND_INPUTS, SAMPLES, TRUST_INPUTS, Solids
 from ..network import Networks, together
-from ..solids import BEND_INPUTS, SAMPLES, TRUST_INPUTS, Solids
 from ..trust import OF, Trust
 from . import likeness
 from .calibration import Apart, errors_of, levels_of, reach_task, scored
@@ -161,9 +161,9 @@ def bent(begun: Solids, tests: Tests) -> Solids:
     made = replace(begun, usual=np.sqrt(np.mean(like.over**2, axis=0)), work=_none())
     groups, power_law = like.groups, made.power_law
     output = power_law.force(physics.scaled(groups))[..., 0]
-    over = solids.scaled_over(like, made.usual)
-    inputs = np.column_stack([solids.features(like, output), over])
-    factor = solids.felt(output)
+    over = linear_solids.scaled_over(like, made.usual)
+    inputs = np.column_stack([linear_solids.features(like, output), over])
+    factor = linear_solids.felt(output)
     low, high = physics.way(groups, power_law.fast)
     # one way and one output stand for those of several networks, which hardly differ
     output, high = output.mean(axis=0), high.mean(axis=0)
@@ -276,7 +276,7 @@ def tables(path: Path | None, *, rows: int | None) -> Any:
 
 def main() -> None:
     """Learn, measure, write and say what it is worth."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.solids")
+    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.train_solids")
     parser.add_argument("--out", type=Path, required=True, help="folder of the file")
     parser.add_argument("--table", type=Path, help="Parquet file in place of the sets")
     parser.add_argument("--rows", type=int, help="only so many rows of each, from the beginning")
@@ -289,7 +289,7 @@ def main() -> None:
         **found,
     }
     given.out.mkdir(parents=True, exist_ok=True)
-    solids.save(made, given.out / "solids.npz", facts)
+    linear_solids.save(made, given.out / "solids.npz", facts)
     print(json.dumps(facts, indent=1))
     print(f"{perf_counter() - began:.0f} s", file=sys.stderr)
 

@@ -17,14 +17,14 @@ from viscotack.forecast import predict
 from viscotack.forecast.advice import estimate_by
 from viscotack.forecast.closed_forms import edge_curve
 from viscotack.forecast.prediction import Prediction
+from viscotack.forecast.prediction_table import predict_table
 from viscotack.forecast.punches import inputs_of
 from viscotack.forecast.question import Question
-from viscotack.forecast.table import predict_table
 from viscotack.forecast.tiers import AT_ONCE, TIERS
 from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
 from viscotack.operations.declare.state import State
-from viscotack.operations.parts.plain import drawn, plain
+from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.problem import Groups, Problem, PunchScales
 from viscotack.problem.outputs import PLANE, REVOLUTION
 from viscotack.problem.problem import PunchGroups

@@ -16,12 +16,12 @@ from viscotack.methods import crack_contact
 from viscotack.methods.by_crack import METHOD
 from viscotack.operations.declare.state import State, state_of_query, state_of_toml
 from viscotack.operations.parts.examples import EXAMPLES, FIRST
+from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.operations.parts.library import library
-from viscotack.operations.parts.plain import drawn, plain
 from viscotack.problem import Problem
 
 from .forms import forms
-from .quick import numbers_of, quick
+from .overview import numbers_of, quick
 
 Tell = Callable[[dict[str, Any]], None]
 Asked = Mapping[str, Any]

@@ -198,10 +198,10 @@ def _spheres(given: dict[str, Array], count: int, confidence: float) -> _Known:
 
 def _punches(given: dict[str, Array], count: int, confidence: float) -> _Known:
     """Return the answers of the surrogate to punches, where it knows them."""
-    from viscotack.surrogate import punch
+    from viscotack.surrogate import punch_surrogate
     from viscotack.surrogate.punch_physics import INPUTS, PRELOAD, SIZE, THICKNESS
 
-    learned, unknown = punch.shipped(), np.full(count, np.nan)
+    learned, unknown = punch_surrogate.shipped(), np.full(count, np.nan)
     rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
     # it changes crack speeds and no stress, but a case needs one
     possible = given["cohesion"] > 0

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def like_of(groups: Groups, depth: float) -> Alike:
     """Return the power law that stands for the solid of a test from a start at a depth [h0]."""
-    from viscotack.surrogate import alike, solids
+    from viscotack.surrogate import alike, linear_solids
 
     assert groups.rate is not None, "checked at the door"
     material, k = groups.material, groups.modulus_ratio
@@ -22,14 +22,14 @@ def like_of(groups: Groups, depth: float) -> Alike:
     # rounded, it may lie beyond its ends
     creep = np.clip(creep, k, 1.0)
     one = np.ones(1)
-    return solids.shipped().like(groups.tabor * one, k * one, depth * one, creep[None])
+    return linear_solids.shipped().like(groups.tabor * one, k * one, depth * one, creep[None])
 
 
 def unlike_words(like: Alike) -> list[str]:
     """Return in words that a solid is unlike all that were learned from, or nothing."""
-    from viscotack.surrogate import solids
+    from viscotack.surrogate import linear_solids
 
-    learned = solids.shipped()
+    learned = linear_solids.shipped()
     if learned.inside(like)[0]:
         return []
     return [
