@@ -16,6 +16,7 @@ PACKAGE = Path(viscotack.__file__).parent
 # The rooms, lowest first: a module imports only from its own room and from rooms before it.
 ROOMS = (
     "version",
+    "arrays",
     "errors",
     "units",
     "cards",

@@ -11,10 +11,10 @@ from time import perf_counter
 from typing import Annotated, Any, cast
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 
+from viscotack.arrays import Array
 from viscotack.bem import DEFAULT_ACCURACY, Accuracy
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
@@ -29,8 +29,6 @@ from viscotack.result.parts import spans
 from ..result import Outcome, Result
 from .identity import identity, words
 from .own import OwnChanged, nouns_of
-
-Array = npt.NDArray[np.float64]
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}

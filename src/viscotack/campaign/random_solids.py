@@ -19,13 +19,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Prony
 from viscotack.materials.conversion import RetardationSeries, relaxation_series
-
-Array = npt.NDArray[np.float64]
 
 # Largest number, and that from which solids are stretched exponentials.
 LAST, STRETCHED = 2_000_000, 1_000_000

@@ -28,13 +28,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.theory import lennard_jones
 
 if TYPE_CHECKING:
     from viscotack.surrogate.answers import Answers, Intervals
     from viscotack.surrogate.model import Surrogate
 
-Array = npt.NDArray[np.float64]
 
 # How far it goes on: simulations were compared so far (`benchmarks/beyond.py`).
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6

@@ -7,8 +7,8 @@ from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.geometry import HalfSpace, Sphere
 from viscotack.materials import RetardationPowerLaw
 from viscotack.methods.crack_band import band_parts, not_measured
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
     from viscotack.surrogate.short_range import Said
 
-Array = npt.NDArray[np.float64]
 
 SURROGATE, SOLIDS, LEARNED_CRACK = "surrogate", "surrogate of solids", "learned crack contact"
 POWER_LAWS = Verified(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
@@ -18,8 +19,6 @@ from .punches import LEARNED_PUNCH
 if TYPE_CHECKING:
     from viscotack.campaign.columns import Kind
     from viscotack.surrogate.model import Surrogate
-
-Array = npt.NDArray[np.float64]
 
 
 def _with_interval(name: str) -> tuple[str, str, str]:

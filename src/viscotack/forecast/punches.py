@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import FlatPunch, Frictionless
 from viscotack.materials import Prony, StandardSolid
@@ -22,7 +22,6 @@ from .refusals import out_of_range
 if TYPE_CHECKING:
     from viscotack.surrogate.punch_surrogate import PunchSurrogate
 
-Array = npt.NDArray[np.float64]
 
 LEARNED_PUNCH = "surrogate of punches"
 PUNCHES = Verified(

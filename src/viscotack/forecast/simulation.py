@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.campaign.case import curve
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods.crack_band import not_measured
@@ -14,8 +14,6 @@ from viscotack.surrogate.line import Curves
 
 from .prediction import MEASURED, NOT_MEASURED, THEORY_CONFIDENCE, Prediction
 from .question import Question
-
-Array = npt.NDArray[np.float64]
 
 SIMULATION = "simulation"
 

@@ -14,10 +14,9 @@ from typing import Annotated, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -15,10 +15,10 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 
-Array = npt.NDArray[np.float64]
 # A shape of revolution is looked at over these decades of radius [m].
 _DECADES = (-30.0, 30.0)
 

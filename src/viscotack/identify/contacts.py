@@ -8,12 +8,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
+from viscotack.arrays import Array
 from viscotack.theory import dmt, jkr, maugis, transition
 
-Array = npt.NDArray[np.float64]
 Values = Mapping[str, float]
 
 _POINTS = 1200

@@ -13,14 +13,12 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Passport
 
 from .forward import Forward, Growth
-
-Array = npt.NDArray[np.float64]
 
 _DRAWN = 24
 _RADII = 40  # of a curve: solids are compared with each other

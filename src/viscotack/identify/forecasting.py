@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
@@ -26,8 +27,6 @@ from .doubt import allowed, covariance, log_forces, theory_covariance
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
-
-Array = npt.NDArray[np.float64]
 
 _MOST = 200  # speeds
 _DRAWS, _TIMES = 200, 10  # interfaces drawn, and forces of each

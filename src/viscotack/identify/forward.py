@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.materials import Material
@@ -32,8 +33,6 @@ from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import GentSchultz, LennardJones
 
 from .travel import travels_of
-
-Array = npt.NDArray[np.float64]
 
 _APART = 20.0  # ranges from which an approach begins
 _SPEED = 1e-6  # at which groups are asked for; rates are in proportion

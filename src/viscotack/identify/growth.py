@@ -19,13 +19,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.stats import chi2
 
+from viscotack.arrays import Array
 from viscotack.theory.crack.contact import GrowingCracks
 from viscotack.traction.growing import reference_speed
 
 from .forward import Forward, Growth, Pulled
 from .objective import Parameter
-
-Array = npt.NDArray[np.float64]
 
 STRENGTHENING, EXPONENT = "strengthening", "exponent"
 # The largest strengthening that is looked for; exponents, and those of the lattice.

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.theory.crack.contact.growing import lattice_spline
 
 from .forward import Forward
 from .growth import EXPONENT, STRENGTHENING, Opening
 from .travel import PARTS
-
-Array = npt.NDArray[np.float64]
 
 _AT_ONCE = 20_000  # points that are interpolated
 

@@ -8,13 +8,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import least_squares
 from scipy.stats import chi2
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-Array = npt.NDArray[np.float64]
 Residuals = Callable[[Mapping[str, float]], Array]
 
 # Of the way from the best value to a bound: an interval may be narrow or wide, or in two parts.

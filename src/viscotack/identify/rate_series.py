@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Material, Passport
 
@@ -26,8 +26,6 @@ from .objective import Best, Interval, Objective
 from .pull_off import PullOff
 from .search import LEAST_TABOR, Data, Search, closely, plain_table, pulled_with_growth, widely
 from .yielding import Yielding, yielding_near
-
-Array = npt.NDArray[np.float64]
 
 # Relative standard uncertainty of the forward model, and where the interface grows.
 _THEORY, _GROWING_THEORY = 0.02, 0.03

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .objective import Best, Objective, Parameter
-
-Array = npt.NDArray[np.float64]
 
 _WALKERS, _STEPS, _BEGIN = 16, 600, 100
 _AROUND = 1e-3  # of the way between the bounds, where the walkers begin

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .doubt import theory_covariance
@@ -20,8 +21,6 @@ from .interpolated_forces import Table
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff
 from .yielding import Yielding
-
-Array = npt.NDArray[np.float64]
 
 _WORKS, _GAPS = 8, 21  # works a decade, and ranges, of the table without growth
 LEAST_TABOR = 2.0  # effective: below it the theory does not hold

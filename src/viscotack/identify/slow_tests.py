@@ -11,16 +11,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
 from viscotack.theory import maugis, transition
 
 from .contacts import MODELS, ElasticModel
 from .objective import Best, Interval, Objective, Parameter
-
-Array = npt.NDArray[np.float64]
 
 _FEWEST = 12  # points
 _MOST = 300

@@ -7,11 +7,9 @@ within one test.
 """
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.lab.tack import Cycle, Measured
-
-Array = npt.NDArray[np.float64]
 
 # Parts of the largest tension at which the travel is read, beside zero.
 PARTS = (0.3, 0.6, 0.85)

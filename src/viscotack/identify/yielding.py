@@ -10,11 +10,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from .forward import Forward, Growth
-
-Array = npt.NDArray[np.float64]
 
 # ln of ratios beyond which slopes are taken, and how far beside, ln of work and range.
 _FAR, _WORK, _GAP = 0.1, 0.1, -0.3

@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
-
-Array = npt.NDArray[np.float64]
 
 KINDS = {"E": "tension", "G": "shear"}
 

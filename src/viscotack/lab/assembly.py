@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .columns import Columns, Table, Units
@@ -14,8 +15,6 @@ from .doubts import doubtful_modulus
 from .grouping import GAP, grouped
 from .lab_file import LabFile
 from .sweeps import FrequencySweeps, Source
-
-Array = npt.NDArray[np.float64]
 
 STIFFEST = 1.2e12  # Pa, diamond
 _TANGENTS = 1e-5, 1e4  # of every solid and most liquids: beyond, one of the units is wrong

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .arrays import KINDS
@@ -27,8 +28,6 @@ from .quantities import (
     recognise,
     scale,
 )
-
-Array = npt.NDArray[np.float64]
 
 _UNITS = {
     "storage": "Pa",

@@ -1,9 +1,8 @@
 """What is possible and yet so rare that it is said: it may be a wrong unit."""
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 _ROOM = 263.0, 323.0  # numbers that are a room's or a fridge's temperatures in kelvin
 _COLD = 100.0  # K; below it hardly a laboratory measures

@@ -34,9 +34,9 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import brentq
 from scipy.stats import t as student
 
-from .observed import Observed
+from viscotack.arrays import Array
 
-Array = npt.NDArray[np.float64]
+from .observed import Observed
 
 _TRENDS = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)  # of the logarithm of the variance
 _SHARED = (0.5, 1.0, 2.0, 4.0, 8.0)  # common error beside each number's own

@@ -25,10 +25,10 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 from scipy.stats import norm
 
+from viscotack.arrays import Array
+
 from .nonnegative import nonnegative
 from .observed import Observed
-
-Array = npt.NDArray[np.float64]
 
 # A modulus that changes by more than this share a decade is on no plateau.
 PLATEAU = 0.05

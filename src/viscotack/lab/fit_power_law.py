@@ -14,14 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from .fit_errors import errors
 from .fit_report import Interval, Scatter, scatter, unit_of
 from .fit_search import Search
 from .observed import Observed
-
-Array = npt.NDArray[np.float64]
 
 _POOR = 0.25  # half an interval of ln(constant) from which on the profile is asked
 

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Prony
 from viscotack.materials.conversion import RetardationSeries, relaxation_series
@@ -24,8 +25,6 @@ from .fit_plateaus import NAMES, Plateau, open_ends
 from .fit_report import Interval, Scatter, information_criterion, scatter
 from .nonnegative import nonnegative
 from .observed import Observed, only
-
-Array = npt.NDArray[np.float64]
 
 _MOST = 60  # arms
 _ENOUGH = 40  # points of a curve from which on its scatter is known apart from its shape

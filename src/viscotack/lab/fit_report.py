@@ -6,12 +6,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Material
 
 from .observed import Observed
-
-Array = npt.NDArray[np.float64]
 
 _UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau0": "s"}
 

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from viscotack.arrays import Array
 from viscotack.cards import cards
 from viscotack.errors import InputError
 from viscotack.materials import (
@@ -22,8 +23,6 @@ from viscotack.materials import (
 from viscotack.materials.interconversion import reciprocal
 
 from .observed import Observed
-
-Array = npt.NDArray[np.float64]
 
 KINDS = {
     "power-law": RetardationPowerLaw,

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 GAP = 1.0  # K between two sweeps; a chamber holds its temperature within a few tenths
 

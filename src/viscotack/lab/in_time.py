@@ -10,8 +10,8 @@ from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.shift import Shift
 
@@ -22,7 +22,6 @@ from .overlap import Curve
 from .shifting import FEWEST, THERMOMETER, shifts_between, thinned
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 
-Array = npt.NDArray[np.float64]
 Test = TypeVar("Test", RelaxationTest, CreepTest)
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 from numpy.polynomial import Chebyshev
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .kramers_kronig import causal_misfit
@@ -18,8 +18,6 @@ from .master_curves import shifted_by
 from .overlap import Curve
 from .shifting import BEST, FEWEST, curve, steps_between, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 _NAMES = ("storage", "loss")
 _APART = 0.1  # decades and more: shifts that contradict each other

@@ -12,12 +12,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import spence
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .nonnegative import nonnegative
 from .sweeps import MasterCurve
-
-Array = npt.NDArray[np.float64]
 
 _PER_DECADE = 5.0  # relaxation times: a single one off the grid costs 3 % of loss
 _TRUST = 0.1  # weight of loss: it decides only what storage leaves open

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 
@@ -12,8 +12,6 @@ from .grouping import GAP
 from .kramers_kronig import causal_misfit
 from .shifting import BEST, shift_factors, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 # what uses most of the data comes first
 _WAYS = (BEST, ("both", "none"), ("storage", "none"))

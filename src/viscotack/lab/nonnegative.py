@@ -4,7 +4,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import lsq_linear, nnls
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 # Iterations for each amplitude. Columns of neighbouring times are nearly parallel, and the active
 # set goes in and out among them: every other sweep of noisy moduli takes more than the 3 that are

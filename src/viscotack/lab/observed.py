@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Material
 
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Source
 
-Array = npt.NDArray[np.float64]
 Data = MasterCurve | FrequencySweeps | RelaxationTest | CreepTest
 
 # Quantity -> the names of its parts, in the order in which they stand.

@@ -22,9 +22,8 @@ import numpy as np
 import numpy.typing as npt
 from numpy.polynomial import chebyshev
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
-
-Array = npt.NDArray[np.float64]
 
 _DEGREES = range(1, 7)
 _FREEDOM = 4.0  # degrees of freedom of Student's t

@@ -4,15 +4,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.shift import WLF, Arrhenius
 
 from .sweeps import ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 _MISSED = 0.1  # decades from a row that a law may miss however sure the row is
 _UNCERTAIN = 0.01  # decades: scatter of a shift beside what its table says

@@ -5,7 +5,6 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.materials import Prony
 
@@ -14,8 +13,6 @@ from .fit_prony import fit_series
 from .fit_report import FitReport, Interval
 from .observed import observed, only
 from .sweeps import MasterCurve, ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 _DRAWS = 12
 _WORTH = 1.05  # of a half-width: less is not worth a sentence

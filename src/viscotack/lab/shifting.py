@@ -5,8 +5,8 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.shift import TabulatedShift
 
@@ -14,8 +14,6 @@ from . import vertical as moving
 from .grouping import GAP
 from .overlap import Curve, Hold, Step, step_between, vertical_at
 from .sweeps import FrequencySweeps, ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 FEWEST = 4  # points of one temperature; fewer carry no shape
 MOST = 200  # more are averaged: a shift takes no longer, and is no less sure

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from .assembly import (
     Given,
@@ -24,8 +25,6 @@ from .doubts import doubtful_modulus
 from .grouping import GAP
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
-
-Array = npt.NDArray[np.float64]
 
 
 def relaxation(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> RelaxationTest:

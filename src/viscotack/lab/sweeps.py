@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from . import arrays
 
-Array = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 Complex = npt.NDArray[np.complex128]
 

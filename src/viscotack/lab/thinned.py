@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from .observed import Observed
+from viscotack.arrays import Array
 
-Array = npt.NDArray[np.float64]
+from .observed import Observed
 
 MOST = 500  # points that are fitted as they are
 _FINEST = 40  # pieces a decade

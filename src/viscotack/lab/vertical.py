@@ -13,13 +13,11 @@ shift this size holds it. Shifts that were found without a vertical shift are no
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .overlap import Curve, Hold, free_vertical
-
-Array = npt.NDArray[np.float64]
 
 WORDS = ("auto", "none", "free")
 _USUAL = 0.02  # decades, 5 %: what a gap, a clamp and rubber elasticity do from sweep to sweep

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.cards import conform
 from viscotack.errors import InputError
@@ -26,8 +25,6 @@ from viscotack.materials.constants import GlassyModulus, PoissonRatio
 from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Material
 from viscotack.materials.scaling import scaled
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

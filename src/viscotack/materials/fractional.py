@@ -24,6 +24,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.cards import conform
 from viscotack.errors import InputError
 from viscotack.materials import checks
@@ -37,8 +38,6 @@ from viscotack.materials.constants import (
 )
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import FINEST, ROUNDING, Modes, compressed
-
-Array = npt.NDArray[np.float64]
 
 _FINE = 0.127  # of the width d: exp(-2 pi/0.127) = 3e-22
 _LAST = 60.0  # a |ln u| beyond which the spectrum weighs less than round-off over any k

@@ -7,9 +7,8 @@ Nothing is fitted; each zero is found to round-off in its own interval.
 """
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 
 def reciprocal(floor: float, weights: Array, poles: Array) -> tuple[Array, Array]:

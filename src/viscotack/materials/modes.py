@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, nonnegative
-
-Array = npt.NDArray[np.float64]
 
 # Of E0 C(t): what its evaluation as a sum of exponentials may lose to rounding, and the smallest
 # tolerance that modes can be held to. Below it they are the closest ones, and state their error.

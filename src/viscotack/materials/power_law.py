@@ -15,6 +15,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.cards import conform
 from viscotack.materials import checks
 from viscotack.materials.checks import like_input, nonnegative
@@ -30,8 +31,6 @@ from viscotack.materials.interconversion import reciprocal
 from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import ROUNDING, Modes, compressed
 from viscotack.materials.spectrum import FINE, coarse_step, crept, nodes, summed, transform
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)

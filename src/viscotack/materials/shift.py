@@ -14,10 +14,9 @@ import numpy.typing as npt
 from scipy.constants import gas_constant
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, positive, store
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import kve, loggamma, rgamma
 
+from viscotack.arrays import Array
 from viscotack.materials.modes import maxwell
-
-Array = npt.NDArray[np.float64]
 
 FINE = 0.2  # exp(-pi^2/0.2) = 4e-22
 _FIRST, _LAST = -37.0, math.log(60)  # ln u where exp(-u) is 1 to round-off, and where it is 0

@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import rgamma
 
+from viscotack.arrays import Array
 from viscotack.cards import conform
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input
@@ -33,8 +34,6 @@ from viscotack.materials.constants import (
     UpperOrder,
 )
 from viscotack.materials.material import Complex, Real
-
-Array = npt.NDArray[np.float64]
 
 NO_PLATEAU = (
     "two springpots have no plateau, neither rubbery nor glassy: their modulus goes on as a power "

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart, Dwell
@@ -38,8 +39,6 @@ from viscotack.traction import grows
 
 from .crack_band import band_of
 from .crack_problem import LOAD, ROOT, drives_of, groups_of, start_of
-
-Array = npt.NDArray[np.float64]
 
 METHOD = "crack contact"
 # Effective Tabor number over the cube root of the amplification below which nothing is answered.

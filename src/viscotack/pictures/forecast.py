@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.forecast.prediction import Prediction
 from viscotack.problem.outputs import REVOLUTION
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from viscotack.surrogate.line import Curves
 
-Array = npt.NDArray[np.float64]
 
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 # Pieces of the line from one point of a curve to the next.

@@ -21,6 +21,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import least_squares
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
@@ -29,8 +30,6 @@ from viscotack.theory import SteadyCrack
 from viscotack.traction import grows
 
 from . import Outcome, Result
-
-Array = npt.NDArray[np.float64]
 
 # Zones that an edge must have gone for its crack to be steady, and how far beyond the force minimum
 # it is read: while the radius is this part of that at the pull-off.

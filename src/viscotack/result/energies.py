@@ -3,9 +3,8 @@
 from dataclasses import dataclass, field, fields
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

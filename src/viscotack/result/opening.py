@@ -11,6 +11,7 @@ import numpy.typing as npt
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.problem import PunchGroups
 from viscotack.protocol import Dwell, LoadTo
@@ -18,7 +19,6 @@ from viscotack.protocol import Dwell, LoadTo
 from . import Event, Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
 
-Array = npt.NDArray[np.float64]
 # Steps of equal length are equal but for round-off.
 _EQUAL = 1 + 1e-9
 # A force that has risen by this part of its minimum and of the unit of force has left it.

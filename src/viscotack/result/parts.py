@@ -10,12 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
 
 from . import Outcome, Result
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

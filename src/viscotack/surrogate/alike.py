@@ -18,13 +18,11 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.materials import spectrum
 
 from . import physics
-
-Array = npt.NDArray[np.float64]
 
 # Where creep is sampled: times over h0/v, two a decade.
 DECADES = np.arange(-3.5, 3.6, 0.5)

@@ -3,11 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from .physics import LEAST_WAY
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

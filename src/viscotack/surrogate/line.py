@@ -17,11 +17,9 @@ of a long way is much of the short way in tension.
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE, gathered
-
-Array = npt.NDArray[np.float64]
 
 # What a network says of a row: inner points of both shapes, and radii but the first over that.
 SHAPE = slice(0, TENSILE - 2)

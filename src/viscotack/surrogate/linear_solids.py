@@ -29,6 +29,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from . import physics, sealed, store
@@ -38,8 +39,6 @@ from .line import Curves
 from .model import Scaled, Surrogate
 from .network import Networks, from_arrays
 from .trust import CONFIDENCES, INPUTS, OF, Trust, error_inputs
-
-Array = npt.NDArray[np.float64]
 
 SHIPPED = Path(__file__).with_name("solids.npz")
 SAMPLES = len(DECADES)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
+
 # Rows at a time: their hidden layers stay in the cache of the processor.
 _ROWS = 500
 

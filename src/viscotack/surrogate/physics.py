@@ -20,12 +20,11 @@ and :math:`\sqrt{1 + \hat F_H}` times a network, for adhesion changes a deep con
 """
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from ..theory import lennard_jones
 from .network import Networks
-
-Array = npt.NDArray[np.float64]
 
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
 TABOR, MODULUS_RATIO, EXPONENT, PRELOAD, RATE = range(5)

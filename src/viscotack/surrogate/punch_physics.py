@@ -30,11 +30,9 @@ which has the thin layer, :math:`\sqrt{2 E \Delta\gamma/b}`, and the half-plane,
 """
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.traction import LennardJones
-
-Array = npt.NDArray[np.float64]
 
 INPUTS = ("size", "thickness", "modulus_ratio", "preload", "rate")
 SIZE, THICKNESS, MODULUS_RATIO, PRELOAD, RATE = range(5)

@@ -28,12 +28,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import gamma, kv
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from . import physics, sealed
 from .network import Networks, from_arrays
-
-Array = npt.NDArray[np.float64]
 
 SHIPPED = Path(__file__).with_name("short_range.npz")
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a

@@ -12,15 +12,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from . import physics
 from .answers import Answers, Intervals
 from .network import Networks
-
-Array = npt.NDArray[np.float64]
 
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
 # What the network says of, and how many inputs it has: the groups, how near they are to ends of

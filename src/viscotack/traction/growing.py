@@ -23,13 +23,12 @@ from typing import Annotated, Any, ClassVar, Self
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError, OutOfRange
 from viscotack.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
 from viscotack.traction.lennard_jones import LennardJones
 from viscotack.units import positive
-
-Array = npt.NDArray[np.float64]
 
 # Part of the reference speed below which a power law grows in proportion to the speed.
 _SLOW = 1e-6

@@ -9,9 +9,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import estimate_by
@@ -34,7 +34,6 @@ from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
 from viscotack.theory.elastic import indenter
 from viscotack.theory.punch import Pad, unloading
 
-Array = npt.NDArray[np.float64]
 # Speeds of the picture of force against speed, and how many decades around the present one.
 _SPEEDS, _DECADES = 41, 4.0
 _POINTS = 80

@@ -9,9 +9,8 @@ wander of a sensor too).
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
+from viscotack.arrays import Array
 
 _BLOCKS = 12  # of each free part
 _OUT = 4.0  # standard deviations of the noise: the force has left its zero

@@ -6,14 +6,10 @@ touches; the pull-off force is a positive number. Uncertainties are standard one
 
 from dataclasses import dataclass
 
-import numpy as np
-import numpy.typing as npt
-
+from viscotack.arrays import Array
 from viscotack.lab.sweeps import Source
 
 from .segments import Segments
-
-Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,14 @@ pull-off. Each refusal says which of them fails, with numbers.
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .baseline import Baseline, baseline, free_after, free_before
 from .cycle import Cycle, Measured
 from .record import TackRecord
 from .segments import Segments, depth_of, force_sign, segments
-
-Array = npt.NDArray[np.float64]
 
 _POINTS = 20  # of a retraction
 _FREE = 8  # points out of contact at its end

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.numbers import decimal_mark, number, plain_numbers
@@ -14,8 +14,6 @@ from viscotack.lab.sweeps import Source
 
 from .headings import POSITIONS, SIZES, factor, measures, recognise
 from .record import TackRecord
-
-Array = npt.NDArray[np.float64]
 
 _INTO = {"gap": -1, "depth": 1, "travel": 0}
 _FLAGS = {"force": "--force-unit", "time": "--time-unit"}

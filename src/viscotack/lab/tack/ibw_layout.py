@@ -8,15 +8,13 @@ import re
 import struct
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.sweeps import Source
 
 from .record import TackRecord
-
-Array = npt.NDArray[np.float64]
 
 START = b"\x05\x00"  # version 5, written by a processor of the usual order of bytes
 _HEAD = struct.Struct("<hHiiii4i4iiii")

@@ -10,15 +10,14 @@ import re
 import zipfile
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LARGEST, LabFile
 from viscotack.lab.sweeps import Source
 
 from .record import TackRecord
 
-Array = npt.NDArray[np.float64]
 Words = dict[str, str]
 
 _TYPES = {

@@ -8,15 +8,14 @@ planned.
 import re
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.sweeps import Source
 
 from .record import TackRecord
 
-Array = npt.NDArray[np.float64]
 Section = dict[str, str]
 
 _END = b"#!"

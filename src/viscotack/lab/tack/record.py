@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.arrays import array, store
 from viscotack.lab.sweeps import Source
-
-Array = npt.NDArray[np.float64]
 
 # beyond what any rig has: a damaged number, or a wrong unit
 _LARGEST = {"time": ("s", 1e10), "force": ("N", 1e8), "position": ("m", 1e4)}

@@ -12,13 +12,11 @@ are refused where the signal leaves them open.
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .record import TackRecord
-
-Array = npt.NDArray[np.float64]
 
 _TURN = 0.1  # of the range of depths
 _NEAR = 0.01  # of the way of a retraction: certainly begun

@@ -12,8 +12,8 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.datasets.drawing_solids import NAMES, rows
 from viscotack.files.whole import write_whole
@@ -22,8 +22,6 @@ from .. import linear_solids, store
 from ..alike import TIMES
 from ..physics import RATE
 from .likeness import Tests, first
-
-Array = npt.NDArray[np.float64]
 
 # Step of log10 of the rate over which it rises; likenesses count up to some times the usual one,
 # half widths of log10 of the force up to this one.

@@ -7,16 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import minimize
 from threadpoolctl import threadpool_limits
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .. import physics
 from ..network import Networks
 
-Array = npt.NDArray[np.float64]
 # How many steps the curvature is remembered for.
 _MEMORY = 40
 # Rounding of a corner in the penalty of a quantile, in units of the scale.

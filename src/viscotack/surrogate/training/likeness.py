@@ -13,8 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.materials import spectrum
 
@@ -35,7 +35,6 @@ from ..linear_solids import WIDEST, begin_inputs, bell
 from ..model import Scaled
 from .fitting import Fit, Task, fit
 
-Array = npt.NDArray[np.float64]
 Tests = tuple[Array, Array, Array]
 
 # The bell that is the same for all, and what each sample counts at least.

@@ -8,13 +8,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from viscotack.arrays import Array
 from viscotack.problem.outputs import REVOLUTION, Kind
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
 
 from ... import datasets
 from .. import line, physics
-
-Array = npt.NDArray[np.float64]
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"

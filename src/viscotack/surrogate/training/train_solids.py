@@ -22,6 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack import datasets
+from viscotack.arrays import Array
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
 from viscotack.version import __version__
@@ -38,7 +39,6 @@ from .fitting import Fit, Task, fit
 from .recipe import untested
 from .rows import Rows, of_table
 
-Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 LEARNED = ("solids", "rough")

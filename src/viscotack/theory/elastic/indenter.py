@@ -18,9 +18,9 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.theory._checks import Number, plain, positive
 
-Array = npt.NDArray[np.float64]
 # Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
 _ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS

@@ -17,13 +17,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import make_interp_spline
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
-
-Array = npt.NDArray[np.float64]
 
 # kappa differs from 1 - exp(-2u) by u^2 exp(-2u): nothing is left at this u.
 _CUT = 22.0

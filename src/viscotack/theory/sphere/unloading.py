@@ -30,17 +30,15 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.integrate import LSODA
 from scipy.interpolate import CubicSpline
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.theory._checks import positive
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
-
-Array = npt.NDArray[np.float64]
 
 # Parts of the way of Gamma from 1 to 1/k between which the law is tabulated; beyond it is straight.
 _LOW, _HIGH = 1e-10, 1 - 1e-4

@@ -7,13 +7,11 @@ from math import log
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.theory.crack.steady import SteadyCrack
 
 from ._even import Even
-
-Array = npt.NDArray[np.float64]
 
 # ln of the odds of Gamma at both ends of the table, and its rows.
 _ODDS, _ROWS = (-14.0, 12.0), 8000

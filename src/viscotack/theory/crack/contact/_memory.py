@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.materials import Modes
 from viscotack.materials.interconversion import reciprocal
-
-Array = npt.NDArray[np.float64]
 
 
 class Chain(NamedTuple):

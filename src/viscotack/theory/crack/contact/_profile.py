@@ -14,13 +14,10 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from scipy.special import gammaln
 
 from viscotack.theory.elastic import indenter
-
-Array = npt.NDArray[np.float64]
 
 # Radii between which a shape of the user's is tabulated [beta], and rows a decade.
 _RADII, _ROWS = (1e-6, 1e4), 60

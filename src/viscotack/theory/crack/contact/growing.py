@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import NdBSpline, make_interp_spline
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack
@@ -28,8 +29,6 @@ from viscotack.traction.growing import power_growth
 from viscotack.traction.growing import reference_speed as speed_of_growth
 
 from ._edge import Edge
-
-Array = npt.NDArray[np.float64]
 
 # Rows of a table over ln V; an energy beyond the last crack goes on with this slope at least, found
 # over so much of ln V.

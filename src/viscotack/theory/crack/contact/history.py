@@ -45,14 +45,13 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import OutOfRange
 from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge
 from ._memory import Chain, chain_of
 from ._profile import Profile
-
-Array = npt.NDArray[np.float64]
 
 # Annuli, the part of them below the tenth of the largest radius, and how far beyond the start.
 _ANNULI, _SMALLEST = 360, 0.01

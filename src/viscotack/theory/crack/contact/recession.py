@@ -16,8 +16,8 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.theory.crack.steady import SteadyCrack
 
 from ._edge import Edge
@@ -25,8 +25,6 @@ from ._even import Even
 from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
 from .growing import GrowingEdges, NeighbourEdges
-
-Array = npt.NDArray[np.float64]
 
 # Radii of a curve, and the smallest: over the start's, and over the elastic pull-off's.
 _RADII, _SMALLEST = 160, 0.25

@@ -18,11 +18,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.materials import Modes
 
 from .cracks import SteadyCrack, modes_of
-
-Array = npt.NDArray[np.float64]
 
 # ln of the odds (Gamma - 1)/(1/k - Gamma) between which both are compared, and how many.
 _ODDS = np.linspace(-14.0, 12.0, 400)
