@@ -100,4 +100,6 @@ class Trust:
             np.column_stack([v / 10**half, v * 10**half])
             for v, half in zip(values, halves, strict=True)
         )
-        return Intervals(force, work, curve, np.column_stack([10**-travel, 10**travel]))
+        with np.errstate(over="ignore"):  # what is hardly known has no end that a number holds
+            travels = np.column_stack([10**-travel, 10**travel])
+        return Intervals(force, work, curve, travels)

@@ -72,7 +72,7 @@ class Refinement:
 _ONE, _TWO = (
     Stage(Fit(hidden, steps=100, scale=1e-2, penalty=1e-6), 0.1) for hidden in ((8,), (8, 8))
 )
-QUICK_REFINEMENT = Refinement(start=_ONE, fast=(_ONE,), force=_TWO, work=_ONE, give=_ONE, members=2)
+QUICK_REFINEMENT = Refinement(start=_ONE, fast=(_ONE,), force=_TWO, work=_TWO, give=_TWO, members=2)
 
 
 def refine(rough: Surrogate, rows: Rows, fast: Rows, how: Refinement, shop: Shop) -> Surrogate:
