@@ -9,7 +9,7 @@ import pytest
 import viscotack as vt
 from viscotack.campaign.case import curve
 from viscotack.forecast import closed_forms
-from viscotack.forecast import table as forecast_table
+from viscotack.forecast import prediction_table as forecast_table
 from viscotack.surrogate import physics, store
 from viscotack.theory import lennard_jones
 
