@@ -20,7 +20,7 @@ from drawn_tests import drawn
 from in_time import spread_in_time
 from random_problems import words as test_words
 
-from viscotack import AtDepth, Groups, pull_off_depth, pull_off_force, solve, work_to_pull_off
+from viscotack import AtDepth, Groups, depth_at_pull_off, pull_off_force, solve, work_to_pull_off
 from viscotack.bem import SimulationError
 from viscotack.bem.twins.plain_sphere import plain_solve
 from viscotack.errors import InputError
@@ -58,7 +58,7 @@ def twin(groups: Groups) -> str:
         nodes=TWIN_SIZE,
         outer_radius=float(np.sqrt(2 * (60 + groups.start.depth) / groups.tabor)),
         steps=TWIN_SIZE,
-        last_depth=2 * pull_off_depth(best) - groups.start.depth - 0.5,
+        last_depth=2 * depth_at_pull_off(best) - groups.start.depth - 0.5,
     )
     force, converged = pull_off_force(plain), pull_off_force(best)
     return (
@@ -71,7 +71,7 @@ def twin(groups: Groups) -> str:
 STATED = {
     "force": (pull_off_force, True),
     "work": (work_to_pull_off, True),
-    "depth": (pull_off_depth, False),
+    "depth": (depth_at_pull_off, False),
 }
 FINER = 10.0
 

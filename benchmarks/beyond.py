@@ -48,7 +48,7 @@ def main() -> None:
             except OutOfRange as refusal:
                 print(refusal)
                 continue
-            errors.append([_off(pull_off_force(result), said.value, said.interval)])
+            errors.append([_off(pull_off_force(result), said.pull_off_force, said.interval)])
             if said.work_to_pull_off is not None and said.work_interval is not None:
                 work = said.work_to_pull_off, said.work_interval
                 errors[-1].append(_off(work_to_pull_off(result), *work))

@@ -171,7 +171,7 @@ def errors(answer, result, found):
         "simulated": found.force,
         "error": answer.pull_off_force / found.force - 1,
         "band": answer.band,
-        "time_error": (answer.pull_off_time - skipped) / found.time - 1,
+        "time_error": (answer.time_at_pull_off - skipped) / found.time - 1,
         "work_error": answer.work_to_pull_off / vt.work_to_pull_off(result) - 1,
     }
     if answer.hysteresis is not None:
@@ -188,8 +188,8 @@ def learned_errors(case, simulated):
         said = predict(case, budget=AT_ONCE)
     except vt.OutOfRange:
         return {}
-    band = said.interval[1] / said.value - 1
-    return {"learned_error": said.value / simulated - 1, "learned_band": band}
+    band = said.interval[1] / said.pull_off_force - 1
+    return {"learned_error": said.pull_off_force / simulated - 1, "learned_band": band}
 
 
 def summary(rows):

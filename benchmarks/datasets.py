@@ -78,7 +78,7 @@ def along(row: dict[str, Any], best: Result) -> tuple[float | None, float]:
     depth, exact, _ = retraction(best)
     # A place beyond the finer run's own pull-off is compared with its last step.
     wanted = np.clip(
-        row["pull_off_depth"] + np.array(row["trajectory_travel_left"]), *depth[[-1, 0]]
+        row["depth_at_pull_off"] + np.array(row["trajectory_travel_left"]), *depth[[-1, 0]]
     )
     off = np.abs(force - PchipInterpolator(-depth, exact)(-wanted))
     pressed = force > 1e-6 * np.abs(force).max()

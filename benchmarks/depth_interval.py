@@ -21,7 +21,7 @@ SETS = {"unseen": "sphere", "fresh": "sphere", "punch_faces": "punch"}
 def measure(name: str, kind: str, count: int, seed: int) -> str:
     """Return how often the intervals hold, and how wide they are beside the errors."""
     stored = load(name)
-    table = {column: stored[column].to_numpy() for column in (*_columns(kind), "pull_off_depth")}
+    table = {column: stored[column].to_numpy() for column in (*_columns(kind), "depth_at_pull_off")}
     rows = np.random.default_rng(seed).permutation(len(table["rate"]))[:count]
     held, ratio = [], []
     for row in rows:
@@ -32,7 +32,7 @@ def measure(name: str, kind: str, count: int, seed: int) -> str:
             continue
         if found.depth_interval is None or found.curve is None:
             continue
-        (low, high), true = found.depth_interval, table["pull_off_depth"][row]
+        (low, high), true = found.depth_interval, table["depth_at_pull_off"][row]
         held.append(low <= true <= high)
         ratio.append((high - low) / 2 / max(abs(found.curve.depth[-1] - true), 1e-12))
     return (

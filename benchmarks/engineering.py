@@ -104,7 +104,7 @@ def main() -> None:
             silent += 1
             continue
         assert by_theory.pull_off_force is not None
-        off.append(abs(said.value / by_theory.pull_off_force - 1))
+        off.append(abs(said.pull_off_force / by_theory.pull_off_force - 1))
         held.append(said.interval[0] <= by_theory.pull_off_force <= said.interval[1])
     if off:
         print(

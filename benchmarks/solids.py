@@ -109,11 +109,11 @@ def main() -> None:
             result = solve(groups, until="pull-off", accuracy=2e-3, throw=False)
             assert said.work_to_pull_off is not None and said.work_interval is not None
             pairs = (
-                (pull_off_force(result), said.value, said.interval),
+                (pull_off_force(result), said.pull_off_force, said.interval),
                 (work_to_pull_off(result), said.work_to_pull_off, said.work_interval),
             )
             ratios.append([abs(np.log(t / v)) / np.log(ends[1] / v) for t, v, ends in pairs])
-            errors.append(abs(said.value / pairs[0][0] - 1))
+            errors.append(abs(said.pull_off_force / pairs[0][0] - 1))
         if not ratios:
             print(f"| {name} | 0 of {len(some)} | | | |", flush=True)
             continue

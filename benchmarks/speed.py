@@ -13,7 +13,7 @@ import numpy as np
 from cases import case
 from threadpoolctl import threadpool_limits
 
-from viscotack import Groups, pull_off_depth, pull_off_force, solve
+from viscotack import Groups, depth_at_pull_off, pull_off_force, solve
 from viscotack.bem.twins.plain_sphere import plain_solve
 
 # Nodes and steps of the twin: as few as reach 5e-4 or what a thousand nodes can do. The first two
@@ -76,7 +76,7 @@ def main() -> None:
     with threadpool_limits(limits=1, user_api="blas"):
         for groups, nodes, steps in CASES:
             converged = solve(groups, accuracy=CONVERGED, until="pull-off", estimate_error=False)
-            best, place = pull_off_force(converged), pull_off_depth(converged)
+            best, place = pull_off_force(converged), depth_at_pull_off(converged)
             force, seconds = twin(groups, nodes, steps, place)
             error = abs(force / best - 1)
             accuracy, mine, mine_seconds = quickest(groups, best, error)
@@ -96,7 +96,7 @@ def main() -> None:
         )
         groups = CASES[2][0]
         result, seconds = timed(lambda: solve(groups, until="pull-off"), repeat=3)
-        _, plain = twin(groups, *PUBLISHED, pull_off_depth(result))
+        _, plain = twin(groups, *PUBLISHED, depth_at_pull_off(result))
         print(
             f"at the published size of {PUBLISHED[0]} nodes and {PUBLISHED[1]} steps, against the "
             f"default with its error estimate: {plain / seconds:.0f} times faster"

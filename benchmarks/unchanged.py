@@ -65,6 +65,7 @@ MEASURED = (
     "ligament_",
     "crack_speed_",
     "effective_surface_energy",
+    "depth_at_pull_off",
 )
 WORDS = ("outcome", "events")
 SHARE, INPUTS = 0.1, 1e-12
@@ -168,8 +169,13 @@ def write(path: Path, found: Mapping[str, Answer]) -> None:
 
 
 def read(path: Path) -> tuple[dict[str, str], dict[str, Answer]]:
-    """Return the platform of a record and its answers."""
-    record = json.loads(path.read_text(encoding="utf-8"))
+    """Return the platform of a record and its answers, by the names that numbers have now."""
+    from viscotack.problem.older import OUTPUTS, upgraded_output  # an old commit may lack it
+
+    text = path.read_text(encoding="utf-8")
+    for name in OUTPUTS:
+        text = text.replace(f'"{name}"', f'"{upgraded_output(name)}"')
+    record = json.loads(text)
     for found in record["answers"].values():
         kind, *values = found["values"]
         found["values"] = dict(zip(record["kinds"][kind], values, strict=True))

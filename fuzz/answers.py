@@ -183,7 +183,7 @@ def _allowed(name: str, value: float, found: Any, error: float) -> tuple[float, 
         valley = _valley(found, error)
         wide = float(np.ptp(found.depth[valley]) * np.max(np.abs(found.force[valley]))) * unit
         return _WORK * max(abs(value), gross * unit if key == "hysteresis" else 0.0), wide
-    if key in ("begin", "end", "time_to_detachment", "pull_off_time"):
+    if key in ("begin", "end", "time_to_detachment", "time_at_pull_off"):
         # a creeping edge lets go at a time that depends on the force by a high power
         valley = _valley(found, error)
         return 20 * abs(value), float(np.ptp(found.time[valley]))

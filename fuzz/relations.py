@@ -351,7 +351,7 @@ def in_time(case: Case, factor: float) -> Case:
 
 def timed(answer: Answer, factor: float) -> Answer:
     """Return an answer with its times multiplied."""
-    kinds = {"begin": 1, "end": 1, "time_to_detachment": 1, "pull_off_time": 1}
+    kinds = {"begin": 1, "end": 1, "time_to_detachment": 1, "time_at_pull_off": 1}
     power = {n: kinds.get(n.split()[-1], -1 if "speed" in n else 0) for n in answer.numbers}
 
     def moved(values: Any) -> Any:
@@ -477,7 +477,7 @@ def without_first(answer: Answer, duration: float) -> Answer:
     series["move"] = np.maximum(series["move"] - 1, 0)
     shifted = {
         n: v - duration
-        if v is not None and n.split()[-1] in ("begin", "end", "pull_off_time")
+        if v is not None and n.split()[-1] in ("begin", "end", "time_at_pull_off")
         else v
         for n, v in answer.numbers.items()
     }
@@ -500,7 +500,7 @@ def long_dwell(case: Case, luck: Luck) -> Found:
         moves=(Approach(luck.decades(1e-2, 10) * (1 + depth), AtDepth(depth)), Dwell(200.0)),
     )
     one, other = by_simulation(case), by_simulation(pressed)
-    names = ("pull_off_force", "pull_off_stress", "pull_off_depth", "contact_radius_at_pull_off")
+    names = ("pull_off_force", "pull_off_stress", "depth_at_pull_off", "contact_radius_at_pull_off")
     names += ("ligament_at_pull_off", "work_to_pull_off", "work_of_separation")
     return differences(_only(one, names), _only(other, names))
 
@@ -690,7 +690,7 @@ def deep_start(case: Groups, luck: Luck) -> Found:
     )
     one = by_simulation(case, until="pull-off", estimate=True)
     other = by_simulation(case, until="pull-off", whole=True)
-    names = ("pull_off_force", "pull_off_depth", "work_to_pull_off")
+    names = ("pull_off_force", "depth_at_pull_off", "work_to_pull_off")
     return differences(_only(one, names), _only(other, names))
 
 

@@ -407,7 +407,7 @@ def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, cap
         "pull_off_force": -end.force / load,
         "contact_radius_at_pull_off": end.contact_radius / length,
         "cohesive_radius_at_pull_off": end.cohesive_radius / length,
-        "pull_off_depth": end.depth / h0,
+        "depth_at_pull_off": end.depth / h0,
         "work_to_pull_off": maugis.work_to_pull_off(**case) / (load * h0),
     }
     assert found == pytest.approx(expected, rel=1e-9, abs=0)

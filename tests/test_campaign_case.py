@@ -222,7 +222,7 @@ def test_the_curve_of_a_history_is_that_of_its_last_opening(deeper_first):
     )
     row = measure(groups, QUICK)
     assert row["trajectory_depth"][0] == pytest.approx(depths[1])
-    assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["pull_off_depth"])
+    assert row["travel_to_pull_off"] == pytest.approx(depths[1] - row["depth_at_pull_off"])
     assert np.all(np.diff(row["trajectory_depth"]) < 0)
 
 

@@ -125,7 +125,7 @@ def test_shapes_pass_in_simulations_and_campaigns(shape):
     [
         LARGEST,
         vt.Observable("force_of_it", "pull-off force", "force", vt.pull_off_force),
-        vt.Observable("depth_of_it", "depth at pull-off", "depth", vt.pull_off_depth),
+        vt.Observable("depth_of_it", "depth at pull-off", "depth", vt.depth_at_pull_off),
         vt.Observable("work_of_it", "work to pull-off", "work", vt.work_to_pull_off),
         vt.Observable(
             "radius_of_it", "radius at pull-off", "radius", observables.contact_radius_at_pull_off
@@ -239,7 +239,7 @@ FACTORS: dict[str, dict[str, Any]] = {
     },
     "observable": {
         "force": vt.pull_off_force,
-        "depth": vt.pull_off_depth,
+        "depth": vt.depth_at_pull_off,
         "work": vt.work_to_pull_off,
         "radius": observables.contact_radius_at_pull_off,
         "own": LARGEST.function,

@@ -270,7 +270,7 @@ def test_json_is_one_object_and_nothing_else(fake, capsys, tmp_path):
     out, err = capsys.readouterr()
     answer = json.loads(out)
     promised = (
-        "pull_off_force work_to_pull_off pull_off_depth contact_radius_at_pull_off "
+        "pull_off_force work_to_pull_off depth_at_pull_off contact_radius_at_pull_off "
         "crack_speed_at_pull_off status error_estimate energy_residual wall_time_s"
     )
     assert set(promised.split()) <= answer.keys()

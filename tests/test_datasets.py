@@ -133,7 +133,7 @@ def test_what_a_set_says_is_consistent(named):
     assert line[:, -1] == pytest.approx(peak if punch else -peak, rel=1e-6)
     # depth at the pull-off is the start less the travel; both keep seven digits
     start, travel = numbers(table, "preload"), numbers(table, "travel_to_pull_off")
-    off = np.abs(start - travel - numbers(table, "pull_off_depth"))
+    off = np.abs(start - travel - numbers(table, "depth_at_pull_off"))
     assert np.all(off <= 1e-6 * (np.abs(start) + travel))
     assert np.all(numbers(table, "energy_residual") < 1e-2)
 

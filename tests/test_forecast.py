@@ -73,7 +73,7 @@ def test_prediction_and_simulation_agree(changed):
     result = vt.solve(groups, until="pull-off")
     force = vt.pull_off_force(result)
     # several times the error of the surrogate, and far below what a wrong unit would make
-    assert answer.value == pytest.approx(force, rel=0.01, abs=0)
+    assert answer.pull_off_force == pytest.approx(force, rel=0.01, abs=0)
     assert answer.work_to_pull_off == pytest.approx(vt.work_to_pull_off(result), rel=0.03, abs=0)
     row = curve(result, vt.pull_off(result))
     off = np.abs(np.array(row["trajectory_force"]) - answer.curve.force)
@@ -86,7 +86,7 @@ def test_slow_retraction_tends_to_the_elastic_force():
     least, _ = store.shipped().limits["rate"]
     answer = vt.predict(sphere(rate=least, modulus_ratio=0.5, exponent=1.6, tabor=1.0))
     elastic = float(lennard_jones.pull_off_ratio(1.0))
-    assert answer.value == pytest.approx(elastic, rel=0.02, abs=0)
+    assert answer.pull_off_force == pytest.approx(elastic, rel=0.02, abs=0)
 
 
 def test_the_curve_begins_at_the_start_and_ends_at_the_pull_off():
@@ -94,8 +94,8 @@ def test_the_curve_begins_at_the_start_and_ends_at_the_pull_off():
     found = answer.curve
     assert found.depth.shape == found.force.shape == found.contact_radius.shape == (24,)
     assert found.depth[0] == pytest.approx(CASE["preload"], rel=1e-9, abs=0)
-    assert found.force[-1] == pytest.approx(-answer.value, rel=1e-9, abs=0)
-    assert found.force.min() == pytest.approx(-answer.value, rel=1e-9, abs=0)
+    assert found.force[-1] == pytest.approx(-answer.pull_off_force, rel=1e-9, abs=0)
+    assert found.force.min() == pytest.approx(-answer.pull_off_force, rel=1e-9, abs=0)
     assert np.all(np.diff(found.depth) < 0)
 
 
@@ -116,9 +116,9 @@ def test_the_area_in_tension_is_the_work_by_the_rule_that_the_page_names():
 def test_intervals_hold_the_value_and_grow_with_the_confidence():
     few, many = (vt.predict(sphere(), confidence=c) for c in (0.5, 0.95))
     for answer in (few, many):
-        assert answer.interval[0] < answer.value < answer.interval[1]
+        assert answer.interval[0] < answer.pull_off_force < answer.interval[1]
         assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
-    assert few.value == many.value and few.confidence == 0.5
+    assert few.pull_off_force == many.pull_off_force and few.confidence == 0.5
     assert many.interval[0] < few.interval[0] and few.interval[1] < many.interval[1]
     assert (
         many.work_interval[1] - many.work_interval[0] > few.work_interval[1] - few.work_interval[0]
@@ -133,29 +133,33 @@ def test_a_problem_in_si_and_its_groups_have_one_answer():
     problem = in_si(groups)
     a, b = vt.predict(groups), vt.predict(problem)
     assert a.inside and b.inside and a.method == "surrogate"
-    assert b.value == pytest.approx(a.value, rel=1e-9, abs=0)
+    assert b.pull_off_force == pytest.approx(a.pull_off_force, rel=1e-9, abs=0)
     said, scales = vt.prediction_summary(b), problem.scales()
-    assert said["pull_off_force_N"] == pytest.approx(a.value * scales.force, rel=1e-9, abs=0)
+    assert said["pull_off_force_N"] == pytest.approx(
+        a.pull_off_force * scales.force, rel=1e-9, abs=0
+    )
     assert said["interval_N"] == pytest.approx(
         [x * scales.force for x in a.interval], rel=1e-9, abs=0
     )
     work = a.work_to_pull_off * scales.work
     assert said["work_to_pull_off_J"] == pytest.approx(work, rel=1e-9, abs=0)
     depth = a.curve.depth[-1] * scales.length
-    assert said["pull_off_depth_m"] == pytest.approx(depth, rel=1e-9, abs=0)
+    assert said["depth_at_pull_off_m"] == pytest.approx(depth, rel=1e-9, abs=0)
 
 
 def test_the_time_unit_of_the_groups_changes_nothing():
     groups = sphere()
     slower = replace(groups, material=replace(groups.material, tau0=50.0), rate=CASE["rate"] / 50)
-    assert vt.predict(slower).value == pytest.approx(vt.predict(groups).value, rel=1e-9, abs=0)
+    assert vt.predict(slower).pull_off_force == pytest.approx(
+        vt.predict(groups).pull_off_force, rel=1e-9, abs=0
+    )
 
 
 @pytest.mark.parametrize("start", [vt.AtForce(5.0), vt.AtRadius(2.0)])
 def test_a_start_by_force_or_radius_is_one_by_depth(start):
     depth = store.shipped().start_depth(CASE["tabor"], **vars(start))
     a, b = vt.predict(sphere(start=start)), vt.predict(sphere(preload=depth))
-    assert a.inside and a.value == b.value
+    assert a.inside and a.pull_off_force == b.pull_off_force
     # the doubt of the depth is in it too
     low, high = b.work_interval
     assert 0.98 * low < a.work_interval[0] <= low * (1 + 1e-12)
@@ -202,14 +206,14 @@ def test_outside_the_range_it_is_no_longer_the_surrogate_that_answers(name, end)
         if (name, end) in {("tabor", 0), ("rate", 1), ("modulus_ratio", 0)}:
             at_end = vt.predict(sphere(**{name: bound}))
             assert answer.method == "surrogate" and not answer.inside and answer.curve is None
-            assert answer.value == pytest.approx(at_end.value, rel=0.01, abs=0)
+            assert answer.pull_off_force == pytest.approx(at_end.pull_off_force, rel=0.01, abs=0)
             return
         if (name, end) == ("tabor", 1):
             assert answer.method == "learned crack contact" and answer.inside
             assert answer.why.startswith(f"{name} is {case[name]:.4g}")
             return
         why, best = answer.why, best_theory(sphere(**case))
-        assert (answer.method, answer.value) == (best.tier, best.pull_off_force)
+        assert (answer.method, answer.pull_off_force) == (best.tier, best.pull_off_force)
         assert not answer.inside and answer.curve is None and answer.work_to_pull_off is None
         band = (best.pull_off_force * (1 - best.error), best.pull_off_force * (1 + best.error))
         assert best.tier in why and (answer.band, answer.confidence) == ("measured", 0.9)
@@ -230,11 +234,11 @@ def test_below_the_least_tabor_number_the_start_is_not_forgotten():
 def test_beyond_the_largest_rate_it_lies_between_the_last_one_and_the_fast_limit():
     for exponent in (0.16, 1.5):
         ends = [
-            vt.predict(sphere(rate=1e10, exponent=n, modulus_ratio=1e-3)).value
+            vt.predict(sphere(rate=1e10, exponent=n, modulus_ratio=1e-3)).pull_off_force
             for n in (exponent, 2.0)
         ]
         answer = vt.predict(sphere(rate=1e13, exponent=exponent, modulus_ratio=1e-3))
-        assert min(ends) <= answer.value <= max(ends)
+        assert min(ends) <= answer.pull_off_force <= max(ends)
         assert answer.interval[0] < min(ends) and answer.interval[1] > max(ends)
         assert answer.work_interval[0] < answer.work_to_pull_off < answer.work_interval[1]
 
@@ -243,7 +247,7 @@ def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt()
     for rate, exponent in ((10.0, 0.3), (1e4, 0.8), (1e9, 2.0)):
         case = dict(rate=rate, exponent=exponent, preload=300.0)
         said = [vt.predict(sphere(modulus_ratio=k, **case)) for k in (1e-4, 9.99e-5, 1e-5, 1e-6)]
-        force = [each.value for each in said]
+        force = [each.pull_off_force for each in said]
         assert said[0].inside and not said[1].inside and said[1].band == "measured"
         assert force[1] == pytest.approx(force[0], rel=1e-3)
         assert force[0] <= force[1] <= force[2] <= force[3] <= 100 * force[0]
@@ -259,7 +263,7 @@ def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt()
 
 def test_the_curve_has_a_band():
     answer = vt.predict(sphere())
-    assert 0 < answer.curve_band < answer.value
+    assert 0 < answer.curve_band < answer.pull_off_force
     wider = vt.predict(sphere(), confidence=0.98)
     assert wider.curve_band > answer.curve_band
     assert vt.predict(sphere(rate=1e12)).curve_band is None
@@ -283,7 +287,7 @@ def test_the_depth_at_pull_off_has_an_interval():
     low, high = answer.depth_interval
     assert low < answer.curve.depth[-1] < high
     # at least what the error of the work moves the end of the tensile part by
-    assert high - low > np.ptp(answer.work_interval) / answer.value
+    assert high - low > np.ptp(answer.work_interval) / answer.pull_off_force
     assert wider.depth_interval[0] < low and high < wider.depth_interval[1]
     assert vt.predict(sphere(rate=1e12)).depth_interval is None
     times = vt.predict(sphere(), shift_deviation=0.5)
@@ -296,7 +300,7 @@ def test_the_depth_of_a_predicted_punch_holds_the_simulated_one():
         size=64.85, thickness=3.24, cohesion=0.05, material=solid, start=vt.AtDepth(1.0), rate=10.0
     )
     low, high = vt.predict(pad).depth_interval
-    depth = vt.pull_off_depth(vt.solve(pad, until="pull-off", estimate_error=False))
+    depth = vt.depth_at_pull_off(vt.solve(pad, until="pull-off", estimate_error=False))
     assert low < depth < high
     assert high - low < 0.06  # of a travel in tension of 1.1
 
@@ -445,7 +449,7 @@ def test_rows_of_a_table_are_those_of_single_predictions_in_their_order():
         assert table["method"][i] == one.method
         assert table["why"][i] == ("" if one.inside else one.why)
         found = [table[f"pull_off_force{end}"][i] for end in ("", "_low", "_high")]
-        assert found == pytest.approx([one.value, *one.interval], rel=1e-9, abs=0)
+        assert found == pytest.approx([one.pull_off_force, *one.interval], rel=1e-9, abs=0)
         work = [table[f"work_to_pull_off{end}"][i] for end in ("", "_low", "_high")]
         expected = [one.work_to_pull_off, *one.work_interval]
         assert work == pytest.approx(expected, rel=1e-9, abs=0)
@@ -459,7 +463,7 @@ def test_a_table_may_start_by_force():
     for i, force in enumerate((5.0, 20.0, 5.0)):
         one = vt.predict(sphere(start=vt.AtForce(force)))
         found = table["pull_off_force"][i], table["work_to_pull_off"][i]
-        assert found == pytest.approx((one.value, one.work_to_pull_off), rel=1e-9, abs=0)
+        assert found == pytest.approx((one.pull_off_force, one.work_to_pull_off), rel=1e-9, abs=0)
     assert table["method"].tolist() == ["surrogate"] * 3 + [""]
     assert "no relaxed one exists" in table["why"][3]
 
@@ -488,7 +492,7 @@ def test_equal_rows_outside_are_answered_once_and_reported(monkeypatch):
         one = vt.predict(sphere(rate=rates[i]))
         assert (table["method"][i], table["why"][i]) == (one.method, one.why)
         ends = table["pull_off_force_low"][i], table["pull_off_force_high"][i]
-        assert (table["pull_off_force"][i], ends) == (one.value, one.interval)
+        assert (table["pull_off_force"][i], ends) == (one.pull_off_force, one.interval)
 
 
 @pytest.mark.parametrize(

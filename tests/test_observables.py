@@ -23,8 +23,8 @@ from viscotack.result import Event, Result
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
     crack_speed_at_pull_off,
+    depth_at_pull_off,
     pull_off,
-    pull_off_depth,
     pull_off_force,
     summary,
     work_lost,
@@ -35,7 +35,7 @@ from viscotack.result.observables import (
 # Observable, its exact value for a JKR retraction, and its order in the steps.
 EXACT = [
     (pull_off_force, 1.0, 4),
-    (pull_off_depth, PULL_OFF_DEPTH, 3),
+    (depth_at_pull_off, PULL_OFF_DEPTH, 3),
     (contact_radius_at_pull_off, PULL_OFF_RADIUS, 2),
     (crack_speed_at_pull_off, jkr_crack_speed(PULL_OFF_RADIUS), 2),
     (work_to_pull_off, WORK_TO_PULL_OFF, 3),
@@ -171,7 +171,7 @@ def test_a_minimum_at_a_jump_is_not_drawn_past_it():
     force = np.array([1.0, -1.0, -3.0, -5.0, -0.5, -0.3])
     result = plain(-x, force, status="jumped at depth -3")
     assert pull_off_force(result) == pytest.approx(5, rel=1e-12)
-    assert pull_off_depth(result) == -3
+    assert depth_at_pull_off(result) == -3
     assert work_to_pull_off(result) == pytest.approx(0.5 * 2.5 * 5, rel=1e-12)
 
 
@@ -190,7 +190,7 @@ def test_a_far_step_does_not_bend_the_minimum():
         order = np.argsort(sign * x)
         result = plain(-sign * x[order], force[order])
         assert pull_off_force(result) == pytest.approx(1, rel=1e-9)
-        assert pull_off_depth(result) == pytest.approx(0, abs=1e-9)
+        assert depth_at_pull_off(result) == pytest.approx(0, abs=1e-9)
 
 
 def test_a_force_that_breaks_off_is_no_deeper_than_its_steps():
@@ -281,7 +281,7 @@ def test_work_lost_is_what_the_drive_does_while_a_sloping_error_moves_the_minimu
     travel = -jkr_result(steps=400).depth
     tilted = jkr_result(steps=400)
     tilted = jkr_result(steps=400, force=tilted.force - error * (travel + PULL_OFF_DEPTH))
-    assert abs(pull_off_depth(tilted) - PULL_OFF_DEPTH) == pytest.approx(found, rel=0.05)
+    assert abs(depth_at_pull_off(tilted) - PULL_OFF_DEPTH) == pytest.approx(found, rel=0.05)
 
 
 def test_no_work_is_lost_where_the_minimum_is_no_valley():
@@ -326,7 +326,7 @@ def test_summary_in_si_adds_the_same_names_with_units():
     pairs = {
         "pull_off_force_N": ("pull_off_force", unit.force),
         "work_to_pull_off_J": ("work_to_pull_off", unit.work),
-        "pull_off_depth_m": ("pull_off_depth", unit.length),
+        "depth_at_pull_off_m": ("depth_at_pull_off", unit.length),
         "contact_radius_at_pull_off_m": ("contact_radius_at_pull_off", unit.radius),
         "crack_speed_at_pull_off_m_per_s": ("crack_speed_at_pull_off", unit.edge_speed),
     }
@@ -351,7 +351,7 @@ def test_summary_passes_the_estimates_on():
 
 
 def test_displacements_are_in_equilibrium_gaps():
-    assert pull_off_depth(jkr_result()) == pytest.approx(-0.360562 * DISPLACEMENT, rel=1e-5)
+    assert depth_at_pull_off(jkr_result()) == pytest.approx(-0.360562 * DISPLACEMENT, rel=1e-5)
 
 
 def test_a_held_force_is_no_pull_off_however_round_off_lets_it_tremble():

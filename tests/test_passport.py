@@ -269,12 +269,14 @@ def test_a_case_is_simulated_at_a_temperature_beside_its_file(tmp_path, capsys):
 def test_uncertain_times_widen_a_prediction(tmp_path):
     problem = read_case(lens_with(uncertain(), tmp_path), temperature=273.15)
     plain, wide = predict(problem), predict(problem, shift_deviation=0.15)
-    assert wide.value == plain.value
+    assert wide.pull_off_force == plain.pull_off_force
     assert wide.interval[0] < plain.interval[0] and wide.interval[1] > plain.interval[1]
     assert np.ptp(wide.work_interval) > np.ptp(plain.work_interval)
     # as far as slower material is stuck more firmly
     slower = replace(problem, material=slowed(problem.material, 10 ** (1.6449 * 0.15)))
-    up = np.log(predict(slower).value / plain.value)
-    own = np.log(plain.interval[1] / plain.value)
-    assert np.log(wide.interval[1] / wide.value) == pytest.approx(np.hypot(up, own), rel=1e-3)
+    up = np.log(predict(slower).pull_off_force / plain.pull_off_force)
+    own = np.log(plain.interval[1] / plain.pull_off_force)
+    assert np.log(wide.interval[1] / wide.pull_off_force) == pytest.approx(
+        np.hypot(up, own), rel=1e-3
+    )
     assert "known to 0.15 decades" in wide.why

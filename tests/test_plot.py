@@ -186,7 +186,7 @@ def test_every_cycle_has_its_pull_off_marked(taps):
 
     (axes,) = draw_force(taps).axes
     ends = cycles(taps)
-    np.testing.assert_array_equal(mark(axes).get_xdata(), [end.pull_off_depth for end in ends])
+    np.testing.assert_array_equal(mark(axes).get_xdata(), [end.depth_at_pull_off for end in ends])
     np.testing.assert_array_equal(mark(axes).get_ydata(), [-end.pull_off_force for end in ends])
     assert mark(axes).get_label() == f"pull-offs, the last {ends[-1].pull_off_force:.4g}"
 

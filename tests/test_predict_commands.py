@@ -157,7 +157,9 @@ def test_the_curve_is_written_and_drawn(lens, tmp_path, capsys):
     names = ["depth", "force", "contact_radius", "depth_m", "force_N", "contact_radius_m"]
     assert list(rows[0]) == names and len(rows) == 24
     assert float(rows[-1]["force_N"]) == pytest.approx(-found["pull_off_force_N"], rel=1e-9, abs=0)
-    assert float(rows[-1]["depth_m"]) == pytest.approx(found["pull_off_depth_m"], rel=1e-9, abs=0)
+    assert float(rows[-1]["depth_m"]) == pytest.approx(
+        found["depth_at_pull_off_m"], rel=1e-9, abs=0
+    )
     assert picture.stat().st_size > 1000
     words = wrong(capsys, *SPHERE, "--rate", "1e13", "--curve", tmp_path / "none.csv")
     assert "The tier 'surrogate' gives no curve" in words and not (tmp_path / "none.csv").exists()

@@ -121,7 +121,7 @@ def test_a_slower_solid_that_is_pulled_slower_has_the_same_answer():
         protocol=replace(PAD.protocol, speed=PAD.protocol.speed / 7),
     )
     one, other = vt.predict(PAD), vt.predict(slower)
-    assert other.value == pytest.approx(one.value, rel=1e-13)
+    assert other.pull_off_force == pytest.approx(one.pull_off_force, rel=1e-13)
     assert other.work_to_pull_off == pytest.approx(one.work_to_pull_off, rel=1e-13)
 
 
@@ -134,9 +134,9 @@ def test_si_and_groups_cohesion_and_one_branch_change_nothing():
         poisson_ratio=0.5,
     )
     for same in (groups, replace(groups, cohesion=0.3), replace(PAD, material=branch)):
-        assert vt.predict(same).value == pytest.approx(one.value, rel=1e-12)
+        assert vt.predict(same).pull_off_force == pytest.approx(one.pull_off_force, rel=1e-12)
     said = vt.prediction_summary(one)
-    assert said["pull_off_stress_Pa"] == pytest.approx(one.value * PAD.traction.strength)
+    assert said["pull_off_stress_Pa"] == pytest.approx(one.pull_off_force * PAD.traction.strength)
     assert said["work_to_pull_off_J_per_m2"] == pytest.approx(0.15 * one.work_to_pull_off)
     assert said["ligament_at_pull_off_m"] == pytest.approx(1e-3 * said["ligament_at_pull_off"])
     assert said["method"] == "surrogate of punches" and said["inside"]
@@ -208,7 +208,7 @@ def test_the_start_by_stress_is_that_of_its_depth():
             vt.predict(punch_of(size, thickness, start=start))
             for start in (vt.AtDepth(depth), vt.AtForce(stress))
         )
-        assert by_stress.value == pytest.approx(by_depth.value, rel=1e-3)
+        assert by_stress.pull_off_force == pytest.approx(by_depth.pull_off_force, rel=1e-3)
 
 
 # simulation
@@ -228,7 +228,7 @@ def test_a_simulation_lies_in_the_intervals(case):
     said = vt.summary(result)
     low, high = found.interval
     assert low < said["pull_off_stress"] < high
-    assert found.value == pytest.approx(said["pull_off_stress"], rel=5e-3)
+    assert found.pull_off_force == pytest.approx(said["pull_off_stress"], rel=5e-3)
     low, high = found.work_interval
     assert low < said["work_to_pull_off"] < high
     assert found.curve is not None and found.curve_band is not None
@@ -309,7 +309,7 @@ def test_rows_of_a_table_are_those_of_single_predictions():
         for i in (0, 2):
             one = vt.predict(punch_of(start=of(1.0), rate=rates[i]))
             row = [found[f"pull_off_stress{end}"][i] for end in ("", "_low", "_high")]
-            assert row == pytest.approx([one.value, *one.interval], rel=1e-12)
+            assert row == pytest.approx([one.pull_off_force, *one.interval], rel=1e-12)
             assert found["method"][i] == one.method and found["band"][i] == one.band
         assert "rate is 1e+09" in found["why"][1] and np.isnan(found["pull_off_stress"][1])
         assert "rate must be positive" in found["why"][3]

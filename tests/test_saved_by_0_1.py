@@ -15,6 +15,7 @@ import pytest
 
 import viscotack
 from viscotack.app.cli import main
+from viscotack.problem.older import OUTPUTS, upgraded_output
 
 SAVED = Path(__file__).parent / "data" / "saved_by_0_1"
 CAMPAIGNS = SAVED / "campaigns"
@@ -86,7 +87,7 @@ def test_a_saved_result_has_its_numbers_to_the_digit(name):
 
 # Keys of answers that 0.1 did not have, and those of them that an answer in SI has as well.
 NEW = ("accuracy", "accuracy_met", "cycles", "method")
-NEW_NUMBERS = {"time_to_detachment": ("s",), "other_peak_depth": ("m",)}
+NEW_NUMBERS = {"time_to_detachment": ("s",), "depth_at_other_peak": ("m",)}
 NEW_NUMBERS |= {"work_to_other_peak": ("J", "J_per_m2")}
 PEAKS = {"other_peak_force": ("N",), "other_peak_stress": ("Pa",)}
 
@@ -94,7 +95,8 @@ PEAKS = {"other_peak_force": ("N",), "other_peak_stress": ("Pa",)}
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_saved_result_says_what_was_printed(name, call):
     """Every number, status, event and version; the record of the problem may be written anew."""
-    then, now = printed(name), json.loads(call("show", SAVED / f"{name}.npz", "--json"))
+    now = json.loads(call("show", SAVED / f"{name}.npz", "--json"))
+    then = {upgraded_output(key): value for key, value in printed(name).items()}
     for answer in (then, now):
         answer.pop("problem")
         answer.pop("run_id")
@@ -103,7 +105,7 @@ def test_a_saved_result_says_what_was_printed(name, call):
     peak = "other_peak_force" if "pull_off_force" in then else "other_peak_stress"
     new = NEW_NUMBERS | {peak: PEAKS[peak]}
     tails = {f"{key}_{tail}" for key, units in new.items() for tail in units}
-    in_si = tails & now.keys() if "pull_off_depth_m" in then else set()
+    in_si = tails & now.keys() if "depth_at_pull_off_m" in then else set()
     assert now.keys() - then.keys() == {*NEW, *new, *in_si}
     assert len(in_si) in (0, len(new))
     assert now["accuracy"] is now["accuracy_met"] is now["time_to_detachment"] is None
@@ -213,7 +215,8 @@ def test_a_finished_campaign_is_collected_to_the_digit(name, peak, call, tmp_pat
     then, now = rows_of(CAMPAIGNS / f"{name}.csv"), rows_of(tmp_path / "now.csv")
     inputs = list(then[0])[: list(then[0]).index("status")]
     for column in (*inputs, peak, "work_to_pull_off", "pull_off_depth", "error_estimate"):
-        assert [row[column] for row in now] == [row[column] for row in then]
+        assert [row[upgraded_output(column)] for row in now] == [row[column] for row in then]
+    assert not OUTPUTS & now[0].keys()
     assert len(now) == 3 and all(float(row[peak]) > 0 for row in now)
 
 
@@ -240,3 +243,7 @@ def test_a_campaign_goes_on_with_the_new_case_only(campaign, call):
     assert before.items() <= after.items() and len(after) == len(before) + 1
     answer = json.loads(call("campaign", "status", folder, "--json"))
     assert answer["left"] == 0
+    call("campaign", "export", folder, "--csv", folder.parent / "now.csv")
+    depths = [row["depth_at_pull_off"] for row in rows_of(folder.parent / "now.csv")]
+    assert depths[:3] == [row["pull_off_depth"] for row in rows_of(CAMPAIGNS / "punch.csv")]
+    assert len(depths) == 4 and float(depths[3]) < 0

@@ -14,7 +14,7 @@ from viscotack.methods import solve
 from viscotack.problem import Groups, PunchGroups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (
-    pull_off_depth,
+    depth_at_pull_off,
     pull_off_force,
     summary,
     work_of_separation,
@@ -285,7 +285,7 @@ def test_the_stated_errors_hold_the_errors_at_the_pull_off(problem):
     assert abs(pull_off_force(result) / pull_off_force(finer) - 1) < stated["force"] < 0.05
     assert abs(work_to_pull_off(result) / work_to_pull_off(finer) - 1) < stated["work"] < 0.1
     # of the travel in tension, about the work over the force
-    off = abs(pull_off_depth(result) - pull_off_depth(finer))
+    off = abs(depth_at_pull_off(result) - depth_at_pull_off(finer))
     assert off < stated["depth"] < 0.1 * work_to_pull_off(finer) / pull_off_force(finer)
 
 
@@ -319,7 +319,7 @@ def test_the_stated_error_of_the_work_holds_under_a_growing_load():
     runs = [solve(pulled, accuracy=accuracy) for accuracy in (0.01, 0.005, 0.0025, 0.001)]
     work = np.array([work_to_pull_off(each) for each in runs])
     error = work * [each.error_estimate["work"] for each in runs]
-    depth = np.array([pull_off_depth(each) for each in runs])
+    depth = np.array([depth_at_pull_off(each) for each in runs])
     shift = np.array([each.error_estimate["depth"] for each in runs])
     assert np.all(np.abs(work - work[-1]) <= error)
     assert np.all(np.abs(depth - depth[-1]) <= shift)

@@ -55,7 +55,7 @@ def test_compliance_and_signs_are_said_by_flags(probe, capsys):
     for more in ([], ["--compliance", "200 um/N"]):
         assert exit_status([*plain, *more]) == 0
         answer = json.loads(capsys.readouterr().out)
-        depths.append(answer["tests"][0]["cycles"][0]["pull_off_depth_m"])
+        depths.append(answer["tests"][0]["cycles"][0]["depth_at_pull_off_m"])
     assert depths[1] - depths[0] == pytest.approx(200e-6 * PULL_OFF, rel=0.1)
     assert exit_status([*plain, "--into", "up"]) == 2
     assert "--into must be + or -" in capsys.readouterr().err

@@ -30,7 +30,7 @@ def test_a_clean_test_gives_what_the_theory_says():
     sphere = tack_files.SPHERE
     # the minimum lies between two points of the test
     assert cycle.pull_off_force.value == pytest.approx(-PULL_OFF.force, rel=5e-4)
-    assert cycle.pull_off_depth.value == pytest.approx(PULL_OFF.depth, abs=1e-6)
+    assert cycle.depth_at_pull_off.value == pytest.approx(PULL_OFF.depth, abs=1e-6)
     assert cycle.work_to_pull_off.value == pytest.approx(jkr.work_to_pull_off(**sphere), rel=0.02)
     assert cycle.preload_depth.value == pytest.approx(tack_files.DEEP, rel=0.03)
     assert cycle.speed.value == pytest.approx(tack_files.SPEED, rel=1e-3)
@@ -64,12 +64,12 @@ def test_a_machine_that_yields_is_taken_off_the_depth():
     true, compliance = only(tack_files.made()), 2e-4
     test = tack_files.made(compliance=compliance)
     cycle = only(test, compliance=compliance)
-    assert cycle.pull_off_depth.value == pytest.approx(true.pull_off_depth.value, abs=3e-7)
+    assert cycle.depth_at_pull_off.value == pytest.approx(true.depth_at_pull_off.value, abs=3e-7)
     assert cycle.work_to_pull_off.value == pytest.approx(true.work_to_pull_off.value, rel=0.02)
     left = only(test)
-    assert abs(left.pull_off_depth.value - true.pull_off_depth.value) > 0.6e-6
+    assert abs(left.depth_at_pull_off.value - true.depth_at_pull_off.value) > 0.6e-6
     unsure = only(test, compliance=compliance, compliance_uncertainty=2e-5)
-    assert unsure.pull_off_depth.uncertainty > cycle.pull_off_depth.uncertainty
+    assert unsure.depth_at_pull_off.uncertainty > cycle.depth_at_pull_off.uncertainty
     assert unsure.work_to_pull_off.uncertainty >= cycle.work_to_pull_off.uncertainty
     (refusal,) = tack.evaluate(record(test), compliance=1.0).refused
     assert "more than rig and sample have together" in refusal.reason

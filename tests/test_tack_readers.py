@@ -87,7 +87,7 @@ def test_a_cantilever_that_the_file_names_bends(tmp_path):
     assert record.compliance == pytest.approx(1 / tack_files.STIFFNESS)
     (bent,), (stiff,) = tack.evaluate(record).cycles, tack.evaluate(record, compliance=0).cycles
     force = bent.pull_off_force.value
-    shift = bent.pull_off_depth.value - stiff.pull_off_depth.value
+    shift = bent.depth_at_pull_off.value - stiff.depth_at_pull_off.value
     assert shift == pytest.approx(force / tack_files.STIFFNESS, rel=1e-2)
 
 

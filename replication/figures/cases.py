@@ -120,7 +120,7 @@ def detached(work: Work) -> dict[str, float]:
         "force_error": float(error.get("force", np.nan)),
         "work": _or_nan(vt.work_to_pull_off, result),
         "work_error": float(error.get("work", np.nan)),
-        "depth": _or_nan(vt.pull_off_depth, result),
+        "depth": _or_nan(vt.depth_at_pull_off, result),
         "speed": _or_nan(vt.crack_speed_at_pull_off, result),
         "residual": float(result.energy_residual or 0.0),
     }

@@ -58,7 +58,7 @@ def unloaded(case: tuple[float, float, float]) -> dict[str, Any]:
         estimate_error=False,
     )
     of = curve(result, 120)
-    travel = start - vt.pull_off_depth(result)
+    travel = start - vt.depth_at_pull_off(result)
     at = np.interp(start - travel * np.array(SHARES[1:-1]), result.depth[::-1], result.force[::-1])
     return {
         "time": of["time"],

@@ -223,7 +223,7 @@ def _bonded(of: Of) -> Measured:
     """Return the depth of pull-off of a bonded layer over that of Eq. (1) of appendix I."""
     case = {"contact_modulus": 2e6, "work_of_adhesion": 0.1}
     depth = float(
-        punch.thin_layer_pull_off_depth(1e-4, base=punch.Bonded(poisson_ratio=0.3), **case)
+        punch.thin_layer_depth_at_pull_off(1e-4, base=punch.Bonded(poisson_ratio=0.3), **case)
     )
     zeta = 0.7**2 / 0.4
     printed = np.sqrt(2 * 1e-4 * 0.1 / (zeta * 2e6))

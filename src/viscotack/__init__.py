@@ -7,6 +7,7 @@ that ``import viscotack`` costs nothing.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .renamed import earlier_names
 from .version import __version__
 
 if TYPE_CHECKING:
@@ -95,11 +96,11 @@ if TYPE_CHECKING:
     from .result.observables import PullOff as PullOff
     from .result.observables import contact_radius_at_pull_off as contact_radius_at_pull_off
     from .result.observables import crack_speed_at_pull_off as crack_speed_at_pull_off
+    from .result.observables import depth_at_pull_off as depth_at_pull_off
     from .result.observables import effective_surface_energy as effective_surface_energy
     from .result.observables import ligament_at_pull_off as ligament_at_pull_off
     from .result.observables import peaks as peaks
     from .result.observables import pull_off as pull_off
-    from .result.observables import pull_off_depth as pull_off_depth
     from .result.observables import pull_off_force as pull_off_force
     from .result.observables import pull_off_stress as pull_off_stress
     from .result.observables import summary as summary
@@ -161,7 +162,7 @@ _NAMES = {
         "pull_off",
         "peaks",
         "pull_off_force",
-        "pull_off_depth",
+        "depth_at_pull_off",
         "contact_radius_at_pull_off",
         "crack_speed_at_pull_off",
         "work_to_pull_off",
@@ -204,12 +205,17 @@ _HOMES = {name: module for module, names in _NAMES.items() for name in names}
 __all__ = ["__version__", *_ROOMS, *_HOMES]  # pyright: ignore[reportUnsupportedDunderAll]
 
 
-def __getattr__(name: str) -> Any:
+def _named(name: str) -> Any:
     if name in _HOMES:
         return getattr(import_module(f".{_HOMES[name]}", __name__), name)
     if name in _ROOMS:
         return import_module(f".{name}", __name__)
     raise AttributeError(f"module 'viscotack' has no attribute {name!r}")
+
+
+__getattr__ = earlier_names(
+    __name__, {"pull_off_depth": "viscotack.result.observables.depth_at_pull_off"}, _named
+)
 
 
 def __dir__() -> list[str]:

@@ -148,7 +148,7 @@ def test_the_pull_off_is_that_of_a_simulation(groups):
     simulated = pull_off(result)
     assert found.pull_off_force == pytest.approx(simulated.force, rel=0.01)
     assert found.pull_off_force == pytest.approx(simulated.force, rel=found.band)
-    assert found.pull_off_time == pytest.approx(simulated.time, rel=0.03)
+    assert found.time_at_pull_off == pytest.approx(simulated.time, rel=0.03)
     assert found.contact_radius_at_pull_off == pytest.approx(simulated.contact_radius, rel=0.03)
     assert found.work_to_pull_off == pytest.approx(work_to_pull_off(result), rel=0.06)
 
@@ -220,7 +220,10 @@ def test_a_stiff_spring_is_a_rigid_machine_and_a_soft_one_lets_go_at_the_same_fo
     stiff = crack_contact(Groups(**case, stiffness=1e4))
     assert stiff.pull_off_force == pytest.approx(rigid.pull_off_force, rel=3e-3)
     soft = crack_contact(Groups(**case, stiffness=0.1))
-    assert soft.pull_off_depth < rigid.pull_off_depth or soft.pull_off_time > rigid.pull_off_time
+    assert (
+        soft.depth_at_pull_off < rigid.depth_at_pull_off
+        or soft.time_at_pull_off > rigid.time_at_pull_off
+    )
 
 
 def test_moves_end_where_they_are_told():
@@ -322,6 +325,6 @@ def test_a_stop_on_the_way_out_is_no_pull_off_and_ends_no_work():
     slowly = found.force[found.move == 2]
     assert at_stop > 2 * found.pull_off_force
     assert found.pull_off_force == pytest.approx(-slowly.min(), rel=1e-4)
-    pulled = (found.move > 0) & (found.depth > found.pull_off_depth)
+    pulled = (found.move > 0) & (found.depth > found.depth_at_pull_off)
     alone = np.trapezoid(-found.force[pulled], -found.depth[pulled])
     assert found.work_to_pull_off > 1.2 * alone

@@ -252,7 +252,7 @@ def test_a_dead_load_has_a_time_and_no_pull_off_force():
     # from the end of the loading, to the last step
     assert held == pytest.approx(result.time[-1] - 1e-3, rel=1e-9, abs=0)
     assert [row["time_to_detachment"] for row in answer["cycles"]] == [held]
-    for name in ("pull_off_force", "pull_off_depth", "work_to_pull_off", "work_of_separation"):
+    for name in ("pull_off_force", "depth_at_pull_off", "work_to_pull_off", "work_of_separation"):
         assert answer[name] is None, name
     with pytest.raises(ValueError, match="what the machine held"):
         pull_off_force(result)
@@ -406,7 +406,7 @@ def test_every_cycle_has_the_pull_off_of_a_test_of_its_own(make, span):
     for cycle in found:
         # the minimum is flat, so that its place, and the work to it, are less certain
         errors = {"pull_off_force": 1e-3, "peak_force": 1e-2, "snap_in_force": 1e-2}
-        errors |= {"pull_off_depth": 1e-2, "work_to_pull_off": 1e-2, "snap_in_depth": 0.1}
+        errors |= {"depth_at_pull_off": 1e-2, "work_to_pull_off": 1e-2, "snap_in_depth": 0.1}
         for name, error in errors.items():
             one = getattr(alone[0], name)
             assert getattr(cycle, name) == pytest.approx(one, rel=error, abs=0), name

@@ -227,7 +227,7 @@ def test_motion_is_that_of_the_edges_by_their_energy(part, base, tolerance, spee
         x = np.clip((G / 0.08 - 1) / (limit - 1), part[0], part[-1])
         return [-np.exp(crack(np.log(x / (1 - x))))]
 
-    start = -crossover.pull_off_depth(b, half_width=a, **LAYER, base=base)
+    start = -crossover.depth_at_pull_off(b, half_width=a, **LAYER, base=base)
     depth = np.linspace(start, 1.2 * abs(found.depth), 2000)
     path = solve_ivp(
         motion, depth[[0, -1]], [1.0], t_eval=depth, method="LSODA", rtol=1e-7, atol=1e-9

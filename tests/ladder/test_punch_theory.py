@@ -37,7 +37,7 @@ def slope(x, y):
 def test_thin_layer_comes_off_where_its_elastic_energy_pays(base):
     # the energy under the punch, over a length, is a E* delta^2 / (c b); half its slope by a is w
     b = np.array([1e-6, 1e-5])
-    depth = punch.thin_layer_pull_off_depth(b, **LAYER, base=base)
+    depth = punch.thin_layer_depth_at_pull_off(b, **LAYER, base=base)
     stress = punch.thin_layer_pull_off_stress(b, **LAYER, base=base)
     stiffness = LAYER["contact_modulus"] / (base.foundation * b)
     np.testing.assert_allclose(stiffness * depth**2 / 2, LAYER["work_of_adhesion"], rtol=1e-14)
@@ -152,7 +152,7 @@ def test_a_pad_answers_with_the_exact_curve(base):
     stress = pad.elastic_stress(b)
     np.testing.assert_array_equal(stress, crossover.pull_off_stress(b, **PAD, base=base))
     np.testing.assert_array_equal(
-        pad.elastic_depth(b), crossover.pull_off_depth(b, **PAD, base=base)
+        pad.elastic_depth(b), crossover.depth_at_pull_off(b, **PAD, base=base)
     )
     np.testing.assert_array_equal(
         pad.elastic_thickness(stress), crossover.thickness(stress, **PAD, base=base)
@@ -177,7 +177,7 @@ def test_energy_released_is_the_slope_of_the_stiffness(base):
 @bases
 def test_pull_off_is_where_the_energy_released_pays_for_the_interface(base):
     b = np.geomspace(1e-6, 1.0, 25)
-    depth = crossover.pull_off_depth(b, **PAD, base=base)
+    depth = crossover.depth_at_pull_off(b, **PAD, base=base)
     stress = crossover.pull_off_stress(b, **PAD, base=base)
     case = without_energy(PAD)
     G = crossover.energy_release_rate(depth, thickness=b, **case, base=base)
@@ -214,9 +214,9 @@ def test_thin_layer_tends_to_its_closed_form_in_proportion_to_its_thickness():
     excess = exact / punch.thin_layer_pull_off_stress(b, **LAYER, base=FREE) - 1
     assert slope(b, excess) == pytest.approx(1, abs=1e-3)
     np.testing.assert_allclose(excess / (b / 1e-3), 0.177131575829, rtol=1e-8)
-    depth = crossover.pull_off_depth(b, **PAD, base=FREE)
+    depth = crossover.depth_at_pull_off(b, **PAD, base=FREE)
     np.testing.assert_allclose(
-        depth, punch.thin_layer_pull_off_depth(b, **LAYER, base=FREE), rtol=1e-12
+        depth, punch.thin_layer_depth_at_pull_off(b, **LAYER, base=FREE), rtol=1e-12
     )
 
 
@@ -278,7 +278,7 @@ def test_the_punch_does_not_depend_on_the_units(length, load, ratio):
     b = 2.0 * 10**ratio
     for function, unit in [
         (crossover.pull_off_stress, F / L**2),
-        (crossover.pull_off_depth, L),
+        (crossover.depth_at_pull_off, L),
     ]:
         assert function(b * L, **new, base=base) == pytest.approx(
             unit * function(b, **old, base=base), rel=1e-12, abs=0

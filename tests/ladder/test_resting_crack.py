@@ -80,7 +80,7 @@ def test_a_dwell_at_rest_changes_neither_pull_off_nor_band(start, stiffness):
         assert found.band == pytest.approx(told.band, rel=1e-6)
         assert found.inside == told.inside
         waited = sum(move.duration for move in moves)
-        assert found.pull_off_time - waited == pytest.approx(told.pull_off_time, rel=1e-6)
+        assert found.time_at_pull_off - waited == pytest.approx(told.time_at_pull_off, rel=1e-6)
         assert np.all(np.diff(found.time) >= 0) and found.move[-1] == len(moves)
 
 

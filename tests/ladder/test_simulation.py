@@ -22,8 +22,8 @@ from viscotack.protocol import AtDepth, AtForce, AtRadius, Retraction
 from viscotack.result.observables import (
     contact_radius_at_pull_off,
     crack_speed_at_pull_off,
+    depth_at_pull_off,
     pull_off,
-    pull_off_depth,
     pull_off_force,
     work_of_separation,
     work_to_pull_off,
@@ -227,7 +227,7 @@ def test_large_tabor_number_tends_to_jkr():
     assert pull_off_force(result) == pytest.approx(1.0063, rel=1e-3, abs=0)
     units = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
     depth = 10.0 * jkr.pull_off(**units).depth
-    assert pull_off_depth(result) == pytest.approx(depth, rel=0.05, abs=0)
+    assert depth_at_pull_off(result) == pytest.approx(depth, rel=0.05, abs=0)
 
 
 @pytest.mark.march

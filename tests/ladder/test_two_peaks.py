@@ -8,9 +8,9 @@ from viscotack import (
     Groups,
     Outcome,
     StandardSolid,
+    depth_at_pull_off,
     peaks,
     pull_off,
-    pull_off_depth,
     pull_off_force,
     solve,
     summary,
@@ -49,7 +49,7 @@ def test_a_run_to_the_pull_off_goes_on_to_the_larger_second_peak():
 def test_both_peaks_are_in_the_summary():
     answer = summary(solve(DEEP, until="pull-off", accuracy=0.02, estimate_error=False))
     assert answer["other_peak_force"] == pytest.approx(2.44, rel=0.05)
-    assert answer["other_peak_depth"] == pytest.approx(231.3, rel=1e-3)
+    assert answer["depth_at_other_peak"] == pytest.approx(231.3, rel=1e-3)
     assert answer["work_to_other_peak"] == pytest.approx(2.9, rel=0.05)
     assert answer["pull_off_force"] > answer["other_peak_force"]
 
@@ -58,7 +58,7 @@ def test_the_larger_peak_is_the_pull_off_on_both_sides_of_where_they_are_equal()
     slower, faster = (solve(near_equal(x), until="pull-off", accuracy=0.005) for x in (0.78, 0.83))
     assert work_to_pull_off(slower) == pytest.approx(252.5, rel=0.01)
     assert work_to_pull_off(faster) == pytest.approx(12.66, rel=0.03)
-    assert pull_off_depth(slower) < 55 < 75 < pull_off_depth(faster)
+    assert depth_at_pull_off(slower) < 55 < 75 < depth_at_pull_off(faster)
 
 
 def test_where_two_peaks_are_equal_within_the_error_the_work_is_not_told():

@@ -30,7 +30,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.lock import Hold
 from viscotack.files.whole import is_draft, write_whole
-from viscotack.problem.older import upgraded, upgraded_path
+from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
 from .case import CaseSettings
@@ -328,7 +328,7 @@ class Store:
         write_provenance(self.folder, self._provenance)
 
     def _renamed(self, parts: Parts) -> Any:
-        """Return the tables of parts, in which older names of inputs are those of today."""
+        """Return the tables of parts, in which older names are those of today."""
 
         def tables(columns: Sequence[str] | None) -> Iterator[Any]:
             return (_renamed(table) for table in parts.tables(columns))
@@ -385,10 +385,11 @@ def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _renamed(table: Any) -> Any:
-    """Return a table in which inputs of older versions have the paths that numbers have now."""
-    old = [name for name in table.column_names if upgraded_path(name) != name]
-    for name in old:
-        new, values = upgraded_path(name), table.column(name)
+    """Return a table of an older version with the names that inputs and outputs have now."""
+    for name in table.column_names:
+        new, values = upgraded_output(upgraded_path(name)), table.column(name)
+        if new == name:
+            continue
         if new in table.column_names:
             merged = arrow().compute.coalesce(table.column(new), values)
             table = table.set_column(table.column_names.index(new), new, merged).drop_columns(name)

@@ -156,7 +156,7 @@ def _curve(kind: Kind, sense: str) -> tuple[Column, ...]:
             "travel from these points to the pull-off",
             "trajectory_depth",
             "curve",
-            less="pull_off_depth",
+            less="depth_at_pull_off",
         ),
         Column(f"trajectory_{force}", unit, words, form="curve"),
         Column(f"trajectory_{radius}", kind.of("contact_radius").unit.text, _EDGE, form="curve"),
@@ -170,7 +170,7 @@ _SPHERE = (
         {
             "pull_off_force": "minus the least force",
             "work_to_pull_off": "work from zero force, or from the start",
-            "pull_off_depth": "depth at the pull-off, positive into the solid",
+            "depth_at_pull_off": "depth at the pull-off, positive into the solid",
             "contact_radius_at_pull_off": "contact edge there; null without one",
             "crack_speed_at_pull_off": "speed of the edge there",
         },
@@ -196,7 +196,7 @@ KEPT = {
             {
                 "pull_off_stress": "largest mean tension",
                 "work_to_pull_off": "work of unit area from zero stress",
-                "pull_off_depth": "depth at the pull-off, positive into the layer",
+                "depth_at_pull_off": "depth at the pull-off, positive into the layer",
                 "ligament_at_pull_off": "half width still in contact there",
                 "crack_speed_at_pull_off": "speed of the edge there; null at a jump",
             },

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.problem.older import upgraded_output
 
 NAMES = (
     "thesis",
@@ -93,7 +94,10 @@ def load(name: str) -> Any:
     """
     content = _checked(name)
     pa = _arrow()
-    return pa.parquet.read_table(pa.BufferReader(content), partitioning=None)
+    table = pa.parquet.read_table(pa.BufferReader(content), partitioning=None)
+    facts = json.dumps(_facts(table.schema))
+    names = [upgraded_output(name) for name in table.column_names]
+    return table.rename_columns(names).replace_schema_metadata({METADATA_KEY: facts})
 
 
 def metadata(name: str) -> dict[str, Any]:
@@ -106,7 +110,7 @@ def metadata(name: str) -> dict[str, Any]:
     """
     content = _checked(name)
     pa = _arrow()
-    return json.loads(pa.parquet.read_schema(pa.BufferReader(content)).metadata[METADATA_KEY])
+    return _facts(pa.parquet.read_schema(pa.BufferReader(content)))
 
 
 def checksum(content: bytes) -> str:
@@ -118,6 +122,13 @@ def checksum(content: bytes) -> str:
     'e3b0c44298fc1c14'
     """
     return hashlib.sha256(content).hexdigest()
+
+
+def _facts(schema: Any) -> dict[str, Any]:
+    """Return what a file says of the set, with the names that columns have now."""
+    facts = json.loads(schema.metadata[METADATA_KEY])
+    columns = {upgraded_output(name): words for name, words in facts["columns"].items()}
+    return facts | {"columns": columns}
 
 
 def _known(name: str) -> str:

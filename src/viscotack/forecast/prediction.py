@@ -13,6 +13,7 @@ import numpy as np
 
 from viscotack.problem import Case
 from viscotack.problem.record import run_id, to_dict
+from viscotack.renamed import Renamed
 from viscotack.result.trajectory import PRESSED
 from viscotack.version import __version__
 
@@ -91,10 +92,7 @@ class Prediction:
     zero_force_interval: tuple[float, float] | None = None
     depth_interval: tuple[float, float] | None = None
 
-    @property
-    def value(self) -> float:
-        """The pull-off force, under the name it had before."""
-        return self.pull_off_force
+    value = Renamed("pull_off_force")
 
     def because(self, why: str) -> Prediction:
         """Return the prediction with the reason why no better tier answers, before its own."""
@@ -190,21 +188,21 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     values: dict[str, Any] = {
         pull_off: prediction.pull_off_force,
         "work_to_pull_off": prediction.work_to_pull_off,
-        "pull_off_depth": None if curve is None else float(curve.depth[-1]),
+        "depth_at_pull_off": None if curve is None else float(curve.depth[-1]),
         f"zero_{force}_depth": prediction.zero_force_depth,
         at_pull_off: None if ended is None else _known(ended),
     }
     intervals = {
         "interval": (prediction.interval, pull_off),
         "work_interval": (prediction.work_interval, "work_to_pull_off"),
-        f"zero_{force}_interval": (prediction.zero_force_interval, "pull_off_depth"),
-        "depth_interval": (prediction.depth_interval, "pull_off_depth"),
+        f"zero_{force}_interval": (prediction.zero_force_interval, "depth_at_pull_off"),
+        "depth_interval": (prediction.depth_interval, "depth_at_pull_off"),
     }
     answer = {name: None if pair is None else list(pair) for name, (pair, _) in intervals.items()}
     answer = values | answer
     if (scales := problem.scales()) is not None:
         for name, value in values.items():
-            like = "pull_off_depth" if name == f"zero_{force}_depth" else name
+            like = "depth_at_pull_off" if name == f"zero_{force}_depth" else name
             unit = kind.observables[like].unit
             scale = getattr(scales, unit.scale)
             answer[f"{name}_{unit.tail}"] = None if value is None else value * scale

@@ -24,6 +24,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart, Dwell
+from viscotack.renamed import Renamed
 from viscotack.result.loops import Loop, returned, work_at_indenter
 from viscotack.result.opening import least_between
 from viscotack.result.parts import Span, all_moves, spans_of, waits
@@ -75,7 +76,7 @@ class CrackContact:
         Number of the move at each step.
     status : str
         "detached" or "still in contact".
-    pull_off_force, pull_off_depth, pull_off_time : float or None
+    pull_off_force, depth_at_pull_off, time_at_pull_off : float or None
         At the largest tension of the last opening; None without one.
     contact_radius_at_pull_off, crack_speed_at_pull_off, amplification_at_pull_off : float or None
         There.
@@ -109,8 +110,8 @@ class CrackContact:
     move: npt.NDArray[np.intp]
     status: str
     pull_off_force: float | None
-    pull_off_depth: float | None
-    pull_off_time: float | None
+    depth_at_pull_off: float | None
+    time_at_pull_off: float | None
     contact_radius_at_pull_off: float | None
     crack_speed_at_pull_off: float | None
     amplification_at_pull_off: float | None
@@ -122,6 +123,9 @@ class CrackContact:
     inside: bool
     why: str
     method: str = METHOD
+
+    pull_off_depth = Renamed("depth_at_pull_off")
+    pull_off_time = Renamed("time_at_pull_off")
 
     @property
     def interval(self) -> tuple[float, float] | None:
@@ -365,8 +369,8 @@ def _interface_work(groups: Groups, crack: SteadyCrack, at: dict[str, Any]) -> f
 
 _AT_PULL_OFF = (
     "pull_off_force",
-    "pull_off_depth",
-    "pull_off_time",
+    "depth_at_pull_off",
+    "time_at_pull_off",
     "contact_radius_at_pull_off",
     "crack_speed_at_pull_off",
     "amplification_at_pull_off",
@@ -385,7 +389,7 @@ def _zones(
     if energy is None:
         return 0.0
     # since the edge last rested or closed
-    rows = np.flatnonzero(series["time"] <= at["pull_off_time"])
+    rows = np.flatnonzero(series["time"] <= at["time_at_pull_off"])
     slow = np.flatnonzero(series["amplification"][rows] <= 1)
     last = int(slow[-1]) if slow.size else 0
     way = radius[last] - at["contact_radius_at_pull_off"]
@@ -393,7 +397,7 @@ def _zones(
         # Steps of the radius may not tell it. The energy of an edge that hardly moves grows with
         # the square of the way of the drive: it is above the half for a quarter of the time.
         begun = max(series["time"][last], _begun(series))
-        loading = 0.25 * (at["pull_off_time"] - begun) / groups.material.time_unit
+        loading = 0.25 * (at["time_at_pull_off"] - begun) / groups.material.time_unit
         way = max(way, loading * float(crack.speed(energy / 2)) / groups.tabor**2 / ROOT)
     zone = crack.zone_length * bulk / groups.tabor**2 / ROOT
     if way < LEAST_ZONES * zone:
@@ -484,8 +488,8 @@ def _hysteresis(
 
 _IN_SI = {
     "pull_off_force": ("force", "N"),
-    "pull_off_depth": ("length", "m"),
-    "pull_off_time": ("time", "s"),
+    "depth_at_pull_off": ("length", "m"),
+    "time_at_pull_off": ("time", "s"),
     "contact_radius_at_pull_off": ("radius", "m"),
     "crack_speed_at_pull_off": ("edge_speed", "m_per_s"),
     "work_to_pull_off": ("work", "J"),

@@ -257,11 +257,11 @@ def _words(found: "Prediction", answer: dict[str, Any]) -> str:
         "not measured," if found.confidence is None else f"{100 * found.confidence:.4g} % between"
     )
     kind = found.problem.groups().outputs
-    intervals = _compared(kind) | {"pull_off_depth": "depth_interval"}
+    intervals = _compared(kind) | {"depth_at_pull_off": "depth_interval"}
     for name, observable in kind.observables.items():
         told = observable.words, observable.unit, intervals.get(name)
         lines += _number_words(name, *told, answer, held)
-    force, depth = kind.name_of("force"), kind.observables["pull_off_depth"].unit
+    force, depth = kind.name_of("force"), kind.observables["depth_at_pull_off"].unit
     told = f"depth at zero {force}", depth, f"zero_{force}_interval"
     lines += _number_words(f"zero_{force}_depth", *told, answer, held)
     if "simulation" in answer:

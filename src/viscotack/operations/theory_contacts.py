@@ -54,7 +54,7 @@ class Jkr(Operation):
         record = {
             "pull_off_force_N": -end.force,
             "contact_radius_at_pull_off_m": end.contact_radius,
-            "pull_off_depth_m": end.depth,
+            "depth_at_pull_off_m": end.depth,
             "work_to_pull_off_J": jkr.work_to_pull_off(**case),
             "contact_radius_without_load_m": free,
             "instability_depth_m": fold.depth,
@@ -130,7 +130,7 @@ class Maugis(Operation):
             f"pull_off_force{tails[0]}": -end.force / load,
             f"contact_radius_at_pull_off{tails[1]}": end.contact_radius / length,
             f"cohesive_radius_at_pull_off{tails[1]}": end.cohesive_radius / length,
-            f"pull_off_depth{tails[2]}": end.depth / height,
+            f"depth_at_pull_off{tails[2]}": end.depth / height,
             f"work_to_pull_off{tails[3]}": maugis.work_to_pull_off(**case) / (load * height),
         }
         return closed_form(end, record, (states.depth / height, states.force / load), labels)
@@ -185,9 +185,9 @@ def _drawn(found: "CrackContact") -> "Figure":
     figure = Figure(layout="constrained")
     axes = figure.subplots()
     axes.plot(found.depth, found.force)
-    if found.pull_off_depth is not None and found.pull_off_force is not None:
+    if found.depth_at_pull_off is not None and found.pull_off_force is not None:
         band = found.band * found.pull_off_force
-        axes.errorbar(found.pull_off_depth, -found.pull_off_force, yerr=band, fmt="o", capsize=3)
+        axes.errorbar(found.depth_at_pull_off, -found.pull_off_force, yerr=band, fmt="o", capsize=3)
     axes.set_xlabel("depth / h0")
     axes.set_ylabel("force / (1.5 pi R dg0)")
     axes.axhline(0.0, color="0.7", linewidth=0.8)

@@ -301,7 +301,7 @@ def _asked(pad: "Pad", law: "CrackLaw", wanted: Mapping[str, float]) -> dict[str
         "pull_off_stress_Pa": state.stress,
         "slowest_pull_off_stress_Pa": min(slow, pad.strength),
         "fastest_pull_off_stress_Pa": min(fast, pad.strength),
-        "pull_off_depth_m": state.depth,
+        "depth_at_pull_off_m": state.depth,
         "ligament_at_pull_off_m": state.ligament,
         "crack_speed_at_pull_off_m_per_s": state.crack_speed if running else None,
         "effective_surface_energy": state.amplification,

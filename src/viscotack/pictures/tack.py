@@ -54,7 +54,7 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle]) -> None:
             cycle.depth[back][::every] / depths, cycle.force[back][::every] / forces, lw=1.0
         )
         axes.plot(
-            cycle.pull_off_depth.value / depths,
+            cycle.depth_at_pull_off.value / depths,
             -cycle.pull_off_force.value / forces,
             "o",
             ms=4,

@@ -1,4 +1,4 @@
-"""Records of older versions as this one writes them.
+"""Records and names of older versions as this one writes them.
 
 Version 0.1 had a class for each indenter: PunchProblem with `punch` and `layer`, ProfileProblem
 with `profile`, and ProfileGroups with `profile_exponent`.
@@ -8,6 +8,16 @@ from typing import Any
 
 from viscotack.errors import InputError
 
+# What numbers of an answer were called -> are called, as in `outputs`; in SI too.
+_OUTPUTS = {
+    f"{old}{tail}": f"{new}{tail}"
+    for old, new in (
+        ("pull_off_depth", "depth_at_pull_off"),
+        ("other_peak_depth", "depth_at_other_peak"),
+    )
+    for tail in ("", "_m")
+}
+OUTPUTS = frozenset(_OUTPUTS)
 # What numbers of a problem were called -> are called, by the beginning of their path.
 _PATHS = {"punch.": "geometry.", "layer.": "body.", "profile.": "geometry."}
 
@@ -39,6 +49,11 @@ def upgraded_path(path: str) -> str:
         if path.startswith(old):
             return new + path.removeprefix(old)
     return path
+
+
+def upgraded_output(name: str) -> str:
+    """Return the name of a number of an answer, such as ``pull_off_depth``, as it is now."""
+    return _OUTPUTS.get(name, name)
 
 
 def naming(record: dict[str, Any]) -> dict[str, Any]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.whole import Target, write_whole
+from viscotack.renamed import Renamed
 
 from . import Outcome, Result
 from .dead_load import time_held
@@ -33,7 +34,7 @@ class Cycle:
         Largest tension of the closing part from there on, a positive number; 0 where there is none.
     peak_force : float
         Peak compression, the largest force; 0 where nothing is pressed.
-    pull_off_force, pull_off_depth : float
+    pull_off_force, depth_at_pull_off : float
         Force minimum of the opening part, a positive number, and where.
     work_to_pull_off : float
         Integral of -force from the last zero crossing of the opening part to that minimum.
@@ -54,12 +55,14 @@ class Cycle:
     snap_in_force: float
     peak_force: float
     pull_off_force: float
-    pull_off_depth: float
+    depth_at_pull_off: float
     work_to_pull_off: float
     hysteresis: float
     hysteresis_error: float
     loop: Loop
     time_to_detachment: float
+
+    pull_off_depth = Renamed("depth_at_pull_off")
 
 
 def cycles(result: Result) -> tuple[Cycle, ...]:
@@ -152,7 +155,7 @@ def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> C
         snap_in_force=tension,
         peak_force=max(float(result.force[span.first : span.last + 1].max()), 0.0),
         pull_off_force=none if found is None else found.force,
-        pull_off_depth=none if found is None else found.depth,
+        depth_at_pull_off=none if found is None else found.depth,
         work_to_pull_off=(
             none if found is None else tension_work(result, span, found, until=-found.depth)
         ),

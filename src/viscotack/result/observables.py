@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.problem import PunchGroups
+from viscotack.problem import PunchGroups, older
 from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
+from viscotack.renamed import earlier_names
 from viscotack.theory.punch.curve import thin_layer_surface_energy
 
 from . import Outcome, Result
@@ -18,6 +19,15 @@ from .cycles import cycle_rows
 from .dead_load import time_held
 from .opening import PullOff, lost_beside, peaks_in, pull_off_in, reach_of_fold, tension_work
 from .parts import spans
+
+_HERE = "viscotack.result.observables"
+__getattr__ = earlier_names(
+    __name__,
+    {
+        "pull_off_depth": f"{_HERE}.depth_at_pull_off",
+        "other_peak_depth": f"{_HERE}.depth_at_other_peak",
+    },
+)
 
 # A work to pull-off whose stated error is larger than this part of it means nothing.
 _MEANINGLESS = 0.5
@@ -82,7 +92,7 @@ def other_peak_force(result: Result) -> float:
     return other_peak(result).force
 
 
-def other_peak_depth(result: Result) -> float:
+def depth_at_other_peak(result: Result) -> float:
     """Return the depth at the other peak [h_0], positive into the solid; ValueError if none."""
     return other_peak(result).depth
 
@@ -115,7 +125,7 @@ def pull_off_force(result: Result) -> float:
     return pull_off(result).force
 
 
-def pull_off_depth(result: Result) -> float:
+def depth_at_pull_off(result: Result) -> float:
     """Return the depth at the force minimum [h_0], positive into the solid."""
     return pull_off(result).depth
 
@@ -344,7 +354,7 @@ class Observable:
     function: Callable[[Result], float]
 
     def __post_init__(self) -> None:
-        taken = self.name in _OBSERVABLES or self.name in _TAKEN
+        taken = self.name in {*_OBSERVABLES, *_TAKEN, *older.OUTPUTS}
         if not self.name.isidentifier() or taken or "_at_" in self.name:
             raise InputError(
                 f"name must be a new one such as 'rise_time', got {self.name!r}; summaries and "
@@ -407,7 +417,7 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = (
         function.__name__: function
         for function in (
             pull_off_force,
-            pull_off_depth,
+            depth_at_pull_off,
             pull_off_stress,
             contact_radius_at_pull_off,
             ligament_at_pull_off,
@@ -416,7 +426,7 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = (
             work_to_pull_off,
             work_of_separation,
             other_peak_force,
-            other_peak_depth,
+            depth_at_other_peak,
             work_to_other_peak,
         )
     }

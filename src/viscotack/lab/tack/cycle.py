@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from viscotack.arrays import Array
 from viscotack.lab.sweeps import Source
+from viscotack.renamed import Renamed
 
 from .segments import Segments
 
@@ -40,7 +41,7 @@ class Cycle:
         The same as it stands in the file, without any correction [N].
     pull_off_at : int
         Index of that point in the arrays.
-    pull_off_depth : Measured
+    depth_at_pull_off : Measured
         Depth there [m].
     work_to_pull_off, work_of_separation : Measured
         Integral of -force d(depth) from the last zero crossing of the force to the pull-off and
@@ -73,7 +74,7 @@ class Cycle:
     pull_off_force: Measured
     pull_off_raw: float
     pull_off_at: int
-    pull_off_depth: Measured
+    depth_at_pull_off: Measured
     work_to_pull_off: Measured
     work_of_separation: Measured
     preload: Measured
@@ -84,6 +85,8 @@ class Cycle:
     approach_speed: float | None
     noise: float
     source: Source
+
+    pull_off_depth = Renamed("depth_at_pull_off")
 
     @property
     def retraction(self) -> slice:

@@ -190,7 +190,7 @@ def _cycle(
         pull_off_force=pull_off,
         pull_off_raw=-float(raw[at]),
         pull_off_at=at,
-        pull_off_depth=Measured(float(depth[at]), place),
+        depth_at_pull_off=Measured(float(depth[at]), place),
         work_to_pull_off=_work(
             depth, force, (crossing, at), law.noise, zero, compliance_uncertainty, flat
         ),

@@ -25,7 +25,7 @@ def retraction(cycle: Any) -> dict[str, Any]:
         "force": drawn(cycle.force[back][::every]),
         "pull_off_force": cycle.pull_off_force.value,
         "pull_off_force_uncertainty": cycle.pull_off_force.uncertainty,
-        "pull_off_depth": cycle.pull_off_depth.value,
+        "depth_at_pull_off": cycle.depth_at_pull_off.value,
         "speed": cycle.speed.value,
         "speed_uncertainty": cycle.speed.uncertainty,
         "preload": cycle.preload.value,

@@ -9,7 +9,7 @@ from .json_data import plain
 # name in Python -> name in tables, with the unit
 _MEASURED = {
     "pull_off_force": "pull_off_force_N",
-    "pull_off_depth": "pull_off_depth_m",
+    "depth_at_pull_off": "depth_at_pull_off_m",
     "work_to_pull_off": "work_to_pull_off_J",
     "work_of_separation": "work_of_separation_J",
     "preload": "preload_N",

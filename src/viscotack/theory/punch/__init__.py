@@ -1,6 +1,7 @@
 """A flat punch comes off a layer: a module for each step, and the functions asked most."""
 
 from viscotack.geometry import Bonded, Frictionless
+from viscotack.renamed import earlier_names
 
 from . import crossover, curve, design, laws, map, pad, rate, regimes, unloading
 from .design import thickness_at_crack_speed, thickness_at_speed
@@ -8,7 +9,7 @@ from .laws import (
     fracture_length,
     half_plane_pull_off_stress,
     stiffening,
-    thin_layer_pull_off_depth,
+    thin_layer_depth_at_pull_off,
     thin_layer_pull_off_stress,
 )
 from .map import RegimeMap, regime_map
@@ -23,6 +24,11 @@ from .regimes import (
     regime_thicknesses,
 )
 from .unloading import PullOff, pull_off
+
+__getattr__ = earlier_names(
+    __name__,
+    {"thin_layer_pull_off_depth": "viscotack.theory.punch.laws.thin_layer_depth_at_pull_off"},
+)
 
 __all__ = [
     "REGIMES",
@@ -52,7 +58,7 @@ __all__ = [
     "stiffening",
     "thickness_at_crack_speed",
     "thickness_at_speed",
-    "thin_layer_pull_off_depth",
+    "thin_layer_depth_at_pull_off",
     "thin_layer_pull_off_stress",
     "unloading",
 ]

@@ -30,9 +30,14 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base
+from viscotack.renamed import earlier_names
 from viscotack.theory._checks import Number, plain, positive
 
 from ._kernel import curve
+
+__getattr__ = earlier_names(
+    __name__, {"pull_off_depth": "viscotack.theory.punch.crossover.depth_at_pull_off"}
+)
 
 _HALVINGS = 64
 
@@ -116,7 +121,7 @@ def pull_off_stress(
     return plain(stress * np.sqrt(E * w / a))
 
 
-def pull_off_depth(
+def depth_at_pull_off(
     thickness: npt.ArrayLike,
     *,
     half_width: npt.ArrayLike,
@@ -130,7 +135,7 @@ def pull_off_depth(
     --------
     >>> from viscotack.theory.punch import Frictionless
     >>> pad = dict(half_width=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
-    >>> f"{pull_off_depth(1e-4, **pad, base=Frictionless()) * 1e6:.2f} um"
+    >>> f"{depth_at_pull_off(1e-4, **pad, base=Frictionless()) * 1e6:.2f} um"
     '-3.16 um'
     """
     ratio, a, E, w = _pad(

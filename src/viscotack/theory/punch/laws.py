@@ -18,7 +18,13 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
+from viscotack.renamed import earlier_names
 from viscotack.theory._checks import Number, plain, positive
+
+__getattr__ = earlier_names(
+    __name__,
+    {"thin_layer_pull_off_depth": "viscotack.theory.punch.laws.thin_layer_depth_at_pull_off"},
+)
 
 # The thin-layer law of a bonded layer asks for a Poisson ratio up to this (appendix I).
 _THIN_POISSON = 0.45
@@ -102,7 +108,7 @@ def thin_layer_pull_off_stress(
     return plain(np.sqrt(2 * stiffening(base) * E * w / b))
 
 
-def thin_layer_pull_off_depth(
+def thin_layer_depth_at_pull_off(
     thickness: npt.ArrayLike,
     *,
     contact_modulus: npt.ArrayLike,
@@ -120,7 +126,7 @@ def thin_layer_pull_off_depth(
     --------
     >>> from viscotack.theory.punch import Frictionless
     >>> layer = dict(contact_modulus=1e6, work_of_adhesion=0.05, base=Frictionless())
-    >>> f"{thin_layer_pull_off_depth(1e-4, **layer) * 1e6:.2f} um"
+    >>> f"{thin_layer_depth_at_pull_off(1e-4, **layer) * 1e6:.2f} um"
     '-3.16 um'
     """
     b, E, w = positive(

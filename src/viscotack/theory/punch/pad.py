@@ -80,7 +80,7 @@ class Pad:
 
     def elastic_depth(self, thickness: npt.ArrayLike) -> Number:
         """Return the exact depth of pull-off [m] at thicknesses [m], negative."""
-        return crossover.pull_off_depth(thickness, **self._elastic())
+        return crossover.depth_at_pull_off(thickness, **self._elastic())
 
     def elastic_thickness(self, stress: npt.ArrayLike) -> Number:
         """Return the thickness [m] of the exact elastic layer with a pull-off stress [Pa]."""

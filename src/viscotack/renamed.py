@@ -1,0 +1,68 @@
+"""Names of an earlier version: found for one release, with a DeprecationWarning.
+
+docs/migration.md lists them.
+"""
+
+import warnings
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from typing import Any
+
+
+def earlier_names(
+    module: str, names: Mapping[str, str], otherwise: Callable[[str], Any] | None = None
+) -> Callable[[str], Any]:
+    """Make the ``__getattr__`` of a module some of whose names are found elsewhere now.
+
+    Parameters
+    ----------
+    module : str
+        Its ``__name__``.
+    names : mapping
+        Old name -> the dotted path of the new one.
+    otherwise : callable, optional
+        Finds other names; without it they raise an AttributeError.
+    """
+
+    def found(name: str) -> Any:
+        if name not in names and otherwise is not None:
+            return otherwise(name)
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        _warn(f"{module}.{name}", names[name])
+        home, _, new = names[name].rpartition(".")
+        return getattr(import_module(home), new)
+
+    return found
+
+
+class Renamed:
+    """An attribute of a class under its earlier name.
+
+    Examples
+    --------
+    >>> class Peak:
+    ...     force = 2.5
+    ...     value = Renamed("force")
+    >>> with warnings.catch_warnings(action="always", record=True) as given:
+    ...     Peak().value
+    2.5
+    >>> print(given[0].message)
+    Peak.value is Peak.force now
+    """
+
+    def __init__(self, new: str) -> None:
+        self._new = new
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._old = name
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        if instance is None:
+            return self
+        _warn(f"{owner.__name__}.{self._old}", f"{owner.__name__}.{self._new}")
+        return getattr(instance, self._new)
+
+
+def _warn(old: str, new: str) -> None:
+    warnings.warn(f"{old} is {new} now", DeprecationWarning, stacklevel=3)
