@@ -9,5 +9,5 @@ problem = vt.Problem(
     protocol=vt.Retraction(start=vt.AtForce(1e-3), speed=10e-6),
 )
 result = vt.solve(problem)
-force = vt.pull_off_force(result) * problem.scales().force
+force = result.pull_off_force * problem.scales().force
 print(f"{result.status}; pull-off force {force * 1e3:.3f} mN")

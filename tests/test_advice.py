@@ -92,7 +92,7 @@ def test_the_speed_of_the_edge_is_that_of_a_simulation(rate):
     )
     result = vt.solve(case, accuracy=5e-3, until="pull-off", estimate_error=False)
     speed = vt.crack_speed_at_pull_off(result) * case.scales().edge_speed
-    assert vt.advise(case).crack_speed_m_per_s == pytest.approx(speed, rel=0.25, abs=0)
+    assert vt.advise(case).crack_speed_at_pull_off_m_per_s == pytest.approx(speed, rel=0.25, abs=0)
 
 
 def test_a_start_too_light_for_the_rate_has_no_state_at_pull_off():
@@ -267,12 +267,12 @@ def test_a_start_that_jkr_does_not_know_still_gets_advice():
 def test_in_si_speed_and_strain_are_judged():
     slow, fast = vt.advise(silicone(1e-7)), vt.advise(silicone(1e-3))
     assert not slow.beyond_linear and fast.beyond_linear
-    assert slow.crack_speed_m_per_s < 1e-4 < fast.crack_speed_m_per_s
+    assert slow.crack_speed_at_pull_off_m_per_s < 1e-4 < fast.crack_speed_at_pull_off_m_per_s
     assert slow.small_strain and slow.strain == pytest.approx(0.075, rel=0.2, abs=0)
     assert any("silicone experiments" in s for s in fast.sentences)
     assert any(" N" in s for s in fast.sentences)
     dimensionless = vt.advise(silicone(1e-3).groups())
-    assert dimensionless.crack_speed_m_per_s is None and dimensionless.strain is None
+    assert dimensionless.crack_speed_at_pull_off_m_per_s is None and dimensionless.strain is None
     assert dimensionless.amplification == pytest.approx(fast.amplification, rel=1e-9, abs=0)
 
 

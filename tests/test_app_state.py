@@ -164,7 +164,7 @@ def test_quick_answers_are_those_of_predict_and_advise():
     found, scales = quick(State(FIRST)), problem.scales()
     answer = predict(problem)
     learned = next(
-        x for x in found["numbers"] if (x["name"], x["method"]) == ("pull_off", "surrogate")
+        x for x in found["numbers"] if (x["name"], x["method"]) == ("pull_off_force", "surrogate")
     )
     assert learned["value"] == pytest.approx(answer.pull_off_force * scales.force, rel=1e-12)
     # the page has one headline, that of every other interface
@@ -190,7 +190,8 @@ def test_every_example_has_quick_answers(tables):
     curve = found["curves"]["elastic"]
     assert len(curve["depth"]) == len(curve["force"]) > 1
     assert min(curve["force"]) < 0
-    assert {"force", "depth", "pull_off", "work"} <= found["axes"].keys()
+    pulled = "pull_off_stress" if "punch" in tables else "pull_off_force"
+    assert {"force", "depth", pulled, "work_to_pull_off"} <= found["axes"].keys()
 
 
 @pytest.mark.parametrize(("work", "is_crack"), [(0.15, False), (0.01, True)])

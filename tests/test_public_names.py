@@ -91,6 +91,7 @@ def test_a_renamed_function_is_found_by_its_earlier_name_with_a_warning(old):
     ("of", "old", "new"),
     [
         (viscotack.Prediction, "value", "pull_off_force"),
+        (viscotack.Advice, "crack_speed_m_per_s", "crack_speed_at_pull_off_m_per_s"),
         (viscotack.CrackContact, "pull_off_depth", "depth_at_pull_off"),
         (viscotack.CrackContact, "pull_off_time", "time_at_pull_off"),
         (viscotack.Cycle, "pull_off_depth", "depth_at_pull_off"),

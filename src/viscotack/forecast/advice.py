@@ -9,6 +9,7 @@ from viscotack.geometry import Sphere
 from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
+from viscotack.renamed import Renamed
 
 from .closed_forms import ClosedForms, Estimate, check_retraction
 from .prediction import Prediction
@@ -57,7 +58,7 @@ class Advice:
         as Dugdale's.
     preload_change : tuple of float or None
         Least and largest change of the force by it, relative, for nine of ten cases.
-    crack_speed_m_per_s : float or None
+    crack_speed_at_pull_off_m_per_s : float or None
         Estimated speed of the edge at pull-off; None for groups, which have no unit.
     beyond_linear : bool or None
         Whether that is above the 100 um/s at which experiments left the linear theory.
@@ -84,13 +85,15 @@ class Advice:
     start_radius: float | None
     preload: str
     preload_change: tuple[float, float] | None
-    crack_speed_m_per_s: float | None
+    crack_speed_at_pull_off_m_per_s: float | None
     beyond_linear: bool | None
     strain: float | None
     small_strain: bool | None
     use: str
     estimates: tuple[Estimate, ...]
     force_scale: float | None
+
+    crack_speed_m_per_s = Renamed("crack_speed_at_pull_off_m_per_s")
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -162,7 +165,7 @@ def advice_on(asked: Question) -> Advice:
         start_radius=forms.start_radius,
         preload=preload,
         preload_change=change,
-        crack_speed_m_per_s=speed,
+        crack_speed_at_pull_off_m_per_s=speed,
         beyond_linear=None if speed is None else speed > LINEAR_SPEED,
         strain=strain,
         small_strain=None if strain is None else strain < _SMALL_STRAIN,
@@ -253,8 +256,9 @@ def _sentences(advice: Advice) -> list[str]:
         found.append(_pressing(advice.preload, *advice.preload_change))
     if advice.beyond_linear:
         found.append(
-            f"The edge moves at about {advice.crack_speed_m_per_s:.2g} m/s, and above 1e-4 m/s "
-            "silicone experiments held more than any linear theory says: expect a larger force."
+            f"The edge moves at about {advice.crack_speed_at_pull_off_m_per_s:.2g} m/s, and above "
+            "1e-4 m/s silicone experiments held more than any linear theory says: expect a larger "
+            "force."
         )
     if advice.small_strain is False:
         found.append(

@@ -94,6 +94,17 @@ class Prediction:
 
     value = Renamed("pull_off_force")
 
+    @property
+    def pull_off_stress(self) -> float:
+        """The `pull_off_force` of a punch [sigma0]."""
+        self.problem.outputs.check_has("pull_off_stress")
+        return self.pull_off_force
+
+    @property
+    def depth_at_pull_off(self) -> float | None:
+        """Depth at the pull-off [h0], positive into the solid; None where a theory answers."""
+        return None if self.curve is None else float(self.curve.depth[-1])
+
     def because(self, why: str) -> Prediction:
         """Return the prediction with the reason why no better tier answers, before its own."""
         return replace(self, why=f"{why}; {self.why}")
@@ -188,7 +199,7 @@ def prediction_summary(prediction: Prediction) -> dict[str, Any]:
     values: dict[str, Any] = {
         pull_off: prediction.pull_off_force,
         "work_to_pull_off": prediction.work_to_pull_off,
-        "depth_at_pull_off": None if curve is None else float(curve.depth[-1]),
+        "depth_at_pull_off": prediction.depth_at_pull_off,
         f"zero_{force}_depth": prediction.zero_force_depth,
         at_pull_off: None if ended is None else _known(ended),
     }

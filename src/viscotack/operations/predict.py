@@ -14,7 +14,7 @@ from .declare.options import Operation
 from .declare.statement import Stated, Statement
 
 if TYPE_CHECKING:
-    from viscotack.forecast import Prediction
+    from viscotack.forecast import Advice, Prediction
     from viscotack.problem import Case
     from viscotack.problem.outputs import Kind
     from viscotack.result import Result
@@ -191,10 +191,20 @@ class Advise(Operation):
         advice = advise(problem)
         return Answer(
             advice,
-            record=lambda: asdict(advice) | {"sentences": list(advice.sentences)},
+            record=lambda: _advised(advice),
             words=lambda: "\n".join(advice.sentences),
             notes=self.problem.notes,
         )
+
+
+def _advised(advice: "Advice") -> dict[str, Any]:
+    """Return advice ready for JSON; the answer in newtons as well where the problem is in SI."""
+    record = asdict(advice) | {"sentences": list(advice.sentences)}
+    if (unit := advice.force_scale) is not None:
+        force, interval = advice.pull_off_force, advice.interval
+        record["pull_off_force_N"] = None if force is None else force * unit
+        record["interval_N"] = None if interval is None else [end * unit for end in interval]
+    return record
 
 
 def _simulated(problem: "Case") -> "Result":

@@ -9,6 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from viscotack.errors import InputError
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -95,6 +97,12 @@ class Kind:
     def of(self, source: str) -> Series:
         """Return the column that a series of a `Result` becomes."""
         return self.series[self.name_of(source)]
+
+    def check_has(self, observable: str) -> None:
+        """Refuse a number that a summary of this kind does not have, naming what is pulled."""
+        if observable not in self.observables:
+            pulled = f"pull_off_{self.name_of('force')}"
+            raise InputError(f"there is no {observable} of this problem; it has {pulled}")
 
     def name_of(self, source: str) -> str:
         """Return the name of that column."""

@@ -262,6 +262,41 @@ class Result:
         error = stated.get("force", stated.get("time"))
         return None if error is None or self.accuracy is None else bool(error <= self.accuracy)
 
+    @property
+    def pull_off_force(self) -> float:
+        """Largest tension of the last retraction, positive [1.5 pi R Delta-gamma_0].
+
+        For a punch it is `pull_off_stress`. This and the properties below are the functions of the
+        same names, with their errors; :func:`viscotack.summary` has all numbers, also in SI.
+        """
+        from .observables import pull_off_force
+
+        return pull_off_force(self)
+
+    @property
+    def pull_off_stress(self) -> float:
+        """Of a punch, the largest mean tension of the last retraction, positive [sigma_0]."""
+        from .observables import pull_off_stress
+
+        return pull_off_stress(self)
+
+    @property
+    def work_to_pull_off(self) -> float:
+        """Work of the drive from zero force to the pull-off [1.5 pi R Delta-gamma_0 h_0].
+
+        For a punch [Delta-gamma_0], of unit area.
+        """
+        from .observables import work_to_pull_off
+
+        return work_to_pull_off(self)
+
+    @property
+    def depth_at_pull_off(self) -> float:
+        """Depth at the pull-off [h_0], positive into the solid."""
+        from .observables import depth_at_pull_off
+
+        return depth_at_pull_off(self)
+
 
 def _frozen(values: npt.ArrayLike, dtype: type = float) -> npt.NDArray[Any]:
     array = np.array(values, dtype=dtype)

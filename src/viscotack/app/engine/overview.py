@@ -25,8 +25,8 @@ from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
 from viscotack.operations.declare.state import State
 from viscotack.operations.parts.json_data import drawn, plain
-from viscotack.problem import Groups, Problem, PunchScales
-from viscotack.problem.outputs import PLANE, REVOLUTION
+from viscotack.problem import Groups, Problem
+from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.surrogate import store
@@ -41,6 +41,7 @@ _POINTS = 80
 # dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
 _LARGEST, _USUAL = 300.0, 2.0
 UNLOADING = next(tier for tier in TIERS if tier.name == "unloading")
+WORK = "work_to_pull_off"
 _INPUTS = {AtDepth: "preload", AtForce: "preload_force", AtRadius: "preload_radius"}
 
 
@@ -95,17 +96,20 @@ def _axes(problem: Problem) -> dict[str, Any]:
     axes = {name: {"words": x.words, "unit": x.unit.si} for name, x in named.items()}
     # a punch's tension is drawn as every force is, compression upwards
     axes["force"]["words"] = "mean stress" if kind is PLANE else "force"
-    pull = "pull-off stress" if kind is PLANE else "pull-off force"
-    work = kind.energy.si
+    numbers = {name: kind.observables[name] for name in (_pulled(kind), WORK)}
+    axes |= {name: {"words": x.words, "unit": x.unit.si} for name, x in numbers.items()}
     return axes | {
-        "pull_off": {"words": pull, "unit": force.unit.si},
-        "work": {"words": "work to pull-off", "unit": work},
         "speed": {"words": "retraction speed", "unit": "m/s"},
         "pressure": {"words": "pressure", "unit": "Pa"},
         "gap": {"words": "gap", "unit": "m"},
         "along": {"words": "radius" if kind is REVOLUTION else "from the middle", "unit": "m"},
         "length": float(scales.length),
     }
+
+
+def _pulled(kind: Kind) -> str:
+    """Return the name of the number by which a kind of problem says how hard one must pull."""
+    return f"pull_off_{kind.name_of('force')}"
 
 
 def _curve(words: str, depth: Any, force: Any, **more: Any) -> dict[str, Any]:
@@ -226,21 +230,21 @@ def _learned(problem: Problem, found: dict[str, Any], confidence: float) -> None
 
 def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
     """Return force and work of a prediction in SI, each with its interval."""
-    scales: Any = answer.problem.scales()
-    load = scales.stress if isinstance(scales, PunchScales) else scales.force
+    kind, scales = answer.problem.outputs, answer.problem.scales()
     given = (
-        ("pull_off", answer.pull_off_force, answer.interval, load),
-        ("work", answer.work_to_pull_off, answer.work_interval, scales.work),
+        (_pulled(kind), answer.pull_off_force, answer.interval),
+        (WORK, answer.work_to_pull_off, answer.work_interval),
     )
+    units = {name: getattr(scales, kind.observables[name].unit.scale) for name, *_ in given}
     return [
         {
             "name": name,
-            "value": value * unit,
-            "interval": [x * unit for x in interval],
+            "value": value * units[name],
+            "interval": [x * units[name] for x in interval],
             "method": answer.method,
             "confidence": answer.confidence,
         }
-        for name, value, interval, unit in given
+        for name, value, interval in given
         if value is not None and interval is not None
     ]
 

@@ -1,7 +1,7 @@
 // The first view: load against depth, what is under the indenter, and what may be trusted.
 
 import { Plot, element } from "./plot.js";
-import { digits, said } from "./numbers.js";
+import { digits, pulled, said } from "./numbers.js";
 import { setUp, surface } from "./drawing.js";
 import { curveOf } from "./store.js";
 
@@ -163,11 +163,11 @@ export class Contact {
       const { summary } = done;
       const force = summary.pull_off_force_N ?? summary.pull_off_stress_Pa;
       const work = summary.work_to_pull_off_J ?? summary["work_to_pull_off_J_per_m2"];
-      const error = summary.error_estimate || {};
-      rows.push([`${axes.pull_off.words}, simulated`, force, axes.pull_off.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
+      const error = summary.error_estimate || {}, pull = pulled(quick);
+      rows.push([`${pull.words}, simulated`, force, pull.unit, error.force === undefined || error.force === null ? "" : `numerical error ${digits(100 * error.force, 2)} %`]);
       const other = summary.other_peak_force_N ?? summary.other_peak_stress_Pa;
-      if (other !== null && other !== undefined) rows.push(["other peak, simulated", other, axes.pull_off.unit, ""]);
-      if (work !== null && work !== undefined) rows.push([`${axes.work.words}, simulated`, work, axes.work.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
+      if (other !== null && other !== undefined) rows.push(["other peak, simulated", other, pull.unit, ""]);
+      if (work !== null && work !== undefined) rows.push([`${axes.work_to_pull_off.words}, simulated`, work, axes.work_to_pull_off.unit, error.work ? `numerical error ${digits(100 * error.work, 2)} %` : ""]);
     }
     for (const { name, value, interval, method, confidence } of numbers) {
       rows.push([`${axes[name].words}, ${method}`, value, axes[name].unit, `${Math.round(100 * confidence)} % of cases: ${said(interval[0], axes[name].unit).split(" ")[0]} to ${said(interval[1], axes[name].unit)}`]);
@@ -203,7 +203,7 @@ export class Contact {
     if (pull && found) series.push({ kind: "points", x: [found.here], y: [pull], colour: "c0", size: 6, words: "this case, simulated" });
     if (this.store.rig) series.push({ kind: "points", x: this.store.rig.curves.map((one) => one.speed), y: this.store.rig.curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });
     this.speeds.cursor = null;
-    this.speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pull_off, least: 0 } }, series);
+    this.speeds.draw({ x: { ...axes.speed, log: true }, y: { ...pulled(quick), least: 0 } }, series);
     if (!found) { this.speeds.legend.textContent = "no theory, and nothing learned, answers at other speeds; a campaign does"; return; }
     const i = nearest(found.speed, found.here);
     this.speeds.point(found.here, pull ?? found.force[i], "this case");

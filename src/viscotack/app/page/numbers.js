@@ -26,6 +26,11 @@ export function said(value, unit, count = 4) {
   return `${digits(value / factor, count)} ${word}`.trim();
 }
 
+// The axis of what a case is pulled off by: the force of a sphere or the stress of a punch.
+export function pulled({ axes }) {
+  return axes.pull_off_force ?? axes.pull_off_stress;
+}
+
 const QUANTITY = /^\s*([a-z]+ )?\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
 
 // "apart 20 um" -> its word, number and unit; null where it is none.

@@ -2,7 +2,7 @@
 
 import { Plot, element } from "./plot.js";
 import { button, card } from "./contact.js";
-import { said } from "./numbers.js";
+import { pulled, said } from "./numbers.js";
 import { ask } from "./server.js";
 import { curveOf } from "./store.js";
 import { dropped } from "./files.js";
@@ -125,6 +125,6 @@ export class Rig {
     const found = quick.speeds, more = [];
     if (found) more.push({ kind: "band", x: found.speed, low: found.low, high: found.high, colour: "c1", words: "band of 90 % of cases" }, { kind: "line", x: found.speed, y: found.force, colour: "c1", words: found.words });
     more.push({ kind: "points", x: rig.curves.map((one) => one.speed), y: rig.curves.map((one) => one.pull_off_force), colour: "c3", words: "measured" });
-    this.speeds.draw({ x: { ...axes.speed, log: true }, y: { ...axes.pull_off, least: 0 } }, more);
+    this.speeds.draw({ x: { ...axes.speed, log: true }, y: { ...pulled(quick), least: 0 } }, more);
   }
 }
