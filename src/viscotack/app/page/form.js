@@ -3,7 +3,7 @@
 import { element } from "./plot.js";
 
 const ROWS = { problem: 8, rows: 4 };
-// Filled by whoever draws the form: files that are dropped, the case of the page.
+
 export class Form {
   constructor(host, operation, id, { skip = [] } = {}) {
     this.fields = [];
@@ -22,6 +22,7 @@ export class Form {
     if (more.children.length > 1) host.append(more);
   }
 
+  // A field, for whoever drew the form and fills it: with files that are dropped, the case of the page.
   input(name) {
     return this.fields.find((field) => field.name === name)?.input;
   }

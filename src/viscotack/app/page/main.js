@@ -16,9 +16,9 @@ const VIEWS = [["contact", "Contact", Contact], ["material", "Material", Materia
 
 async function begin() {
   theme();
-  const forms = await ask("/api/forms");
+  const [forms, { operations }] = await Promise.all([ask("/api/forms"), ask("/api/operations")]);
   const store = new Store(forms);
-  store.operations = (await ask("/api/operations")).operations;
+  store.operations = operations;
   window.viscotack = store;
   const views = tabs(store);
   new Fields(document.getElementById("fields"), store);
