@@ -1,6 +1,7 @@
 """Operations: declared once, and answered alike by every door."""
 
 import dataclasses
+import inspect
 import os
 import random
 import shutil
@@ -12,6 +13,7 @@ import pytest
 
 import tack_files
 import viscotack.operations
+from cases import PUNCH, SPHERE
 from doors import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
 from viscotack.app import cli
 from viscotack.app.api import application
@@ -20,6 +22,7 @@ from viscotack.operations import ask, operation, operations
 from viscotack.operations.declare.cards import (
     Choice,
     File,
+    FileOfNames,
     Folder,
     Known,
     Named,
@@ -38,23 +41,6 @@ FILES = [
     *(ROOT / "examples").glob("from_toml/*.toml"),
     ROOT / "examples/own/plan.toml",
 ]
-SPHERE = {
-    "indenter": "sphere",
-    "tabor": 3.24,
-    "modulus_ratio": 0.1,
-    "exponent": 0.8,
-    "preload": 73.0,
-    "rate": 316.23,
-}
-PUNCH = {
-    "indenter": "punch",
-    "size": 64.85,
-    "thickness": 3.24,
-    "cohesion": 0.05,
-    "modulus_ratio": 0.1,
-    "preload": 1.0,
-    "rate": 10.0,
-}
 LENS = ["lens_1_um_s.csv", "lens_30_um_s.csv", "lens_1000_um_s.csv"]
 SWEEP = {"cases": [{"protocol.speed": 1e-4}], "problem": "lens.toml", "accuracy": 0.02}
 RATES = {"files": LENS, "material": "pdms-10-1", "radius": "5.19 mm"}
@@ -268,6 +254,8 @@ def normal(asked):
         value = getattr(getattr(asked, option.part) if option.part else asked, option.field)
         if isinstance(option.card, Stated):
             value = value and value.problem
+        if isinstance(option.card, FileOfNames):
+            value = value and value.path
         several = value if isinstance(value, tuple) else (value,)
         found[option.name] = tuple(
             os.path.normpath(each) if isinstance(each, Path | str) and each else each
@@ -418,3 +406,9 @@ def test_a_misspelt_option_is_refused_with_the_nearest_name(folder):
 def test_an_operation_that_does_not_exist_is_refused_with_those_that_do():
     with pytest.raises(InputError, match="there is no operation 'predikt'; there are advise"):
         ask("predikt")
+
+
+def test_the_words_of_a_budget_are_those_of_predict():
+    usual = inspect.signature(viscotack.predict).parameters["budget"].default
+    (budget,) = (o for o in options(operation("predict")) if o.name == "budget")
+    assert budget.words.endswith(f" Else {usual:g} s.") and budget.default is None

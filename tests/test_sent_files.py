@@ -2,27 +2,14 @@
 
 import pytest
 
+from cases import case_text
 from viscotack import InputError
 from viscotack.app.engine.operating import Sent
 from viscotack.operations import operation
+from viscotack.operations.declare.answer import Caller
 from viscotack.operations.declare.options import take
 
-CASE = """
-[material]
-model = "prony"
-rubbery_modulus = "1 MPa"
-poisson_ratio = 0.5
-file = "{file}"
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
-[sphere]
-radius = "1 mm"
-[protocol]
-preload_depth = "1 um"
-speed = "10 um/s"
-"""
+CASE = case_text('model = "prony"\nfile = "{file}"')
 STUDY = """
 operation = "identify rates"
 files = ["{file}"]
@@ -36,7 +23,10 @@ ASKED = {
     "campaign inputs": ("problem", CASE),
     "forecast": ("study", STUDY),
     "report": ("study", STUDY),
+    "theory punch": ("case", CASE),
 }
+# Operations that read such a file when they answer.
+LATE = ("forecast", "report", "theory punch")
 
 
 @pytest.fixture
@@ -60,7 +50,7 @@ def taken(word, folder, file):
 def test_what_is_sent_names_no_file_of_the_server(word, beside, folder):
     secret = folder.parent / "secret.csv"
     with pytest.raises(InputError) as error:
-        taken(word, folder, "../secret.csv" if beside else secret)
+        taken(word, folder, "../secret.csv" if beside else secret).answer(Caller())
     assert "was sent with the request" in str(error.value)
     assert "a secret" not in str(error.value)
 
@@ -68,4 +58,8 @@ def test_what_is_sent_names_no_file_of_the_server(word, beside, folder):
 @pytest.mark.parametrize("word", ASKED)
 def test_what_is_sent_names_files_that_were_sent_with_it(word, folder):
     (folder / "branches.csv").write_text("modulus_ratio,relaxation_time_s\n5.0,0.001\n")
-    assert taken(word, folder, "branches.csv")
+    question = taken(word, folder, "branches.csv")
+    if word in LATE:
+        # it is read, and is no pad, or no curve of a rig
+        with pytest.raises(InputError, match=r"asked.toml states a sphere|branches.csv: "):
+            question.answer(Caller())

@@ -4,8 +4,11 @@ import os
 
 import pytest
 
+from cases import case_text
 from command_line import exit_status
-from viscotack.errors import InputError
+from viscotack.errors import TOO_LARGE, InputError
+from viscotack.materials.library import passport_of
+from viscotack.materials.passport_file import write_passport
 from viscotack.operations import ask, operation
 from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
@@ -14,21 +17,7 @@ FILES = {
     "branches.csv": "modulus_ratio,relaxation_time_s\n3,0.01\n6,0.001\n",
     "law.csv": "gap_nm,traction_MPa\n0.5,-3\n1,0\n1.2,5\n2,1\n10,0\n",
     "dma.csv": "frequency_Hz,storage_MPa,loss_kPa\n0.1,1.01,30\n1,1.1,200\n10,2,900\n100,4,3000\n",
-    "case.toml": """
-[material]
-model = "elastic"
-rubbery_modulus = "1 MPa"
-poisson_ratio = 0.5
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
-[sphere]
-radius = "1 mm"
-[protocol]
-preload_depth = "1 um"
-speed = "10 um/s"
-""",
+    "case.toml": case_text(),
 }
 JKR = {"radius": "1 mm", "contact_modulus": "1 MPa", "work_of_adhesion": "50 mJ/m^2"}
 SPHERE = {"indenter": "sphere", "tabor": 200.0, "preload": 10.0, "rate": 1.0}
@@ -90,3 +79,105 @@ def test_a_number_that_is_none_or_out_of_range_is_refused_under_its_name(
     flags = [x for name, value in given.items() for x in (f"--{name.replace('_', '-')}", value)]
     assert exit_status([*word.split(), *flags]) == 2
     assert f"viscotack: --{words}" in capsys.readouterr().err
+
+
+PAD = {"half_width": "1 mm", "work_of_adhesion": "50 mJ/m^2", "strength": "50 kPa"}
+STANDARD = {"contact_modulus": "1 MPa", "modulus_ratio": 0.1, "tau0": "1 ms"}
+ASKED = {"thickness": "200 um", "speed": "100 um/s"}
+
+
+@pytest.mark.parametrize(
+    ("theory", "changed"),
+    [
+        ("greenwood", {"thickness": 1e300}),
+        ("greenwood", {"thickness": 1e-320}),
+        ("greenwood", {"half_width": 1e300}),
+        ("greenwood", {"speed": 1e-320}),
+        ("greenwood", {"strength": 1e-300}),
+        ("persson-brener", {"work_of_adhesion": 1e-320}),
+    ],
+)
+def test_a_pad_of_numbers_that_cannot_be_computed_with_is_refused(theory, changed, capsys):
+    given = PAD | STANDARD | ASKED | {"theory": theory} | changed
+    with pytest.raises(InputError, match=TOO_LARGE):
+        ask("theory punch", **given)
+    flags = [x for name, value in given.items() for x in (f"--{name.replace('_', '-')}", value)]
+    for i, value in enumerate(flags):
+        if isinstance(value, float) and flags[i - 1] != "--modulus-ratio":
+            unit = {"--speed": "m/s", "--strength": "Pa", "--work-of-adhesion": "J/m^2"}
+            flags[i] = f"{value!r} {unit.get(flags[i - 1], 'm')}"
+    assert exit_status(["theory", "punch", *flags]) == 2
+    assert TOO_LARGE in capsys.readouterr().err
+
+
+@pytest.fixture
+def passport(tmp_path):
+    """Return a passport, and the file that holds it."""
+    found, file = passport_of("pdms-10-1"), tmp_path / "pdms.toml"
+    write_passport(found, file)
+    return found, file
+
+
+@pytest.mark.parametrize("name", ["contact_modulus", "modulus_ratio", "tau0"])
+def test_what_a_passport_states_is_not_stated_beside_it(name, passport):
+    _, file = passport
+    given = PAD | ASKED | {"material": str(file)}
+    assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
+    with pytest.raises(InputError, match=f"states the whole material; leave out {name}$"):
+        ask("theory punch", **given, **{name: STANDARD[name]})
+
+
+@pytest.mark.parametrize("material", ["elastic", "prony:branches.csv"])
+def test_a_time_is_refused_where_the_material_has_none_to_be_stated(
+    material, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "branches.csv").write_text(FILES["branches.csv"])
+    given = PAD | ASKED | {"contact_modulus": "1 MPa", "material": material}
+    assert ask("theory punch", **given).record()["pull_off_stress_Pa"] > 0
+    with pytest.raises(InputError, match="tau0 is not needed, the unit of time is s; leave it out"):
+        ask("theory punch", **given, tau0="1 ms")
+
+
+@pytest.mark.parametrize(
+    ("word", "name", "given"),
+    [
+        ("theory punch", "material", PAD | ASKED),
+        ("theory greenwood", "material", {"speed": [1.0, 10.0]}),
+        ("theory steady-crack", "material", {"speed": [1.0]}),
+        ("material show", "passport", {}),
+        ("material convert", "source", {"temperature": "0 degC"}),
+        ("material export", "passport", {"to": "abaqus", "bulk_modulus": "2 GPa"}),
+    ],
+)
+def test_a_passport_is_taken_as_an_object_where_a_file_of_one_is(word, name, given, passport):
+    found, file = passport
+    by_file = ask(word, **given, **{name: str(file)}).record()
+    assert ask(word, **given, **{name: found}).record() == by_file
+
+
+def test_a_rate_series_takes_a_passport_as_an_object(passport):
+    found, file = passport
+    for given in (found, str(file)):
+        rates = {"files": ["tests.csv"], "material": given, "radius": "5 mm"}
+        assert take(operation("identify rates"), rates, Here()).study().material == found
+
+
+def test_a_problem_by_numbers_takes_a_passport_as_an_object(passport):
+    found, file = passport
+    given = SPHERE | {"tabor": 3.0, "radius": "1 mm", "work_of_adhesion": "50 mJ/m^2"}
+    given["temperature"] = "0 degC"
+    by_file, by_object = (
+        ask("predict", problem=given | {"material": each}).record() for each in (str(file), found)
+    )
+    assert by_object == by_file
+
+
+def test_a_study_does_not_hold_a_passport_that_is_an_object(passport):
+    found, _ = passport
+    for asked in (
+        take(operation("material show"), {"passport": found}, Here()),
+        take(operation("advise"), {"problem": SPHERE | {"material": found}}, Here()),
+    ):
+        with pytest.raises(InputError, match="write the Passport to a file and give its name"):
+            study_text(asked)

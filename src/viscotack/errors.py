@@ -1,5 +1,8 @@
 """Wrong input, told apart from defects of the package."""
 
+# Said of numbers with which arithmetic fails: 1e300 squared, or over nothing.
+TOO_LARGE = "a number is too large or too small to compute with; check its unit"
+
 
 class InputError(ValueError):
     """Bad input, said so that whoever gave it can mend it: what was wrong, given, and to be done.

@@ -15,7 +15,7 @@ from typing import Any
 from viscotack.errors import InputError
 
 from .declare.answer import Answer, Caller
-from .declare.options import Here, Operation, respelled, take
+from .declare.options import Here, Operation, answered, respelled, take
 
 # Folders with operations of the user's own: modules as those in here.
 FOLDERS = "VISCOTACK_OPERATIONS"
@@ -51,7 +51,8 @@ def ask(word: str, /, **given: Any) -> Answer:
         Of the operation: "identify rates".
     **given
         Its options by name: numbers in SI, or texts with units as on the command line; names of
-        files; a problem as an object, a case file or its tables. `also` has classes of your own.
+        files; a problem as an object, a case file or its tables; a passport as an object or a file.
+        `also` has classes of your own.
 
     Returns
     -------
@@ -71,7 +72,7 @@ def ask(word: str, /, **given: Any) -> Answer:
     """
     kind, also = operation(word), tuple(given.pop("also", ()))
     try:
-        return take(kind, given, Here(also=also)).answer(Caller(also=also))
+        return answered(take(kind, given, Here(also=also)), Caller(also=also))
     except InputError as error:
         raise respelled(error, kind) from None
 

@@ -12,7 +12,7 @@ from viscotack.errors import InputError
 from .declare.answer import Answer, Caller, Output, csv_file
 from .declare.cards import Choice, File, Folder, Number, Switch, Text, Whole
 from .declare.options import Operation, Part
-from .declare.statement import Stated, Statement
+from .declare.statement import INDENTERS, Stated, Statement
 
 if TYPE_CHECKING:
     from viscotack.campaign import Plan, Progress
@@ -44,7 +44,7 @@ class Inputs(Operation):
 
     problem: Annotated[
         Statement,
-        Stated("A problem in SI.", indenters=("sphere", "punch", "profile"), spelling="case"),
+        Stated("A problem in SI.", indenters=INDENTERS, spelling="case"),
     ]
 
     def answer(self, caller: Caller) -> Answer:

@@ -1,7 +1,6 @@
 """The operations ``forecast`` and ``report``: from a study to what to expect."""
 
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -10,8 +9,8 @@ from viscotack.errors import InputError
 from viscotack.units import parse
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
-from .declare.cards import File, Number, Place, Text
-from .declare.options import Here, Operation, Part
+from .declare.cards import FileOfNames, Number, Place, Placed, Text
+from .declare.options import Operation, Part
 from .declare.study import read_study
 from .identify import IdentifyRates
 from .parts.rig import refusals
@@ -19,21 +18,9 @@ from .parts.rig import refusals
 _MOST = 50  # speeds between two ends
 
 
-@dataclass(frozen=True)
-class Study(File):
-    """A study of `identify rates`; one that was sent names only files that were sent as well."""
-
-    def read(self, value: Any, place: Place) -> Path:
-        """Return the path of the file."""
-        path = super().read(value, place)
-        if not isinstance(place, Here):
-            _study(path, place)
-        return path
-
-
 StudyFile = Annotated[
-    Path,
-    Study(
+    Placed,
+    FileOfNames(
         "As `viscotack identify rates ... -o study.toml` writes it.", metavar="STUDY", argument=True
     ),
 ]
@@ -190,16 +177,16 @@ class Report(Operation):
         )
 
 
-def _identified(study: Path, caller: Caller) -> Any:
+def _identified(study: Placed, caller: Caller) -> Any:
     """Return what the files of a study say."""
     from viscotack.identify.study import answer
 
-    return answer(_study(study, Here(also=caller.also)).study(caller.also))
+    return answer(_asked(study).study(caller.also))
 
 
-def _study(study: Path, place: Place) -> IdentifyRates:
+def _asked(study: Placed) -> IdentifyRates:
     """Return what a study asks, which must be where a forecast starts from."""
-    word = IdentifyRates.word
+    word, place = IdentifyRates.word, study.place
 
     # the word comes before the options: a study may name itself as one that is forecast from
     def known(found: str) -> type[Operation]:
@@ -207,7 +194,7 @@ def _study(study: Path, place: Place) -> IdentifyRates:
             raise InputError(f"it asks to {found}; a forecast starts from a study of {word}")
         return IdentifyRates
 
-    asked = read_study(study, known=known, usual=word, also=place.also, place=place).operation
+    asked = read_study(study.path, known=known, usual=word, also=place.also, place=place).operation
     assert isinstance(asked, IdentifyRates), "no other is known"
     return asked
 

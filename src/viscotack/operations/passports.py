@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 
 from .declare.answer import Answer, Caller, Output
 from .declare.cards import Choice, Named, Number, Switch, Text, Two
 from .declare.options import Operation
-from .parts.solid import Known, published
+from .declare.wording import flag
+from .parts.solid import Known, passport_of, published
 
 if TYPE_CHECKING:
     from viscotack.materials.conversion import PronyForm
-    from viscotack.materials.passport import Passport
 
 # Programs whose input is written and read.
 _CODES = ("abaqus", "ansys", "comsol", "radioss", "tamaas", "rheojax", "pyvisco", "reptate")
@@ -73,9 +74,7 @@ class ShowMaterial(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the passport."""
-        from viscotack.materials.library import passport_of
-
-        return _answer(passport_of(self.passport, also=caller.also))
+        return _answer(passport_of(self.passport, caller.also))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,13 +92,14 @@ class ConvertMaterial(Operation):
     takes_own: ClassVar = True
 
     source: Annotated[
-        str,
+        str | Passport,
         Named(
             "A material passport, or the name of a published material such as pdms-10-1. Or, with "
             "--from, another program's input.",
             metavar="PASSPORT|FILE",
             argument=True,
             published=published,
+            objects=(Passport,),
         ),
     ]
     temperature: Temperature = None
@@ -132,11 +132,13 @@ class ConvertMaterial(Operation):
         constants = self._constants()
         if self.code is None:
             names = (*constants, "pressure_unit", "time_unit")
-            given = [f"--{n.replace('_', '-')}" for n in names if getattr(self, n) is not None]
+            given = [flag(n) for n in names if getattr(self, n) is not None]
             if given:
                 raise InputError(
                     f"{' and '.join(given)} cannot be used without --from; leave it out"
                 )
+        elif isinstance(self.source, Passport):
+            raise InputError(f"{self.source.name} is a passport; --from takes a file")
         elif self.source in published():
             raise InputError(f"{self.source} is a published material; --from takes a file")
         elif (self.pressure_unit is None) != (self.time_unit is None):
@@ -150,11 +152,10 @@ class ConvertMaterial(Operation):
 
     def answer(self, caller: Caller) -> Answer:
         """Read the material and convert it."""
-        from viscotack.materials.library import passport_of
         from viscotack.materials.passport_file import write_passport
 
         if self.code is None:
-            passport = passport_of(self.source, also=caller.also)
+            passport = passport_of(self.source, caller.also)
         else:
             passport = self._imported()
         if self.temperature is not None:
@@ -170,10 +171,10 @@ class ConvertMaterial(Operation):
 
     def _imported(self) -> "Passport":
         from viscotack.materials.exchange import Units, imported
-        from viscotack.materials.passport import Origin, Passport
+        from viscotack.materials.passport import Origin
         from viscotack.version import __version__
 
-        file, code = Path(self.source), str(self.code)
+        file, code = Path(str(self.source)), str(self.code)
         pressure, time = self.pressure_unit, self.time_unit
         units = Units(pressure, time) if pressure and time else None
         try:
@@ -228,11 +229,10 @@ class ExportMaterial(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Make the series and write it as the program has it."""
         from viscotack.materials.exchange import Units, exported
-        from viscotack.materials.library import passport_of
 
         from .parts.tables import as_text
 
-        passport = passport_of(self.passport, also=caller.also)
+        passport = passport_of(self.passport, caller.also)
         if self.temperature is not None:
             passport = passport.moved_to(self.temperature)
         form = _series(passport, self.frequencies, self.tolerance)

@@ -13,7 +13,7 @@ from viscotack.problem.accuracy import Accuracy as AccuracyCard
 from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import Choice, File, Switch, number_of
 from .declare.options import Operation
-from .declare.statement import Stated, Statement
+from .declare.statement import INDENTERS, Stated, Statement
 
 if TYPE_CHECKING:
     from viscotack.result import Result
@@ -111,7 +111,7 @@ class Simulate(Operation):
         Statement,
         Stated(
             "The contact, and what the machine does.",
-            indenters=("sphere", "punch", "profile"),
+            indenters=INDENTERS,
             spelling="commands",
         ),
     ]

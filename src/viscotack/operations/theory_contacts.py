@@ -11,6 +11,7 @@ from .declare.answer import Answer, Caller, csv_file, picture
 from .declare.cards import Number
 from .declare.options import Operation
 from .declare.statement import Stated, Statement
+from .declare.wording import flag
 from .parts.closed_form import closed_form
 from .parts.tables import as_text
 
@@ -92,7 +93,7 @@ class Maugis(Operation):
     ] = None
 
     def __post_init__(self) -> None:
-        flags = {f"--{name.replace('_', '-')}": value for name, value in self._sphere.items()}
+        flags = {flag(name): value for name, value in self._sphere.items()}
         given = [flag for flag, value in flags.items() if value is not None]
         missing = [flag for flag, value in flags.items() if value is None]
         if self.tabor is not None and given:

@@ -2,18 +2,25 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 from viscotack.units import parse
 
 from .declare.answer import Answer, Caller, picture
-from .declare.cards import Choice, File, Number, Place, Switch
-from .declare.options import Here, Operation
-from .declare.questions import PUNCH, require
+from .declare.cards import Choice, FileOfNames, Number, Placed, Switch
+from .declare.options import Operation
+from .declare.questions import (
+    PUNCH,
+    is_passport,
+    passport_in,
+    refuse_beside,
+    refuse_time,
+    require,
+)
 from .parts.solid import Reduced, material_words
 
 if TYPE_CHECKING:
@@ -25,6 +32,8 @@ if TYPE_CHECKING:
 _ROWS, _THIN, _THICK = 121, 0.3, 5.0
 # Of the way from the slow to the fast energy of a crack, where the speeds of a map begin and end.
 _SLOW, _FAST = 0.003, 0.99
+# What states a solid and its scales, which a passport does alone.
+_OF_SOLID = ("contact-modulus", "modulus-ratio", "exponent", "tau0")
 _GLUED = next(question.words for question in PUNCH.questions if question.name == "bonded")
 
 
@@ -33,45 +42,12 @@ class OfLayer(Reduced):
     """The solid of a layer."""
 
     material: Annotated[
-        str | None,
+        str | Passport | None,
         material_words(
             "sls (also when left out): standard linear solid, tau0 is its retardation time. "
             "power-law, elastic, prony:FILE and FILE.toml as for simulate sphere."
         ),
     ] = None
-
-
-@dataclass(frozen=True)
-class CaseFile(File):
-    """A case in SI; one that was sent names only files that were sent as well."""
-
-    def read(self, value: Any, place: Place) -> Path:
-        """Return the path of the file."""
-        path = super().read(value, place)
-        if not isinstance(place, Here):
-            _check_named(path, place.within(path))
-        return path
-
-
-def _check_named(case: Path, place: Place) -> None:
-    """Refuse a case that names a file which is not of its place."""
-    from viscotack.problem.case_file import read_case
-
-    refusals: list[InputError] = []
-
-    def beside(name: str) -> Path:
-        try:
-            return place.file(name)
-        except InputError as error:
-            refusals.append(error)
-            raise
-
-    try:
-        read_case(case, beside=beside)
-    except (InputError, OSError):
-        # what else is wrong with it is said by the answer, after the options, as on this machine
-        if refusals:
-            raise refusals[0] from None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,8 +66,8 @@ class OfPad(Operation):
     outputs: ClassVar = (picture("Draw that map to a .png, .pdf or .svg file."),)
 
     case: Annotated[
-        Path | None,
-        CaseFile(
+        Placed | None,
+        FileOfNames(
             "A problem in SI with units, instead of the flags of the problem; docs/input.md "
             "describes it.",
             metavar="CASE.toml",
@@ -159,9 +135,11 @@ class OfPad(Operation):
         from viscotack.pictures.plot import draw_regimes
 
         pad, solid, wanted = self._stated()
-        crack = pad.crack_law(self.theory, material=solid)
-        numbers = _boundaries(pad, crack) | _asked(pad, crack, wanted)
-        regimes = _map(pad, crack) if self.map or "plot" in caller.wants else None
+        # where arithmetic fails there is no answer, and none that is not a number
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            crack = pad.crack_law(self.theory, material=solid)
+            numbers = _boundaries(pad, crack) | _asked(pad, crack, wanted)
+            regimes = _map(pad, crack) if self.map or "plot" in caller.wants else None
         record = numbers | ({"map": _rows(regimes)} if self.map and regimes else {})
         return Answer(
             record,
@@ -197,32 +175,31 @@ class OfPad(Operation):
             )
         return pad, solid, wanted
 
-    def _of_case(self, case: Path) -> Any:
+    def _of_case(self, case: Placed) -> Any:
         """Return the problem of a case file."""
         from viscotack.geometry import FlatPunch
         from viscotack.problem.case_file import read_case
 
         if self._given:
             flags = ", ".join(f"--{flag}" for flag in self._given)
-            raise InputError(f"{case} states the whole problem; leave out {flags}")
-        problem = read_case(case)
+            raise InputError(f"{case.path} states the whole problem; leave out {flags}")
+        problem = read_case(case.path, beside=case.inside.file)
         if not isinstance(problem.geometry, FlatPunch):
             raise InputError(
-                f"{case} states a {problem.geometry.word}, which has commands of its own"
+                f"{case.path} states a {problem.geometry.word}, which has commands of its own"
             )
         return problem
 
     def _of_flags(self) -> "tuple[Pad, Material]":
         from viscotack.geometry import Bonded, Frictionless
-        from viscotack.materials.passport_file import read_passport
         from viscotack.theory.punch import Pad
 
-        given, file = self._given, self.solid.material or ""
-        passport = file.endswith(".toml")
+        given, stated = self._given, self.solid.material or ""
         needed = ["half-width", "work-of-adhesion", "strength"]
-        require(given, needed if passport else [*needed, "contact-modulus"])
-        if passport:
-            solid = read_passport(file).material
+        require(given, needed if is_passport(stated) else [*needed, "contact-modulus"])
+        if is_passport(stated):
+            refuse_beside(stated, given, _OF_SOLID)
+            solid = passport_in(stated).material
             modulus = solid.contact_modulus
         else:
             modulus = given["contact-modulus"]
@@ -241,12 +218,12 @@ class OfPad(Operation):
         from viscotack.problem.units import material_in_si
 
         solid, unit = self.solid.stated("sls")
-        if isinstance(solid, Elastic):
-            time = 1.0
-        elif unit == "1":
+        unit = "s" if isinstance(solid, Elastic) else unit
+        if unit == "1":
             require(self._given, ["tau0"])
             time = self._given["tau0"]
         else:
+            refuse_time(self._given, unit)
             time = parse(f"1 {unit}", "s")
         # only times and ratios of it are used
         return material_in_si(solid, contact_modulus, time, 0.0)

@@ -14,7 +14,7 @@ from typing import Annotated, NoReturn
 import typer
 from typer import Option
 
-from viscotack.errors import InputError
+from viscotack.errors import TOO_LARGE, InputError
 from viscotack.files.text import harmless
 from viscotack.version import __version__
 
@@ -70,7 +70,7 @@ def wrong_input() -> Iterator[None]:
     except OSError as error:
         _stop(str(error))
     except OverflowError:
-        _stop("a number of the input is too large or too small to compute with; check its unit")
+        _stop(TOO_LARGE)
     except typer.Exit:
         raise
     except Exception:

@@ -17,9 +17,10 @@ from viscotack.files.text import harmless
 from viscotack.operations import operations
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
-from viscotack.operations.declare.options import Here, Operation, Option, options, take
+from viscotack.operations.declare.options import Here, Operation, Option, answered, options, take
 from viscotack.operations.declare.questions import OF_FILE, Question
 from viscotack.operations.declare.statement import Stated, door_of
+from viscotack.operations.declare.wording import flag
 
 from .commands import AsJson, With, application, wrong_input
 from .writing import Writing, check_files
@@ -192,12 +193,36 @@ def _run(kind: type[Operation], indenter: str | None, said: dict[str, Any]) -> N
         from viscotack.problem.nouns import own_nouns
 
         also = own_nouns(own)
-        asked = take(kind, given, Here(also=also))
-        wants = frozenset(output.name for output, file in files.items() if file is not None)
-        paths = tuple(str(Path(file).resolve()) for file in own)
-        with progress() as tell:
-            answer = asked.answer(Caller(tell, wants, also, paths))
-        finish(answer, files, as_json)
+        carry_out(take(kind, given, Here(also=also)), files, own, also, as_json)
+
+
+def carry_out(
+    asked: Operation,
+    files: Mapping[Output, Path | None],
+    own: Iterable[str | Path],
+    also: tuple[Any, ...],
+    as_json: bool,
+) -> None:
+    """Answer an operation, show how far it is, and write what is wanted of the answer.
+
+    Parameters
+    ----------
+    asked : Operation
+        With its options.
+    files : mapping
+        Output -> the file that it is written to; None where it is not wanted.
+    own : iterable of path
+        The files of the user's own nouns.
+    also : tuple of classes
+        These nouns.
+    as_json : bool
+        Whether the answer is printed as one JSON object.
+    """
+    wants = frozenset(output.name for output, file in files.items() if file is not None)
+    paths = tuple(str(Path(file).resolve()) for file in own)
+    with progress() as tell:
+        answer = answered(asked, Caller(tell, wants, also, paths))
+    finish(answer, files, as_json)
 
 
 def checked(
@@ -272,7 +297,7 @@ def _of_file(
     if case is not None:
         raise InputError(f"give one file, got {what} and {case}")
     if card.table and Path(what).suffix.lower() == ".csv":
-        if flags := [f"--{name.replace('_', '-')}" for name in answers]:
+        if flags := [flag(name) for name in answers]:
             raise InputError(f"{what} is a table of cases; leave out {', '.join(flags)}")
         return {card.table: what, option.name: None}
     if not Path(what).suffix:

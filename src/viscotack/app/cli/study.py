@@ -7,12 +7,11 @@ from typer import Argument
 
 from viscotack.errors import InputError
 from viscotack.operations import operation
-from viscotack.operations.declare.answer import Caller
 from viscotack.operations.declare.options import respelled
 from viscotack.operations.declare.study import read_study
 
 from .commands import AsJson, With, application, wrong_input
-from .reading import checked, finish, progress
+from .reading import carry_out, checked
 
 
 @application.command("study")
@@ -41,13 +40,10 @@ def study_command(
 
         also = own_nouns(own or ())
         asked = read_study(file, known=operation, usual="identify rates", also=also)
-        kind, paths = type(asked.operation), tuple(str(path.resolve()) for path in own or ())
+        kind = type(asked.operation)
         files = {output: asked.write.get(output.name) for output in kind.outputs}
         try:
-            files = checked(files, (*asked.kept, *paths), as_json=as_json)
-            wants = frozenset(output.name for output, path in files.items() if path is not None)
-            with progress() as tell:
-                answer = asked.operation.answer(Caller(tell, wants, also, paths))
-            finish(answer, files, as_json)
+            files = checked(files, (*asked.kept, *(own or ())), as_json=as_json)
+            carry_out(asked.operation, files, own or (), also, as_json)
         except InputError as error:
             raise respelled(error, kind) from None

@@ -41,7 +41,7 @@ _POINTS = 80
 # dg0/E0*)^(1/3), and a curve without a start is drawn to this one.
 _LARGEST, _USUAL = 300.0, 2.0
 UNLOADING = next(tier for tier in TIERS if tier.name == "unloading")
-WORK = "work_to_pull_off"
+_WORK = "work_to_pull_off"
 _INPUTS = {AtDepth: "preload", AtForce: "preload_force", AtRadius: "preload_radius"}
 
 
@@ -96,7 +96,7 @@ def _axes(problem: Problem) -> dict[str, Any]:
     axes = {name: {"words": x.words, "unit": x.unit.si} for name, x in named.items()}
     # a punch's tension is drawn as every force is, compression upwards
     axes["force"]["words"] = "mean stress" if kind is PLANE else "force"
-    numbers = {name: kind.observables[name] for name in (_pulled(kind), WORK)}
+    numbers = {name: kind.observables[name] for name in (_pulled(kind), _WORK)}
     axes |= {name: {"words": x.words, "unit": x.unit.si} for name, x in numbers.items()}
     return axes | {
         "speed": {"words": "retraction speed", "unit": "m/s"},
@@ -233,7 +233,7 @@ def numbers_of(answer: Prediction) -> list[dict[str, Any]]:
     kind, scales = answer.problem.outputs, answer.problem.scales()
     given = (
         (_pulled(kind), answer.pull_off_force, answer.interval),
-        (WORK, answer.work_to_pull_off, answer.work_interval),
+        (_WORK, answer.work_to_pull_off, answer.work_interval),
     )
     units = {name: getattr(scales, kind.observables[name].unit.scale) for name, *_ in given}
     return [

@@ -48,6 +48,8 @@ class Card:
         Whether the command line takes it by its position.
     example : str
         As a user may give it.
+    objects : tuple of classes
+        What Python may give in the place of a text; it is the value as it stands.
     late : bool
         Whether it is read after the others, because that takes a while.
     single : bool
@@ -66,6 +68,11 @@ class Card:
     flags: tuple[str, ...] = field(default=(), kw_only=True)
     argument: bool = field(default=False, kw_only=True)
     example: str = field(default="", kw_only=True)
+    objects: tuple[type, ...] = field(default=(), kw_only=True)
+
+    def value(self, given: Any, place: Place) -> Any:
+        """Return the value of the option: what is given, where that is one of `objects`."""
+        return given if isinstance(given, self.objects) else self.read(given, place)
 
     def read(self, value: Any, place: Place) -> Any:
         """Return the value of the option; InputError where it is none."""
@@ -303,6 +310,40 @@ class File(Card):
     def names(self, given: Any) -> tuple[str, ...]:
         """Return the file."""
         return _as_name(given)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A file that names other files, and the place that named it.
+
+    Attributes
+    ----------
+    path : Path
+        The file.
+    place : Place
+        Of the request.
+    """
+
+    path: Path
+    place: Place
+
+    @property
+    def inside(self) -> Place:
+        """The place of the names that stand in the file."""
+        return self.place.within(self.path)
+
+
+@dataclass(frozen=True)
+class FileOfNames(File):
+    """A file that names other files; of a request over HTTP only those that were sent with it."""
+
+    def read(self, value: Any, place: Place) -> Placed:
+        """Return the path of the file, which the operation reads, and its place."""
+        return Placed(super().read(value, place), place)
+
+    def written(self, value: Any) -> Any:
+        """Return the path; `study_text` makes it relative to the study."""
+        return value.path
 
 
 @dataclass(frozen=True)

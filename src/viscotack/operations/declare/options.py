@@ -14,10 +14,11 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self, TypeVar, get_args, get_origin, get_type_hints
 
-from viscotack.errors import InputError, OutOfRange
+from viscotack.errors import TOO_LARGE, InputError, OutOfRange
 
 from .answer import Answer, Caller, Output
 from .cards import Card, Known, Place
+from .wording import flag, listed
 
 # not where it is a part of a word, as in the name of a file
 _FLAG = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*(?!\w)")
@@ -155,7 +156,7 @@ class Option:
     def flag(self) -> str:
         """As messages name it."""
         spelled = () if self.uncertainty else self.card.flags
-        return next((f for f in spelled if f.startswith("--")), f"--{self.name.replace('_', '-')}")
+        return next((f for f in spelled if f.startswith("--")), flag(self.name))
 
 
 @lru_cache(maxsize=256)
@@ -238,7 +239,7 @@ def take(kind: type[Asked], given: Mapping[str, Any], place: Place) -> Asked:
         option.flag for option in known.values() if option.needed and option.name not in said
     ]
     if missing:
-        raise InputError(f"{_listed(missing)} missing; --help says what they are")
+        raise InputError(f"{listed(missing)} missing; --help says what they are")
     for option in known.values():
         if isinstance(option.card, Known) and not option.uncertainty:
             _pair(option, values.get(option.part, {}))
@@ -270,7 +271,7 @@ def _read(option: Option, value: Any, place: Place) -> Any:
 
 def _one(option: Option, value: Any, place: Place) -> Any:
     try:
-        return option.card.read(value, place)
+        return option.card.value(value, place)
     except InputError as error:
         words = str(error).removeprefix("it ")
         if option.card.argument or words.startswith(option.flag):
@@ -291,8 +292,15 @@ def _pair(option: Option, values: dict[str, Any]) -> None:
         values[option.name] = (number, uncertainty)
 
 
-def _listed(words: list[str]) -> str:
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+def answered(asked: Operation, caller: Caller) -> Answer:
+    """Answer an operation; refuse numbers with which arithmetic overflows.
+
+    A plain division by zero is a defect of the operation.
+    """
+    try:
+        return asked.answer(caller)
+    except (OverflowError, FloatingPointError):
+        raise InputError(TOO_LARGE) from None
 
 
 def spelled(message: str, kind: type[Operation]) -> str:

@@ -24,6 +24,7 @@ from viscotack.materials import (
 )
 from viscotack.materials.checks import rests
 from viscotack.materials.constants import ContactModulus, ModulusRatio
+from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY, MODELS
 from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
@@ -35,6 +36,8 @@ from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start, check_n
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
 from viscotack.traction import LennardJones
 from viscotack.units import parse, positive
+
+from .wording import listed
 
 # What a start is called in a flag.
 STARTS: dict[str, Any] = {
@@ -272,10 +275,8 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     """Return the reduced material, and the unit of its times if a file states one, else "1"."""
     nouns = known() if nouns is None else nouns
     name = given.get("material", "power-law")
-    if name.endswith(".toml"):
-        for flag in ("modulus-ratio", "exponent"):
-            if flag in given:
-                raise InputError(f"{name} states the whole material; leave out --{flag}")
+    if is_passport(name):
+        refuse_beside(name, given, ("modulus-ratio", "exponent"))
         return _solid_of(given, nouns).reduced(), "1"
     if "temperature" in given:
         raise InputError(
@@ -308,9 +309,26 @@ def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple
     return kind(**values | _own_numbers(kind, values, rest, name)), "1"
 
 
-def _kind_of_material(name: str, nouns: Nouns) -> Any:
+def is_passport(material: Any) -> bool:
+    """Return whether a material is stated by a passport: an object, or the name of its file."""
+    return isinstance(material, Passport) or material.endswith(".toml")
+
+
+def passport_in(material: Any, also: Iterable[Any] = ()) -> Passport:
+    """Return the passport by which a material is stated."""
+    return material if isinstance(material, Passport) else read_passport(material, also=also)
+
+
+def refuse_beside(material: Any, given: Mapping[str, Any], flags: Iterable[str]) -> None:
+    """Refuse what a passport states already."""
+    if beside := [f"--{flag}" for flag in flags if flag in given]:
+        name = material.name if isinstance(material, Passport) else material
+        raise InputError(f"{name} states the whole material; leave out {listed(beside)}")
+
+
+def _kind_of_material(name: Any, nouns: Nouns) -> Any:
     """Return the class of a material that a flag names, None for a passport."""
-    if name.endswith(".toml"):
+    if is_passport(name):
         return None
     word, _, rest = name.partition(":")
     kind = nouns.materials.get(word)
@@ -377,18 +395,14 @@ def _refuse_missing(door: Door, given: Mapping[str, Any], in_si: bool, nouns: No
         of_solid = any(name not in given for name in needs)
         why = f" for --material {solid['material']}" if of_solid else ""
         more = f", and {start}, of which none is given" if start else ""
-        raise InputError(f"{_listed(missing)} missing{why}{more}; --help says what they are")
+        raise InputError(f"{listed(missing)} missing{why}{more}; --help says what they are")
     if start:
         raise InputError(f"give {start}, got none; --help says what they are")
 
 
-def _listed(words: list[str]) -> str:
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
-
-
 def _solid_of(given: Mapping[str, Any], nouns: Nouns) -> Material:
     """Return the material of a passport, at the temperature asked for."""
-    passport = read_passport(given["material"], also=nouns.materials.values())
+    passport = passport_in(given["material"], nouns.materials.values())
     temperature = temperature_of(given)
     return passport.material if temperature is None else passport.at_temperature(temperature)
 
@@ -408,19 +422,17 @@ def shift_deviation_of(answers: Mapping[str, Any], also: Iterable[Any] = ()) -> 
     """Return the standard deviation of log10 a_T of a passport at the temperature asked for."""
     given = given_of(answers)
     temperature = temperature_of(given)
-    if temperature is None or not given.get("material", "").endswith(".toml"):
+    if temperature is None or not is_passport(given.get("material", "")):
         return 0.0
-    return read_passport(given["material"], also=also).shift_deviation(temperature)
+    return passport_in(given["material"], also).shift_deviation(temperature)
 
 
 def _scales_of_passport(given: Mapping[str, Any], nouns: Nouns) -> dict[str, Any]:
     """Return what a passport says of the scales, where the answer is wanted in SI."""
     name = given.get("material", "")
-    if not name.endswith(".toml") or not given.keys() & SCALES.keys():
+    if not is_passport(name) or not given.keys() & SCALES.keys():
         return {}
-    for flag in ("contact-modulus", "poisson-ratio", "tau0"):
-        if flag in given:
-            raise InputError(f"{name} states the whole material; leave out --{flag}")
+    refuse_beside(name, given, ("contact-modulus", "poisson-ratio", "tau0"))
     solid = _solid_of(given, nouns)
     scales = {
         "contact-modulus": f"{solid.contact_modulus!r} Pa",
@@ -470,8 +482,7 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
         )
     needed = ["radius", "contact-modulus", "poisson-ratio", *(["tau0"] if unit == "1" else [])]
     require(given, needed, " to go to SI")
-    if unit != "1" and "tau0" in given:
-        raise InputError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
+    refuse_time(given, unit)
     scales = {}
     for name, card in SCALES.items():
         if name in given:
@@ -484,6 +495,12 @@ def _in_si(groups: Groups, given: Mapping[str, Any], unit: str) -> Problem:
     if time_unit is None:
         time_unit = parse(f"1 {unit}", "s")
     return groups.in_si(**scales, time_unit=time_unit)
+
+
+def refuse_time(given: Mapping[str, Any], unit: str) -> None:
+    """Refuse a time beside a material whose times have a unit, "1" being none."""
+    if unit != "1" and "tau0" in given:
+        raise InputError(f"--tau0 is not needed, the unit of time is {unit}; leave it out")
 
 
 def one_of(given: Mapping[str, Any], names: Iterable[str]) -> str:
@@ -500,4 +517,4 @@ def require(given: Mapping[str, Any], names: Iterable[str], why: str = "") -> No
     """Refuse flags of which some are missing, and say which."""
     missing = [f"--{name}" for name in names if name not in given]
     if missing:
-        raise InputError(f"{_listed(missing)} missing{why}; --help says what they are")
+        raise InputError(f"{listed(missing)} missing{why}; --help says what they are")

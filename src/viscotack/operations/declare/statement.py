@@ -7,19 +7,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 
 from .cards import Card, Place, Spelled
+from .wording import flag
 
 if TYPE_CHECKING:
     from viscotack.problem import Case
 
     from .questions import Door, Question
 
+# Words of what can be stated by numbers.
+INDENTERS = ("sphere", "punch", "profile")
 # Keys of a statement by numbers, and of one by a file.
 _INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
 # Answers that may name a file.
 _NAMING = {
-    "material": Spelled("", before=("prony:",), endings=(".toml",)),
+    "material": Spelled("", before=("prony:",), endings=(".toml",), objects=(Passport,)),
     "law": Spelled("", before=("table:",)),
 }
 
@@ -143,7 +147,7 @@ class Stated(Card):
 
         case = place.file(str(value[_CASE]))
         given = given_of(value)
-        flags = [_flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _INDENTER)]
+        flags = [flag(name) for name in given if name not in (_CASE, _TEMPERATURE, _INDENTER)]
         if flags:
             raise InputError(f"{case} states the whole problem; leave out {', '.join(flags)}")
         kelvin = temperature_of(given)
@@ -151,7 +155,7 @@ class Stated(Card):
         problem = read_case(case, also=place.also, temperature=kelvin, beside=beside)
         wanted, found = given.get(_INDENTER), indenter_of(problem)
         if (wanted is not None and wanted != found) or not (self.whole or found in self.indenters):
-            command = found if found in ("sphere", "punch", "profile") else "case"
+            command = found if found in INDENTERS else "case"
             raise InputError(
                 f"{case} states a {found}, which has commands of its own: viscotack simulate "
                 f"{command} {case}"
@@ -172,13 +176,11 @@ class Stated(Card):
         asked = {question.name: question for question in door.questions}
         unknown = [name for name in given if name not in asked]
         if unknown:
-            raise InputError(
-                f"a {word} is not asked {', '.join(map(_flag, unknown))}; leave it out"
-            )
+            raise InputError(f"a {word} is not asked {', '.join(map(flag, unknown))}; leave it out")
         given = {name: _answered(asked[name], answer) for name, answer in given.items()}
         for name, card in _NAMING.items():
             if name in given:
-                given[name] = card.read(given[name], place)
+                given[name] = card.value(given[name], place)
         problem = stated(door, given, place.also)
         said = {n.replace("-", "_"): v for n, v in given.items()}
         return Statement(problem, shift_deviation_of(given, place.also), {_INDENTER: word, **said})
@@ -211,13 +213,11 @@ def _checked(problem: Any) -> Any:
 
 def _answered(question: "Question", answer: Any) -> Any:
     """Return an answer, of a question that has several as a list."""
+    if question.name in _NAMING and isinstance(answer, _NAMING[question.name].objects):
+        return answer
     several = list(answer) if isinstance(answer, list | tuple) else [answer]
     is_plain = all(isinstance(x, str | Real) and not isinstance(x, bool) for x in several)
     if not is_plain or isinstance(answer, list | tuple) > question.many:
         wanted = "words" if question.text else "a number"
-        raise InputError(f"{_flag(question.name)} must be {wanted}, got {answer!r:.60}")
+        raise InputError(f"{flag(question.name)} must be {wanted}, got {answer!r:.60}")
     return several if question.many else answer
-
-
-def _flag(name: str) -> str:
-    return f"--{name.replace('_', '-')}"

@@ -7,6 +7,7 @@ are relative to the folder of the study. A table ``[write]`` names the files to 
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -160,7 +161,8 @@ def _written(option: Option, value: Any, folder: Path) -> Any:
 
 
 def _written_one(option: Option, value: Any, folder: Path) -> Any:
-    return _relative(option.card.written(value), folder)
+    is_object = isinstance(value, option.card.objects)
+    return _relative(value if is_object else option.card.written(value), folder)
 
 
 def _relative(value: Any, folder: Path) -> Any:
@@ -169,4 +171,10 @@ def _relative(value: Any, folder: Path) -> Any:
         return {name: _relative(entry, folder) for name, entry in value.items()}
     if isinstance(value, Naming):
         return f"{value.words}{_relative(value.file, folder)}"
-    return os.path.relpath(value, folder) if isinstance(value, Path) else value
+    if isinstance(value, Path):
+        return os.path.relpath(value, folder)
+    if not isinstance(value, str | Real | list | tuple):
+        raise InputError(
+            f"a study names files: write the {type(value).__name__} to a file and give its name"
+        )
+    return value

@@ -11,6 +11,7 @@ from viscotack.units import parse
 
 from ..declare.cards import Card, Choice, File, Number, Place, Two
 from ..declare.options import Part
+from ..declare.wording import flag
 
 _SEVERAL = 3.0  # K: a chamber holds its temperature better
 _MOVES = ("auto", "none", "free")
@@ -99,7 +100,7 @@ class Shifting(Part):
     def __post_init__(self) -> None:
         """Check that one shift is given, and what it needs."""
         laws = ("glass_transition", "wlf", "shift_file")
-        named = [f"--{name.replace('_', '-')}" for name in laws if getattr(self, name) is not None]
+        named = [flag(name) for name in laws if getattr(self, name) is not None]
         if len(named) > 1:
             raise InputError(f"give one shift, got {' and '.join(named)}")
         if named and self.reference_temperature is None:

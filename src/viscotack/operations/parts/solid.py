@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
 from viscotack.errors import InputError
+from viscotack.materials.passport import Passport
 
 from ..declare.cards import Named, Number, Spelled
 from ..declare.options import Part
@@ -12,7 +13,6 @@ from ..declare.questions import SPHERE, material_from
 
 if TYPE_CHECKING:
     from viscotack.materials.material import Material
-    from viscotack.materials.passport import Passport
 
 # How a text begins that states a solid itself.
 TABLE = "[material]"
@@ -26,24 +26,35 @@ def published() -> Iterable[str]:
 
 
 _WORDS = "A material passport, or the name of a published material such as pdms-10-1"
-Known = Annotated[str, Named(f"{_WORDS}.", metavar="PASSPORT", argument=True, published=published)]
+Known = Annotated[
+    str | Passport,
+    Named(
+        f"{_WORDS}.", metavar="PASSPORT", argument=True, published=published, objects=(Passport,)
+    ),
+]
 Solid = Annotated[
-    str,
+    str | Passport,
     Named(
         f"{_WORDS}; or the text of a table {TABLE}.",
         metavar="PASSPORT",
         published=published,
         text=TABLE,
+        objects=(Passport,),
     ),
 ]
 
 
-def solid_of(words: str, also: tuple[Any, ...] = ()) -> "Passport | Material":
-    """Return the passport of a name or a file, or the solid of the text of a table."""
-    if not words.lstrip().startswith(TABLE):
-        from viscotack.materials.library import passport_of
+def passport_of(given: str | Passport, also: tuple[Any, ...] = ()) -> Passport:
+    """Return the passport of a published name or a file, or the one that Python gave."""
+    from viscotack.materials import library
 
-        return passport_of(words, also=also)
+    return given if isinstance(given, Passport) else library.passport_of(given, also=also)
+
+
+def solid_of(words: str | Passport, also: tuple[Any, ...] = ()) -> "Passport | Material":
+    """Return the passport of a name or a file, or the solid of the text of a table."""
+    if isinstance(words, Passport) or not words.lstrip().startswith(TABLE):
+        return passport_of(words, also)
     from viscotack.files.toml import parse_toml
 
     from ..declare.state import State
@@ -58,7 +69,9 @@ def solid_of(words: str, also: tuple[Any, ...] = ()) -> "Passport | Material":
 
 def material_words(words: str) -> Any:
     """Return the card of a material by its word, as the flags of a problem state it."""
-    return Spelled(words, metavar="MATERIAL", before=("prony:",), endings=(".toml",))
+    return Spelled(
+        words, metavar="MATERIAL", before=("prony:",), endings=(".toml",), objects=(Passport,)
+    )
 
 
 _NUMBERS = {question.name: question.words for question in SPHERE.questions}
@@ -69,7 +82,7 @@ class Reduced(Part):
     """A solid without dimensions: by a word and its numbers, or in a file."""
 
     material: Annotated[
-        str | None,
+        str | Passport | None,
         material_words(
             "power-law (also when left out), sls, prony:FILE or a passport FILE.toml, as for "
             "simulate sphere."
