@@ -89,16 +89,16 @@ class Predict(Operation):
         ),
     ] = 0.9
     budget: Annotated[
-        float,
+        float | None,
         Number(
             "Time that the answer may take: surrogates up to 0.01, closed forms from 0.02, the "
-            "steady-crack contact from 0.5, the simulation from 3.",
+            "steady-crack contact from 0.5, the simulation from 3. Else 1 s.",
             unit="s",
             above=0,
             bare=True,
             metavar="SECONDS",
         ),
-    ] = 1.0
+    ] = None
     exact: Annotated[bool, Switch("Simulate, whatever it takes.")] = False
     compare: Annotated[bool, Switch("Simulate as well, and say how far off the prediction is.")] = (
         False
@@ -115,6 +115,7 @@ class Predict(Operation):
             return self._of_table(self.cases, caller)
         from viscotack.forecast import predict
         from viscotack.forecast.prediction import prediction_summary
+        from viscotack.forecast.tiers import SOON
         from viscotack.result import Outcome
 
         assert self.problem is not None
@@ -126,7 +127,7 @@ class Predict(Operation):
             self.problem.problem,
             shift_deviation=self.problem.deviation,
             confidence=self.confidence,
-            budget=self.budget,
+            budget=SOON if self.budget is None else self.budget,
             exact=self.exact,
         )
         if found.curve is None and caller.wants & {"curve", "plot"}:
@@ -154,7 +155,7 @@ class Predict(Operation):
         others = {
             "--compare": self.compare,
             "--exact": self.exact,
-            "--budget": self.budget != 1.0,
+            "--budget": self.budget is not None,
             "--curve": "curve" in caller.wants,
             "--plot": "plot" in caller.wants,
         }

@@ -6,13 +6,13 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.cards import card_of
-from viscotack.errors import InputError
+from viscotack.errors import TOO_LARGE, InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 
 from .declare.answer import Answer, Caller, csv_file
 from .declare.cards import Table, number_of
 from .declare.options import Operation
-from .declare.statement import Stated, Statement
+from .declare.statement import INDENTERS, Stated, Statement
 from .simulate import Accuracy, Until
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Sweep(Operation):
         Statement,
         Stated(
             "The problem whose numbers are replaced, in SI.",
-            indenters=("sphere", "punch", "profile"),
+            indenters=INDENTERS,
             spelling="case",
         ),
     ]
@@ -113,7 +113,7 @@ def _row(kind: "Kind", inputs: Mapping[str, float], settings: "CaseSettings") ->
     except (InputError, Unsolved) as error:
         row["reason"] = str(error)
     except ArithmeticError:
-        row["reason"] = "a number is too large or too small to compute with; check its unit"
+        row["reason"] = TOO_LARGE
     return row | {"wall_time_s": perf_counter() - began}
 
 

@@ -2,20 +2,19 @@
 
 import base64
 import io
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.operations import operation
-from viscotack.operations.declare.answer import Answer, Caller
-from viscotack.operations.declare.options import Operation, respelled, take
+from viscotack.operations.declare.answer import DRAWN, WORDS, Answer, Caller
+from viscotack.operations.declare.options import Operation, answered, respelled, take
 from viscotack.operations.parts.json_data import plain
 
 from .page_tasks import Asked, Tell
 
-# What may be wanted of every answer beside its files.
-WORDS, DRAWN = "words", "drawn"
 # The curve of a simulation as it grows.
 _POINTS = "points"
 
@@ -80,7 +79,7 @@ def run_operation(asked: Asked, tell: Tell, also: tuple[Any, ...]) -> dict[str, 
         wanted = _wanted(kind, asked.get("outputs", ()))
         question = take(kind, asked["given"], place)
         caller = Caller(lambda told: tell(plain(dict(told))), wanted, also, folder=folder)
-        answer = question.answer(caller)
+        answer = answered(question, caller)
         # files first: what an answer counts while it writes them is in its record
         beside = _beside(kind, answer, wanted)
         return _without(shown, _record(answer) | beside)
@@ -109,16 +108,15 @@ def _record(answer: Answer) -> dict[str, Any]:
     return found if isinstance(found, dict) else {"answer": found}
 
 
-def _wanted(kind: type[Operation], outputs: Any) -> frozenset[str]:
+def _wanted(kind: type[Operation], outputs: Sequence[str]) -> frozenset[str]:
     known = {WORDS, DRAWN, *(output.name for output in kind.outputs)}
-    named = [outputs] if isinstance(outputs, str) else list(outputs)
-    unknown = [name for name in named if name not in known]
+    unknown = [name for name in outputs if name not in known]
     if unknown:
         raise InputError(
             f"outputs must be among {', '.join(sorted(known))}, got {unknown[0]!r:.60}"
         )
     needed = {output.name for output in kind.outputs if output.needed}
-    return frozenset(named) | needed | {_POINTS}
+    return frozenset(outputs) | needed | {_POINTS}
 
 
 def _beside(kind: type[Operation], answer: Answer, wanted: frozenset[str]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from viscotack.errors import InputError
+from viscotack.errors import TOO_LARGE, InputError
 
 # Task -> module and function; a module is imported by the first task that needs it.
 TASKS = {
@@ -17,7 +17,6 @@ TASKS = {
     "operation": ("operating", "run_operation"),
     "job": ("operating", "run_operation"),
 }
-_TOO_LARGE = "a number is too large or too small to compute with; check its unit"
 
 
 def prepare(given: Mapping[str, Any]) -> tuple[Any, ...]:
@@ -36,8 +35,8 @@ def answer(
     task = asked["task"]
     try:
         return getattr(_module(task), TASKS[task][1])(asked["asked"], tell, also)
-    except ArithmeticError:  # 1e300 squared, or over nothing
-        raise InputError(_TOO_LARGE) from None
+    except ArithmeticError:
+        raise InputError(TOO_LARGE) from None
     except MemoryError:
         raise InputError("it takes more memory than this server gives to one question") from None
 

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from viscotack.files.whole import Target
 
 Told = Mapping[str, Any]
+# What may be wanted of every answer beside its files, by HTTP and the page.
+WORDS, DRAWN = "words", "drawn"
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from inspect import cleandoc
 from typing import Any
 
+from .answer import DRAWN, WORDS
 from .cards import Card, File, Named, Number
 from .options import Operation, Option, options, spelled, summary
 
@@ -62,7 +63,7 @@ def request_schema(kind: type[Operation], *, sent: bool) -> dict[str, Any]:
         Whether files are sent with it: as multipart/form-data.
     """
     properties = {option.name: _property(option, sent) for option in options(kind)}
-    names = ["words", "drawn", *(output.name for output in kind.outputs)]
+    names = [WORDS, DRAWN, *(output.name for output in kind.outputs)]
     properties["outputs"] = {
         "type": "array",
         "items": {"type": "string", "enum": names},

@@ -19,6 +19,7 @@ from viscotack.files.whole import Target, write_whole, writing_whole
 from viscotack.forecast.prediction_table import answers_of, kind_of, predict_table
 
 from ..declare.answer import Answer, Told
+from ..declare.cards import is_number
 
 # Rows that are held at once.
 _BLOCK = 50_000
@@ -104,7 +105,7 @@ def _answers(
     except ValueError as error:
         raise InputError(f"{path}: {error}") from None
     for i in np.flatnonzero(found["method"] == "").tolist():
-        wrong = [n for n in names if not _is_number(given[n][i])]
+        wrong = [n for n in names if not is_number(given[n][i])]
         if wrong:
             found["why"][i] = f"{wrong[0]} is {given[wrong[0]][i]!r}, not a number"
     return found
@@ -137,12 +138,4 @@ def _numbers(words: list[str]) -> npt.NDArray[np.float64]:
     try:
         return np.array(words, dtype=float)
     except ValueError:
-        return np.array([float(word) if _is_number(word) else np.nan for word in words])
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
+        return np.array([float(word) if is_number(word) else np.nan for word in words])
