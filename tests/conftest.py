@@ -2,7 +2,11 @@
 
 from pathlib import Path
 
+import pytest
 from hypothesis import settings
+
+from processes import Clock
+from viscotack.pool import supervisor
 
 # The same examples in every run, however slow the machine is: the fuzzer draws others.
 settings.register_profile("repeatable", derandomize=True, deadline=None)
@@ -16,3 +20,12 @@ def pytest_addoption(parser):
         default=Path("tack-files"),
         help="folder with the raw data of public tack tests, docs/tack_tests.md says which",
     )
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """Return the clock of the limits of a pool; it stands still unless a test moves it."""
+    found = Clock()
+    monkeypatch.setattr(supervisor, "monotonic", found)
+    monkeypatch.setattr(supervisor, "_LONGEST", 1e9)
+    return found

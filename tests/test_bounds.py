@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from cases import STANDARD, case_text
 from command_line import exit_status
 from effort import calls
 from viscotack.bem import Settings
@@ -39,23 +40,8 @@ PUNCH = PunchGroups(
     size=20.0, thickness=3.0, cohesion=0.05, material=SOLID, start=AtDepth(1.0), rate=10.0
 )
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
-CASE = """
-[material]
-model = "sls"
-rubbery_modulus = "1 MPa"
-glassy_modulus = "10 MPa"
-tau0 = "1 ms"
-poisson_ratio = 0.5
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
-[sphere]
-radius = "5 mm"
-[protocol]
-start = "apart 20 um"
-moves = ["approach 10 um/s to 1 um", "retract 10 um/s to -20 um"]
-"""
+MOVES = 'moves = ["approach 10 um/s to 1 um", "retract 10 um/s to -20 um"]'
+CASE = case_text(STANDARD, radius="5 mm", protocol=f'start = "apart 20 um"\n{MOVES}')
 
 
 def refused(capsys, *arguments):

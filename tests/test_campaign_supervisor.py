@@ -26,7 +26,7 @@ from campaign_work import (
     threads,
     waiting,
 )
-from processes import LONG, Clock, children, lives, state, until
+from processes import LONG, children, lives, state, until
 from viscotack import to_dict
 from viscotack.campaign import CaseSettings, NoWorker, Store, run
 from viscotack.campaign import local as local_module
@@ -46,15 +46,6 @@ LINUX = pytest.mark.skipif(not resident_memory(), reason="only Linux tells of ot
 def quick(monkeypatch):
     """Let cases have little time beyond their limit."""
     monkeypatch.setattr(local_module, "GRACE", 0.3)
-
-
-@pytest.fixture
-def clock(monkeypatch):
-    """Return the clock of limits; it stands still unless a test moves it."""
-    found = Clock()
-    monkeypatch.setattr(supervisor, "monotonic", found)
-    monkeypatch.setattr(supervisor, "_LONGEST", 1e9)
-    return found
 
 
 @pytest.fixture

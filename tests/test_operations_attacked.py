@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from cases import SPHERE
 from doors import run
 from viscotack.app.cli import application
 from viscotack.app.engine.jobs import harmless_name
@@ -23,14 +24,6 @@ ROOT = Path(__file__).parents[1]
 LENS = {path.name: path for path in (ROOT / "examples/from_rig").glob("lens_*_um_s.csv")}
 PAD = EXAMPLES["A flat punch on a soft layer"]
 RATES = {"files": sorted(LENS), "material": "pdms-10-1", "radius": "5.19 mm"}
-SPHERE = {
-    "indenter": "sphere",
-    "tabor": 3.24,
-    "modulus_ratio": 0.1,
-    "exponent": 0.8,
-    "preload": 73.0,
-    "rate": 316.23,
-}
 
 
 @pytest.fixture

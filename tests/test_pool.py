@@ -8,8 +8,8 @@ from math import inf
 
 import pytest
 
-from processes import Clock, lives, until
-from viscotack.pool import Limits, NoWorker, Pool, Setup, supervisor
+from processes import lives, until
+from viscotack.pool import Limits, NoWorker, Pool, Setup
 
 FREE = Limits()
 
@@ -23,15 +23,6 @@ def pool_of(workers=1, prepare="prepare", **setup):
         yield pool
     finally:
         pool.dismiss(at_once=True)
-
-
-@pytest.fixture
-def clock(monkeypatch):
-    """Return the clock of limits; it stands still unless a test moves it."""
-    found = Clock()
-    monkeypatch.setattr(supervisor, "monotonic", found)
-    monkeypatch.setattr(supervisor, "_LONGEST", 1e9)
-    return found
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+from cases import case_text
 from command_line import exit_status
 from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
 from viscotack.operations import ask, operation
@@ -13,21 +14,6 @@ from viscotack.operations.declare.options import Here, take
 from viscotack.operations.declare.study import read_study, study_text
 from viscotack.problem.case_file import read_case
 
-CASE = """
-[material]
-model = "elastic"
-rubbery_modulus = "1 MPa"
-poisson_ratio = 0.5
-[interface]
-law = "lennard-jones"
-work_of_adhesion = "50 mJ/m^2"
-equilibrium_gap = "1 um"
-[sphere]
-radius = "1 mm"
-[protocol]
-preload_depth = "1 um"
-speed = "10 um/s"
-"""
 ROWS = [
     {"geometry.radius": 1e-3, "protocol.speed": 1e-5},
     {"geometry.radius": 2e-3, "protocol.speed": 1e-5},
@@ -43,7 +29,7 @@ REDUCED = Groups(
 
 @pytest.fixture
 def case(tmp_path):
-    (tmp_path / "lens.toml").write_text(CASE)
+    (tmp_path / "lens.toml").write_text(case_text())
     with (tmp_path / "cases.csv").open("w", newline="") as stream:
         table = csv.DictWriter(stream, list(ROWS[0]))
         table.writeheader()

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
+from cases import PUNCH, SPHERE
 from doors import Http
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict
@@ -70,17 +71,7 @@ OTHERS = {
     "work_of_adhesion_J_m2",
     "detachment",
 }
-# A retraction of a second and its words; values are compared between doors.
-SPHERE = dict(indenter="sphere", tabor=3.24, modulus_ratio=0.1, exponent=0.8, preload=3, rate=10)
-PUNCH = dict(
-    indenter="punch",
-    size=64.85,
-    thickness=3.24,
-    cohesion=0.05,
-    modulus_ratio=0.1,
-    preload=1,
-    rate=10,
-)
+# Values are compared between functions, summaries and records.
 LENS, PADS = {"problem": FIRST}, {"problem": PAD}
 COARSE = {"until": "pull-off", "accuracy": 0.02}
 CRACK = {"problem": SPHERE | {"tabor": 1e4, "preload": 2e5, "rate": 1e3}}
