@@ -173,6 +173,12 @@ def told(folder):
     return *tables, store.plan().cases, store.settings
 
 
+def finished(store):
+    """Return the names of the cases with a result, and the failures by name of the others."""
+    failed = {row["name"]: row["failure"] for row in store.failures().to_pylist()}
+    return {row["name"] for row in store.results().to_pylist()}, failed
+
+
 @contextmanager
 def flipped(folder, chance):
     """Turn one bit of a file that is read, for the block."""

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from campaign_work import InlineCrew, employ, plan_of, stand_in, told, trouble
+from campaign_work import InlineCrew, employ, finished, plan_of, stand_in, told, trouble
 from viscotack.campaign import Store, local, run, verify
 from viscotack.pool.memory import resident_memory
 
@@ -77,7 +77,7 @@ def test_fifteen_kills_lose_nothing_and_duplicate_nothing(tmp_path, monkeypatch)
         assert started.wait() == -signal.SIGKILL
         started.stdout.close()
         store = Store(folder)
-        done, failed = store.finished()
+        done, failed = finished(store)
         assert not verify(store).wrong
         assert store.results().num_rows == len(done) and len(done) + len(failed) >= reported
     assert reported >= 3

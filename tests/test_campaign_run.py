@@ -16,6 +16,7 @@ from campaign_work import (
     crash_at_seven,
     deadly,
     employ,
+    finished,
     interrupting,
     picky,
     plan_of,
@@ -109,7 +110,7 @@ def test_failures_have_their_own_table_and_are_tried_again_on_demand(tmp_path, c
 def test_a_crash_is_tried_again_by_the_next_run(tmp_path, crew):
     folder, plan = tmp_path / "c", plan_of(tmp_path)
     assert run(plan, folder, work=crash_at_seven).failed == 1
-    assert Store(folder).finished()[1].popitem()[1] in PASSING
+    assert finished(Store(folder))[1].popitem()[1] in PASSING
     assert run(plan, folder, work=stand_in).done == 20
     assert table(folder).equals(table_of_undisturbed(tmp_path))
 
@@ -129,7 +130,7 @@ def test_what_is_reported_done_is_stored(tmp_path, crew):
     reports = []
 
     def check(now):
-        done, failed = Store(tmp_path / "c").finished()
+        done, failed = finished(Store(tmp_path / "c"))
         reports.append(now.done)
         assert (len(done), len(failed)) == (now.done, now.failed)
 

@@ -11,7 +11,7 @@ import pyarrow as pa
 import pytest
 from scipy.io import loadmat
 
-from campaign_work import plan_of
+from campaign_work import finished, plan_of
 from viscotack.campaign import CaseSettings, Store, export
 from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.parts import Ledger, Part, Parts, adopted, parquet, table_of
@@ -413,7 +413,7 @@ def test_a_problem_in_si_is_stored_whole(tmp_path):
 def test_a_plan_may_grow_but_not_change_its_accuracy(tmp_path):
     Store.create(tmp_path, plan_of(tmp_path / "p", cases=3)).add([{"name": "x"}], [])
     grown = Store.create(tmp_path, plan_of(tmp_path / "p", cases=5, text="settings.time_limit = 9"))
-    assert len(grown.plan().cases) == 5 and grown.finished() == ({"x"}, {})
+    assert len(grown.plan().cases) == 5 and finished(grown) == ({"x"}, {})
     with pytest.raises(ValueError, match=r"accuracy = 0.002, the plan asks for 0.001; .*--out"):
         Store.create(tmp_path, plan_of(tmp_path / "p", text="settings.accuracy = 1e-3"))
     with pytest.raises(ValueError, match=r"until = pull-off, the plan asks for detached; .*--out"):
@@ -451,7 +451,7 @@ def test_failures_never_enter_the_results(tmp_path):
     assert store.failures().column("reason").to_pylist()[0] == "still none"
     store.add([{"name": b, "x": 2.0}], [])
     assert store.results().column("x").to_pylist() == [1, 2, 3]
-    assert store.finished() == ({a, b, c}, {d: "refused"})
+    assert finished(store) == ({a, b, c}, {d: "refused"})
     assert store.failures().column("name").to_pylist() == [d]
 
 

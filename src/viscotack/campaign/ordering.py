@@ -1,7 +1,12 @@
-"""Rows in the order of a plan, however many: sorted in two passes, with the disk between them."""
+"""Rows in the order of a plan, however many: sorted in two passes, with the disk between them.
+
+Each part is split into boxes of neighbouring rows, and each box is sorted. A sort of pyarrow holds
+all rows in memory. Its partitioned datasets need more memory than these boxes, and they read files
+without comparing the hashes of parts, which another process may merge meanwhile.
+"""
 
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,17 +15,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .cases import Cases
+from .cases import Cases, packed
 from .parts import arrow
 
 # Rows that are held at once: of a campaign 15 MB.
 _HELD = 10_000
-
 # A column beside those of the rows.
 _RANK = " rank"
-
-# Returns the rows of a table, some at a time, with all columns or those that are named.
-Tables = Callable[[Sequence[str] | None], Iterator[Any]]
 
 
 @dataclass(frozen=True)
@@ -51,81 +52,60 @@ class Ordered:
 
 @contextmanager
 def in_order(
-    tables: Tables, cases: Cases, left_out: npt.NDArray[np.bool_] | None = None
+    tables: Callable[[], Iterable[Any]],
+    names: npt.NDArray[np.bytes_],
+    cases: Cases,
+    counts: npt.NDArray[np.int64],
 ) -> Iterator[Ordered]:
-    """Hold the rows of a table in the order of a plan.
-
-    Of rows with the same name the first counts: a case that was stored is not run again, and what a
-    second run had none the less is the same.
+    """Hold the rows of a table in the order of a plan, each name once.
 
     Parameters
     ----------
     tables : callable
-        With a column ``name``; it is read twice, and rows that came in between are left.
+        Returns the rows, some at a time; more than `names` where another process adds rows.
+    names : array of bytes
+        The names of the rows, in the same order.
     cases : Cases
         The plan. Rows of cases that are not in it come behind, by name.
-    left_out : array of bool, optional
-        Rows, in the order in which they came, that do not count; later ones do not either.
+    counts : array of int
+        Places of the rows that count; of rows with the same name the one that comes first here.
     """
     pa = arrow()
-    ranks = _ranks(tables, cases, left_out)
-    del cases  # of a million 80 MB, and not needed any more
-    pa.default_memory_pool().release_unused()
+    ranks = _ranks(names, cases, counts)
+    del cases, names  # of a million 100 MB, and not needed any more
     count = int(np.count_nonzero(ranks >= 0))
-    with tempfile.TemporaryDirectory(prefix="viscotack-") as name:
-        shelf = _Shelf(Path(name), in_memory=count <= _HELD)
-        begin = 0
-        for table in tables(None):
+    with tempfile.TemporaryDirectory(prefix="viscotack-") as folder:
+        schemas, widths, begin = [pa.schema([])], {}, 0
+        for number, table in enumerate(tables()):
             here = ranks[begin : begin + table.num_rows]
             begin += table.num_rows
-            shelf.put(table.slice(0, len(here)), here)
-            if begin >= len(ranks):
-                break
-        schema = pa.unify_schemas([pa.schema([]), *shelf.schemas], promote_options="permissive")
+            if not len(here):
+                break  # rows that were added meanwhile
+            table = table.slice(0, len(here))
+            schemas.append(table.schema)
+            for name, width in measured(table).items():
+                widths[name] = max(width, widths.get(name, 0))
+            table = table.append_column(_RANK, pa.array(here))
+            for box in np.unique(here[here >= 0] // _HELD):
+                rows = table.take(np.flatnonzero((here >= 0) & (here // _HELD == box)))
+                path = Path(folder, f"{box}-{number}.arrow")
+                pa.feather.write_feather(rows, path, compression="uncompressed")
+        schema = pa.unify_schemas(schemas, promote_options="permissive")
 
         def chunks() -> Iterator[Any]:
-            for number in range(-(-count // _HELD)):
-                yield shelf.taken(number, schema)
+            for box in range(-(-count // _HELD)):
+                some = map(pa.feather.read_table, Path(folder).glob(f"{box}-*.arrow"))
+                rows = pa.concat_tables([schema.empty_table(), *some], promote_options="permissive")
+                yield rows.take(np.argsort(rows.column(_RANK).to_numpy())).drop_columns(_RANK)
+                pa.default_memory_pool().release_unused()
 
-        yield Ordered(schema, count, shelf.widths, chunks)
+        yield Ordered(schema, count, widths, chunks)
 
 
-class _Shelf:
-    """Rows by their rank, in boxes of so many; on the disk where there are more boxes than one."""
-
-    def __init__(self, folder: Path, *, in_memory: bool) -> None:
-        self._folder, self._in_memory = folder, in_memory
-        self._boxes: dict[int, list[Any]] = {}
-        self.schemas: list[Any] = []
-        self.widths: dict[str, int] = {}
-
-    def put(self, table: Any, ranks: npt.NDArray[np.int64]) -> None:
-        pa = arrow()
-        table = table.append_column(_RANK, pa.array(ranks))
-        self.schemas.append(table.drop_columns(_RANK).schema)
-        for name, width in measured(table).items():
-            self.widths[name] = max(width, self.widths.get(name, 0))
-        for number in np.unique(ranks[ranks >= 0] // _HELD).tolist():
-            box = self._boxes.setdefault(number, [])
-            rows = table.take(np.flatnonzero((ranks >= 0) & (ranks // _HELD == number)))
-            box.append(rows if self._in_memory else self._shelved(number, len(box), rows))
-
-    def taken(self, number: int, schema: Any) -> Any:
-        """Return the rows of a box in order."""
-        pa = arrow()
-        found = [box if self._in_memory else _loaded(box) for box in self._boxes[number]]
-        rows = pa.concat_tables([schema.empty_table(), *found], promote_options="permissive")
-        rows = rows.take(np.argsort(rows.column(_RANK).to_numpy())).drop_columns(_RANK)
-        if not self._in_memory:
-            pa.default_memory_pool().release_unused()
-        return rows
-
-    def _shelved(self, number: int, place: int, rows: Any) -> Path:
-        pa = arrow()
-        path = self._folder / f"{number}-{place}.arrow"
-        with pa.OSFile(str(path), "wb") as file, pa.ipc.new_file(file, rows.schema) as out:
-            out.write_table(rows)
-        return path
+def names_of(tables: Iterable[Any]) -> npt.NDArray[np.bytes_]:
+    """Return the names of all rows of tables; as words of Python a table at a time only."""
+    found = [packed(table.column("name").to_pylist()) for table in tables]
+    return np.concatenate(found) if found else packed(())
 
 
 def measured(table: Any) -> dict[str, int]:
@@ -136,36 +116,15 @@ def measured(table: Any) -> dict[str, int]:
     return {name: pa.compute.max(found).as_py() or 0 for name, found in lengths.items()}
 
 
-def _loaded(path: Path) -> Any:
-    pa = arrow()
-    with pa.OSFile(str(path), "rb") as file:
-        return pa.ipc.open_file(file).read_all()
-
-
 def _ranks(
-    tables: Tables, cases: Cases, left_out: npt.NDArray[np.bool_] | None
+    names: npt.NDArray[np.bytes_], cases: Cases, counts: npt.NDArray[np.int64]
 ) -> npt.NDArray[np.int64]:
     """Return the place of each row among those that count; -1 for one that does not."""
-    found: list[npt.NDArray[np.int64]] = []
-    others: dict[str, int] = {}
-    for table in tables(["name"]):
-        names = table.column("name").to_pylist()
-        here = cases.places(names)
-        for i in np.flatnonzero(here < 0).tolist():
-            here[i] = -1 - others.setdefault(names[i], len(others))
-        found.append(here)
-    places = np.concatenate(found) if found else np.zeros(0, np.int64)
-    # what an earlier plan had and this one has not comes last, by name
-    by_name = {name: len(cases) + i for i, name in enumerate(sorted(others))}
-    behind = np.array([by_name[name] for name in others], np.int64)
-    places[places < 0] = behind[-1 - places[places < 0]]
-    kept = np.arange(len(places))
-    if left_out is not None:
-        kept = np.flatnonzero(~left_out[: len(places)])
-    # stable: of equal places the first row comes first
-    kept = kept[np.argsort(places[kept], kind="stable")]
-    again = np.diff(places[kept], prepend=-1) == 0
-    kept = kept[~again]
-    ranks = np.full(len(places), -1)
-    ranks[kept] = np.arange(len(kept))
+    places = cases.places(names)
+    # rows of an earlier plan come last, by name
+    others = places < 0
+    places[others] = len(cases) + np.unique(names[others], return_inverse=True)[1]
+    _, first = np.unique(places[counts], return_index=True)
+    ranks = np.full(len(names), -1)
+    ranks[counts[first]] = np.arange(len(first))
     return ranks

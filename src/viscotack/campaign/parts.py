@@ -22,12 +22,12 @@ import hashlib
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError, NotInstalled
-from viscotack.files.whole import is_draft, write_new
+from viscotack.files.whole import is_draft, remove_drafts, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
 _MERGED = 32
@@ -41,6 +41,7 @@ def arrow() -> Any:
     try:
         import pyarrow
         import pyarrow.compute
+        import pyarrow.feather
         import pyarrow.parquet
     except ImportError:
         raise NotInstalled(
@@ -61,10 +62,9 @@ class Part:
     @property
     def span(self) -> tuple[int, int]:
         """First and last append in it."""
-        found = _NAME.fullmatch(self.name)
-        if found is None or int(found[1]) > int(found[2]):
+        if (found := _span(self.name)) is None:
             raise InputError(f"{self.name!r} is no name of a part of a table")
-        return int(found[1]), int(found[2])
+        return found
 
 
 @dataclass(frozen=True)
@@ -95,13 +95,9 @@ class Ledger:
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> "Ledger":
         """Return the ledger of a record."""
-        coming = record["coming"]
-        return cls(
-            kept=tuple(Part(**part) for part in record["kept"]),
-            coming=None if coming is None else Part(**coming),
-            instead_of=record["instead_of"],
-            replaced=tuple(Part(**part) for part in record["replaced"]),
-        )
+        kept, replaced = (tuple(Part(**p) for p in record[name]) for name in ("kept", "replaced"))
+        coming = record["coming"] and Part(**record["coming"])
+        return cls(kept, coming, record["instead_of"], replaced)
 
 
 class Parts:
@@ -137,9 +133,7 @@ class Parts:
         while (self.folder / _name((number, number))).exists():  # a stranger has the name
             number += 1
         table = table_of(rows)
-        content = parquet(lambda: iter([table]))
-        span = (number, number)
-        self._write(content, len(rows), span, lambda part: Ledger(kept, coming=part))
+        self._write(parquet(lambda: [table]), len(rows), (number, number), Ledger(kept))
         self._merge()
 
     def tables(self, columns: Sequence[str] | None = None) -> Iterator[Any]:
@@ -187,15 +181,11 @@ class Parts:
     def settle(self) -> None:
         """Finish what a killed run left: a part half come, parts half gone, drafts."""
         ledger = self._ledger()
-        kept, coming = self.kept(), ledger.coming
-        gone = list(ledger.replaced)
-        if coming is not None and ledger.instead_of:
-            gone.append(coming)
-        for part in gone:
-            self._remove(part)
-        for path in self.folder.iterdir() if self.folder.is_dir() else ():
-            if is_draft(path):
-                path.unlink(missing_ok=True)
+        kept = self.kept()
+        for part in (*ledger.replaced, ledger.coming if ledger.instead_of else None):
+            if part is not None:
+                self._remove(part)
+        remove_drafts(self.folder)
         if Ledger(kept) != ledger:
             self._note(Ledger(kept))
         self._merge()
@@ -213,7 +203,7 @@ class Parts:
         ledger = self._ledger()
         known = {part.name for part in (*ledger.kept, *ledger.replaced)}
         known |= {ledger.coming.name} if ledger.coming else set()
-        found = self.folder.iterdir() if self.folder.is_dir() else ()
+        found = self.folder.glob("*")
         return sorted(path for path in found if path.name not in known and not is_draft(path))
 
     def checked(self, part: Part) -> Any:
@@ -240,24 +230,18 @@ class Parts:
             parquet(lambda: (self._read(part, None) for part in last)),
             sum(part.rows for part in last),
             whole,
-            lambda part: Ledger(kept, coming=part, instead_of=_MERGED),
+            Ledger(kept, instead_of=_MERGED),
         )
         self._note(Ledger((*kept[:-_MERGED], merged), replaced=last))
         for part in last:
             (self.folder / part.name).unlink()
         self._merge()
 
-    def _write(
-        self,
-        content: Any,
-        rows: int,
-        span: tuple[int, int],
-        announced: Callable[[Part], Ledger],
-    ) -> Part:
+    def _write(self, content: Any, rows: int, span: tuple[int, int], ledger: Ledger) -> Part:
+        """Write a part that the ledger is told of before."""
         part = Part(_name(span), hashlib.sha256(content).hexdigest(), rows)
         self.folder.mkdir(parents=True, exist_ok=True)
-        ledger = announced(part)
-        self._note(ledger)
+        self._note(replace(ledger, coming=part))
         try:
             write_new(self.folder / part.name, content)
         except OSError:
@@ -284,22 +268,18 @@ def adopted(folder: Path) -> Ledger:
     ValueError
         If two parts overlap and none holds the other: not what that version wrote.
     """
-    found = []
-    for path in folder.glob("*.parquet") if folder.is_dir() else ():
-        named = _NAME.fullmatch(path.name)
-        if named is not None and int(named[1]) <= int(named[2]):
-            found.append((int(named[1]), -int(named[2]), path))
-    kept: list[tuple[int, int, Path]] = []
+    spans = {path: span for path in folder.glob("*.parquet") if (span := _span(path.name))}
+    kept: list[Path] = []
     # of two with one beginning the longer comes first; what lies within one was merged into it
-    for first, last, path in sorted(found):
-        if not kept or first > kept[-1][1]:
-            kept.append((first, -last, path))
-        elif -last > kept[-1][1]:
+    for path, (first, last) in sorted(spans.items(), key=lambda item: (item[1][0], -item[1][1])):
+        if not kept or first > spans[kept[-1]][1]:
+            kept.append(path)
+        elif last > spans[kept[-1]][1]:
             raise InputError(
-                f"{path} and {kept[-1][2].name} overlap, which no run of viscotack leaves; move "
+                f"{path} and {kept[-1].name} overlap, which no run of viscotack leaves; move "
                 "away the one that is not of this campaign"
             )
-    return Ledger(tuple(_described(path) for _, _, path in kept))
+    return Ledger(tuple(map(_described, kept)))
 
 
 def _described(path: Path) -> Part:
@@ -345,7 +325,7 @@ def _parsed(path: Path, content: bytes, columns: Sequence[str] | None) -> Any:
         ) from None
 
 
-def parquet(tables: Callable[[], Iterator[Any]]) -> Any:
+def parquet(tables: Callable[[], Iterable[Any]]) -> Any:
     """Return tables as the bytes of one Parquet file, with a checksum of every page.
 
     They are asked for twice, and only one of them is held at a time: columns may differ.
@@ -366,21 +346,19 @@ def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:
     """Return rows as a table; a column is of words, of lists of numbers, whole or real numbers."""
     pa = arrow()
     names = dict.fromkeys(name for row in rows for name in row)
-    values = {name: [row.get(name) for row in rows] for name in names}
-    return pa.table({name: pa.array(v, _type(pa, v)) for name, v in values.items()})
+    return pa.table({name: _column(pa, [row.get(name) for row in rows]) for name in names})
 
 
-def _type(pa: Any, values: Iterable[Any]) -> Any:
-    kinds = {type(v) for v in values if v is not None}
-    if not kinds:  # another part may say what it is
-        return pa.null()
-    if str in kinds or kinds and all(issubclass(k, str) for k in kinds):
-        return pa.string()
-    if list in kinds:
-        return pa.list_(pa.float64())
-    if bool in kinds:
-        return pa.bool_()
-    return pa.int64() if kinds == {int} else pa.float64()
+def _column(pa: Any, values: list[Any]) -> Any:
+    found = pa.array(values)  # null where there is no value: another part may say what it is
+    return found.cast(pa.list_(pa.float64())) if pa.types.is_list(found.type) else found
+
+
+def _span(name: str) -> tuple[int, int] | None:
+    """Return the first and the last append in a part of this name; None for other files."""
+    found = _NAME.fullmatch(name)
+    first, last = map(int, found.groups()) if found else (1, 0)
+    return (first, last) if first <= last else None
 
 
 def _name(span: tuple[int, int]) -> str:

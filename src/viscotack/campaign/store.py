@@ -25,18 +25,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.lock import Hold
-from viscotack.files.whole import is_draft, write_whole
+from viscotack.files.whole import remove_drafts, write_whole
 from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
 from .case import CaseSettings
-from .cases import Cases, packed
+from .cases import Cases
 from .identity import identity
-from .ordering import Ordered, in_order
+from .ordering import Ordered, in_order, names_of
 from .parts import Ledger, Parts, adopted, arrow, parquet, read_proven
 from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
@@ -166,9 +165,7 @@ class Store:
             if missing := parts.forget_missing():
                 lost = [f"{name}/{part.name} with {part.rows} rows" for part in missing]
                 self._write(lost=[*self._provenance["lost"], *lost])
-        for path in self.folder.iterdir():
-            if is_draft(path):
-                path.unlink(missing_ok=True)
+        remove_drafts(self.folder)
 
     def confirm(self) -> None:
         """Say that the run that writes lives; FolderInUse if its lock has been taken away."""
@@ -217,8 +214,7 @@ class Store:
     def standing(self, cases: Cases) -> Standing:
         """Return how cases stand, by what is stored."""
         standing = Standing.of(len(cases))
-        for table in self._results.tables(["name"]):
-            standing.note_results(cases.places(table.column("name").to_pylist()))
+        standing.note_results(cases.places(names_of(self._results.tables(["name"]))))
         for table in self._failures.tables(["name", "failure"]):
             names, failures = (table.column(n).to_pylist() for n in ("name", "failure"))
             standing.note_failures(cases.places(names), failures)
@@ -233,14 +229,6 @@ class Store:
                 found.update(zip(kinds, whys, strict=True))
         return found
 
-    def finished(self) -> tuple[set[str], dict[str, str]]:
-        """Return the names of the cases with a result, and the failures by name of the others."""
-        done = {name for table in self._results.tables(["name"]) for name in _column(table, "name")}
-        failed: dict[str, str] = {}
-        for table in self._failures.tables(["name", "failure"]):
-            failed |= zip(_column(table, "name"), _column(table, "failure"), strict=True)
-        return done, {name: failure for name, failure in failed.items() if name not in done}
-
     def results(self) -> Any:
         """Return the results as a pyarrow.Table, a row per case, in the order of the plan."""
         with self.ordered_results() as ordered:
@@ -252,24 +240,23 @@ class Store:
             return ordered.table()
 
     def ordered_results(self) -> AbstractContextManager[Ordered]:
-        """Hold the results in the order of the plan, however many; see `ordering.in_order`."""
-        return in_order(self._renamed(self._results), self._cases())
+        """Hold the results in the order of the plan, however many; see `ordering.in_order`.
+
+        Of two rows of a case the first counts: what was stored is not run again.
+        """
+        names = names_of(self._results.tables(["name"]))
+        return in_order(
+            partial(_renamed, self._results), names, self._cases(), np.arange(len(names))
+        )
 
     def ordered_failures(self) -> AbstractContextManager[Ordered]:
         """Hold the last failure of every case without a result, in the order of the plan."""
-        found = [packed(_column(t, "name")) for t in self._failures.tables(["name"])]
-        names = np.concatenate(found) if found else packed(())
-        solved = Cases(np.unique(names), {})
-        away = np.zeros(len(solved), bool)
-        for table in self._results.tables(["name"]):
-            places = solved.places(_column(table, "name"))
-            away[places[places >= 0]] = True
-        # np.unique looks from the front: the last of each is the first from behind
-        _, first = np.unique(names[::-1], return_index=True)
-        left_out = np.ones(len(names), bool)
-        left_out[len(names) - 1 - first] = False
-        left_out |= away[solved.places(names)] if len(names) else False
-        return in_order(self._renamed(self._failures), self._cases(), left_out)
+        names = names_of(self._failures.tables(["name"]))
+        solved = np.zeros(len(names), bool)
+        for table in self._results.tables(["name"]) if len(names) else ():
+            solved |= np.isin(names, names_of([table]))
+        counts = np.flatnonzero(~solved)[::-1]
+        return in_order(partial(_renamed, self._failures), names, self._cases(), counts)
 
     def parts(self) -> dict[str, Parts]:
         """Return the tables by the names of their directories."""
@@ -300,7 +287,8 @@ class Store:
             raise InputError(
                 f"{self.folder} has lost its cases.parquet; run again with the plan"
             ) from None
-        names = _packed_column(table, "name")
+        # in slices: a million words of Python's would be 150 MB
+        names = names_of(table.to_batches(max_chunksize=_SLICE))
         inputs = {
             upgraded_path(name): table.column(name).to_numpy(zero_copy_only=False)
             for name in table.column_names
@@ -327,14 +315,6 @@ class Store:
         self._provenance = {**_of_today(self.folder, self._provenance), **changed}
         write_provenance(self.folder, self._provenance)
 
-    def _renamed(self, parts: Parts) -> Any:
-        """Return the tables of parts, in which older names are those of today."""
-
-        def tables(columns: Sequence[str] | None) -> Iterator[Any]:
-            return (_renamed(table) for table in parts.tables(columns))
-
-        return tables
-
 
 def table_of_cases(cases: Cases) -> Any:
     """Return cases as a table: name and inputs, with nothing where a case has no such input."""
@@ -349,17 +329,6 @@ def _tables_of_cases(cases: Cases) -> Iterator[Any]:
     """Yield cases as tables of some of them: a million at once take 100 MB more."""
     for begin in range(0, max(1, len(cases)), _WRITTEN):
         yield table_of_cases(cases[begin : begin + _WRITTEN])
-
-
-def _column(table: Any, name: str) -> list[Any]:
-    return table.column(name).to_pylist() if table.num_rows else []
-
-
-def _packed_column(table: Any, name: str) -> npt.NDArray[np.bytes_]:
-    """Return a column of names as an array; a million words of Python's would be 150 MB."""
-    column = table.column(name)
-    places = range(0, max(1, len(column)), _SLICE)
-    return np.concatenate([packed(column.slice(i, _SLICE).to_pylist()) for i in places])
 
 
 def _hash_of(path: Path) -> str | None:
@@ -384,7 +353,12 @@ def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _renamed(table: Any) -> Any:
+def _renamed(parts: Parts) -> Iterator[Any]:
+    """Yield the tables of parts, in which older names are those of today."""
+    return map(_with_names_of_today, parts.tables())
+
+
+def _with_names_of_today(table: Any) -> Any:
     """Return a table of an older version with the names that inputs and outputs have now."""
     for name in table.column_names:
         new, values = upgraded_output(upgraded_path(name)), table.column(name)

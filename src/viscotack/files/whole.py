@@ -112,6 +112,13 @@ def is_draft(path: Path) -> bool:
     return re.fullmatch(r"\.viscotack-[0-9a-f]{8}\.draft", path.name) is not None
 
 
+def remove_drafts(folder: Path) -> None:
+    """Remove the drafts that a killed process has left in a folder."""
+    for path in folder.glob("*"):
+        if is_draft(path):
+            path.unlink(missing_ok=True)
+
+
 def check_target(target: str | os.PathLike[str]) -> None:
     """Raise NotWritten unless `write_whole` could begin; what is there stays as it is.
 
