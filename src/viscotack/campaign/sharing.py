@@ -19,6 +19,7 @@ from viscotack.files.lock import locked
 
 from .cases import Cases
 from .identity import difference
+from .ordering import names_of
 from .plan import Plan
 from .store import Store
 from .verifying import verify
@@ -79,7 +80,7 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
         runs = [
             {**run, "folder": str(one.folder)} for one in stores for run in one.provenance["runs"]
         ]
-        _copy(stores, store, cases)
+        _copy(stores, store)
         store.note_merged(runs)
     return store
 
@@ -98,46 +99,33 @@ def _check_free(out: Path, names: list[str]) -> None:
         )
 
 
-def _copy(stores: Sequence[Store], out: Store, cases: Cases) -> None:
+def _copy(stores: Sequence[Store], out: Store) -> None:
     """Copy the rows of campaigns, each case once; a failure only where nobody has a result."""
-    seen = _Seen(cases)
-    for parts in out.parts().values():  # of a merge that was killed
-        for table in parts.tables(["name"]):
-            seen.fresh(table.column("name").to_pylist())
+    known = [
+        names_of(parts.tables(["name"])) for one in (out, *stores) for parts in one.parts().values()
+    ]
+    every = Cases(np.unique(np.concatenate(known)), {})
+    copied = np.zeros(len(every), bool)
+    copied[every.places(np.concatenate(known[:2]))] = True  # by a merge that was killed
     for one in stores:
-        for rows in _fresh(one.parts()["results"].tables(), seen):
+        for rows in _fresh(one.parts()["results"].tables(), every, copied):
             out.add(rows, [])
     for one in stores:
         with one.ordered_failures() as failures:
-            for rows in _fresh(failures.chunks(), seen):
+            for rows in _fresh(failures.chunks(), every, copied):
                 out.add([], rows)
 
 
-class _Seen:
-    """Which cases have been copied; a byte a case of the plan."""
-
-    def __init__(self, cases: Cases) -> None:
-        self._cases, self._copied = cases, np.zeros(len(cases), bool)
-        self._others: set[str] = set()  # rows of an earlier plan
-
-    def fresh(self, names: list[str]) -> npt.NDArray[np.int64]:
-        """Return the places of names that were not asked for before, each once."""
-        found = []
-        for i, place in enumerate(self._cases.places(names).tolist()):
-            if place >= 0 and not self._copied[place]:
-                self._copied[place] = True
-                found.append(i)
-            elif place < 0 and names[i] not in self._others:
-                self._others.add(names[i])
-                found.append(i)
-        return np.array(found, np.int64)
-
-
-def _fresh(tables: Iterator[Any], seen: _Seen) -> Iterator[list[dict[str, Any]]]:
+def _fresh(
+    tables: Iterator[Any], every: Cases, copied: npt.NDArray[np.bool_]
+) -> Iterator[list[dict[str, Any]]]:
+    """Yield the rows of cases that have not been copied, each once; they are then."""
     for table in tables:
         for begin in range(0, table.num_rows, _PART):
             some = table.slice(begin, _PART)
-            rows = some.take(seen.fresh(some.column("name").to_pylist())).to_pylist()
+            places, first = np.unique(every.places(names_of([some])), return_index=True)
+            rows = some.take(np.sort(first[~copied[places]])).to_pylist()
+            copied[places] = True
             yield [{name: v for name, v in row.items() if v is not None} for row in rows]
 
 

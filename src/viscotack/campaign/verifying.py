@@ -87,9 +87,7 @@ def _wrong_part(parts: Parts, part: Part, cases: Cases | None, seen: list[Any]) 
     for name, values in cases.columns.items():
         if name not in table.column_names or not known.any():
             continue
-        column = table.column(name)
-        if column.null_count == len(column):
-            column = arrow().nulls(len(column), arrow().float64())
-        stored = np.asarray(column.to_numpy(zero_copy_only=False), dtype=float)
+        # of a part without a value a column has no type of its own
+        stored = table.column(name).cast(arrow().float64()).to_numpy(zero_copy_only=False)
         if not np.array_equal(stored[known], values[places[known]], equal_nan=True):
             yield f"{parts.folder / part.name}: {name} of a row is not that of its case in the plan"
