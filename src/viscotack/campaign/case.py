@@ -27,8 +27,7 @@ from viscotack.result.observables import PullOff, pull_off, summary
 from viscotack.result.parts import spans
 
 from ..result import Outcome, Result
-from .identity import identity, words
-from .own import OwnChanged, nouns_of
+from .identity import OwnChanged, identity, nouns_of, words
 
 # Shares of the travel from the start to the pull-off at which the force is a key point.
 KEY_SHARES = {"25": 0.25, "50": 0.5, "75": 0.75, "87_5": 0.875}

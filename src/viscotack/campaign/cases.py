@@ -1,15 +1,21 @@
-"""Many cases in little room: a million names and inputs are some sixty megabytes."""
+"""Many cases in little room, and how they stand: a million are some sixty megabytes."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
-# Bytes of a name by content, and how many cases are gathered before they are put into arrays: those
-# of so many numbers the system takes back when they have been joined.
-_NAME, _BLOCK = 16, 20_000
+# How many cases are gathered before they are put into arrays: those of so many numbers the system
+# takes back when they have been joined.
+_BLOCK = 20_000
+
+# Failures that another run may not meet: it tries their cases again.
+PASSING = ("crashed", "worker died")
+
+Mask = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -46,8 +52,8 @@ class Cases(Sequence[Case]):
     @classmethod
     def of(cls, cases: Iterable[Case]) -> "Cases":
         """Return cases that were made one by one; they may be more than there is room for twice."""
-        found = []
-        for block in _blocks(cases):
+        found, left = [], iter(cases)
+        while block := list(islice(left, _BLOCK)):
             given = dict.fromkeys(name for case in block for name in case.inputs)
             columns = {n: np.array([c.inputs.get(n, np.nan) for c in block], float) for n in given}
             found.append(cls(packed(case.name for case in block), columns))
@@ -114,17 +120,52 @@ class Cases(Sequence[Case]):
 
 
 def packed(names: Iterable[str]) -> npt.NDArray[np.bytes_]:
-    """Return names as an array; a name that is too long for one by content stays as it is."""
-    encoded = [name.encode() for name in names]
-    return np.array(encoded, dtype=f"S{max(_NAME, *map(len, encoded), 1)}" if encoded else "S16")
+    """Return names as an array, 16 bytes each for names by content."""
+    return np.array([name.encode() for name in names], dtype="S")
 
 
-def _blocks(cases: Iterable[Case]) -> Iterator[list[Case]]:
-    block: list[Case] = []
-    for case in cases:
-        block.append(case)
-        if len(block) == _BLOCK:
-            yield block
-            block = []
-    if block:
-        yield block
+@dataclass(frozen=True)
+class Standing:
+    """How the cases of a plan stand, each at its place.
+
+    Attributes
+    ----------
+    done, failed : array of bool
+        With a result, and with a failure only.
+    lasting : array of bool
+        Failed for a reason that another run meets again.
+    """
+
+    done: Mask
+    failed: Mask
+    lasting: Mask
+
+    @classmethod
+    def of(cls, count: int) -> "Standing":
+        """Return that of so many cases of which none was tried."""
+        return cls(*(np.zeros(count, bool) for _ in range(3)))
+
+    def note_results(self, places: npt.NDArray[np.int64]) -> None:
+        """Count cases as solved; places of -1 are of no case of the plan."""
+        known = places[places >= 0]
+        self.done[known] = True
+        self.failed[known] = self.lasting[known] = False
+
+    def note_failures(self, places: npt.NDArray[np.int64], failures: Iterable[str]) -> None:
+        """Count cases as failed, unless they were solved; the last word on a case counts."""
+        for place, failure in zip(places.tolist(), failures, strict=True):
+            if place >= 0 and not self.done[place]:
+                self.failed[place], self.lasting[place] = True, failure not in PASSING
+
+    def note(
+        self,
+        cases: Cases,
+        results: Iterable[Mapping[str, Any]],
+        failures: Iterable[Mapping[str, Any]],
+    ) -> None:
+        """Count rows that were stored."""
+        failures = list(failures)
+        self.note_results(cases.places(row["name"] for row in results))
+        self.note_failures(
+            cases.places(row["name"] for row in failures), [row["failure"] for row in failures]
+        )

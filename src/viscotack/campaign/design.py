@@ -129,9 +129,7 @@ def _points(dimensions: int, cases: int, method: str, seed: int) -> Iterator[lis
     # The name that every supported version of scipy knows; the checker knows the newest only.
     generator: dict[str, Any] = {"seed": seed}
     if method == "latin-hypercube":
-        points = qmc.LatinHypercube(dimensions, **generator).random(cases)
-        for begin in range(0, cases, 2**_BLOCK):
-            yield from points[begin : begin + 2**_BLOCK].tolist()
+        yield from map(np.ndarray.tolist, qmc.LatinHypercube(dimensions, **generator).random(cases))
         return
     sequence = qmc.Sobol(dimensions, **generator)
     while True:

@@ -3,7 +3,7 @@
 import csv
 import io
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import IO, Any
 
@@ -57,19 +57,17 @@ def _whole(table: Any) -> Ordered:
 
 
 def _write_csv(rows: Ordered, names: list[str], path: Target) -> None:
-    header: list[str] = []
-    for name in names:
-        if name in rows.widths:
-            header += [cell(f"{name}_{i + 1:02d}") for i in range(rows.widths[name])]
-        else:
-            header.append(cell(name))
+    # of a list a column for each place
+    places = [(n, i) for n in names for i in (range(rows.widths[n]) if n in rows.widths else [None])]
+    header = [name if i is None else f"{name}_{i + 1:02d}" for name, i in places]
     with writing_whole(path) as file:
-        _write_rows(file, [header])
+        _write_rows(file, [map(cell, header)])
         for table in rows.chunks():
             # as words and numbers of Python's a row is ten times as large
             for begin in range(0, table.num_rows, _ROWS):
-                some = table.slice(begin, _ROWS)
-                _write_rows(file, zip(*_columns(some, names, rows.widths), strict=True))
+                some = table.slice(begin, _ROWS).select(names).to_pydict()
+                columns = (_entries(some[name], i) for name, i in places)
+                _write_rows(file, zip(*columns, strict=True))
 
 
 def _write_rows(file: IO[bytes], rows: Iterable[Iterable[Any]]) -> None:
@@ -78,15 +76,11 @@ def _write_rows(file: IO[bytes], rows: Iterable[Iterable[Any]]) -> None:
     file.write(text.getvalue().encode())
 
 
-def _columns(table: Any, names: list[str], widths: dict[str, int]) -> Iterator[list[Any]]:
-    """Yield the columns of a table in CSV: of a list one for each place."""
-    for name in names:
-        values = table.column(name).to_pylist()
-        if name in widths:
-            for i in range(widths[name]):
-                yield [v[i] if v and i < len(v) else None for v in values]
-        else:
-            yield [cell(v) if isinstance(v, str) else v for v in values]
+def _entries(values: list[Any], place: int | None) -> list[Any]:
+    """Return a column in CSV; of lists the entries at a place."""
+    if place is None:
+        return [cell(v) if isinstance(v, str) else v for v in values]
+    return [v[place] if v and place < len(v) else None for v in values]
 
 
 def _write_parquet(rows: Ordered, names: list[str], path: Target) -> None:

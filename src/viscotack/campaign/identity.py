@@ -1,17 +1,20 @@
-"""Which program a process runs: its versions, and a hash of its source.
+"""Which program a process runs: its versions, a hash of its source, and files of the user's own.
 
 Rows of two programs must not lie in one table unseen: every worker says what it is before it is
-given a case.
+given a case, and files of the user's own are read as they were when the campaign was planned.
 """
 
 import hashlib
 import platform
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy
 import scipy
 
+from viscotack.errors import InputError
+from viscotack.problem.nouns import own_nouns
 from viscotack.version import __version__
 
 # What numbers depend on, beside the source: a change of its last part does not change them.
@@ -60,3 +63,36 @@ def difference(theirs: dict[str, str], ours: dict[str, str]) -> str:
 def words(who: dict[str, str]) -> str:
     """Return an identity as one word of text, for a column of a table."""
     return ", ".join(f"{name} {version}" for name, version in who.items())
+
+
+class OwnChanged(InputError):
+    """A file of the user's own is not what it was when the campaign was planned."""
+
+
+def digest(path: str | Path) -> str:
+    """Return the hash of a file's bytes."""
+    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+
+
+def nouns_of(paths: tuple[str, ...], known: tuple[str, ...]) -> tuple[Any, ...]:
+    """Return what files of the user's own define.
+
+    Parameters
+    ----------
+    paths : tuple of str
+        The files.
+    known : tuple of str
+        Their hashes when the campaign was planned; () for a campaign that kept none.
+
+    Raises
+    ------
+    OwnChanged
+        If a file has another content now.
+    """
+    for path, before in zip(paths, known, strict=bool(known)):
+        if digest(path) != before:
+            raise OwnChanged(
+                f"{path} has been edited since this campaign was planned, and its rows would "
+                "not be of one kind; put it back as it was, or give another --out"
+            )
+    return own_nouns(paths)

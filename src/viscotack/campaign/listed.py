@@ -11,8 +11,8 @@ from viscotack.errors import InputError
 from viscotack.files.text import read_text
 from viscotack.problem.older import upgraded_path
 
-# Of a text with the line ends of any system; as a file in memory it would be four times as large.
-_LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+")
+# Of a text as read_text returns it; as a file in memory it would be four times as large.
+_LINE = re.compile(r"[^\n]*\n|[^\n]+")
 
 
 def read_words(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:

@@ -20,13 +20,13 @@ from .case import CaseSettings
 from .cases import Case, Cases
 from .columns import KINDS, Kind, has_relaxed_contact, kind_of_columns, kind_of_problem
 from .design import Tally, accepted, fill, grid
+from .identity import digest
 from .inputs import check_exponent
 from .listed import Listed, renamed
-from .own import digests
 
 _KEYS = ("kind", "problem", "temperature", "with", "settings", "grid", "fill", "list")
-# Tables and blocks of a file, kind and base problem of its cases, settings that replace its own.
-_Read = tuple[dict[str, Any], list[tuple[str, Any]], Kind, dict[str, Any] | None, dict[str, Any]]
+# Tables and blocks of a file.
+_Read = tuple[dict[str, Any], list[tuple[str, Any]]]
 
 
 @dataclass(frozen=True)
@@ -96,28 +96,29 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
     path = Path(path)
     changed = {name: value for name, value in changed.items() if value is not None}
     source = read_text(path)
-    read = _from_csv if path.suffix == ".csv" else _from_toml
-    tables, blocks, kind, base, changed = read(path, source, changed)
-    settings = _settings(path, tables.get("settings", {}), changed)
-    return replace(
-        _planned(str(path), kind, blocks, settings, base),
-        source=source,
-        suffix=".csv" if path.suffix == ".csv" else ".toml",
-    )
-
-
-def _from_csv(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+    is_csv = path.suffix == ".csv"
+    tables, blocks = (_from_csv if is_csv else _from_toml)(path, source)
     if "temperature" in changed:
-        raise InputError(f"{path} states cases without dimensions, which have no temperature")
+        if is_csv:
+            raise InputError(f"{path} states cases without dimensions, which have no temperature")
+        tables["temperature"] = changed.pop("temperature")
+    if own := (*_own(path, tables), *changed.get("own", ())):
+        changed["own"] = own
+    kind, base = _kind(path, tables, blocks, own)
+    settings = _settings(path, tables.get("settings", {}), changed)
+    plan = _planned(str(path), kind, blocks, settings, base)
+    return replace(plan, source=source, suffix=".csv" if is_csv else ".toml")
+
+
+def _from_csv(path: Path, source: str) -> _Read:
     rows = Listed(path, source)
     try:
-        kind = KINDS[kind_of_columns(set(rows.names))]
+        return {"kind": kind_of_columns(set(rows.names))}, [("list", rows)]
     except ValueError as error:
         raise InputError(f"{path}: {error}") from None
-    return {}, [("list", rows)], kind, None, changed
 
 
-def _from_toml(path: Path, source: str, changed: dict[str, Any]) -> _Read:
+def _from_toml(path: Path, source: str) -> _Read:
     tables = parse_toml(source, path)
     unknown = tables.keys() - set(_KEYS)
     if unknown:
@@ -128,11 +129,7 @@ def _from_toml(path: Path, source: str, changed: dict[str, Any]) -> _Read:
     blocks = [(k, _listed(path, block) if k == "list" else block) for k, block in blocks]
     if not blocks:
         raise InputError(f"{path}: no [[grid]], [[list]] or [[fill]]: there is nothing to run")
-    if "temperature" in changed:
-        tables["temperature"] = changed.pop("temperature")
-    own = (*_own(path, tables), *changed.get("own", ()))
-    kind, base = _kind(path, tables, blocks, own)
-    return tables, blocks, kind, base, changed | ({"own": own} if own else {})
+    return tables, blocks
 
 
 def space_filling(
@@ -410,7 +407,7 @@ def _settings(path: Path, given: Any, changed: Mapping[str, Any]) -> CaseSetting
         raise InputError(f"{path}, [settings]: may have {', '.join(names)}, got {given!r}")
     values = dict(given) | dict(changed)
     if "own" in values:
-        values["own_sha256"] = digests(values["own"])
+        values["own_sha256"] = tuple(map(digest, values["own"]))
     for name, field in cards(CaseSettings).items():
         if name in values:
             try:

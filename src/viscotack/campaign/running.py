@@ -18,7 +18,7 @@ from viscotack.files.lock import locked
 from viscotack.pool import NoWorker
 
 from .case import Answer, Work, measure
-from .cases import Cases
+from .cases import PASSING, Cases
 from .cluster import Security, check_installed, cluster
 from .columns import Kind
 from .crew import Crew, Gone, Lost
@@ -26,7 +26,6 @@ from .identity import identity, words
 from .local import local
 from .parts import arrow
 from .plan import Plan
-from .standing import PASSING
 from .store import Store
 
 # So many cases are stored at once, however short the time since the last ones were.

@@ -33,13 +33,12 @@ from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
 from .case import CaseSettings
-from .cases import Cases
-from .identity import identity
+from .cases import Cases, Standing
+from .identity import digest, identity
 from .ordering import Ordered, in_order, names_of
 from .parts import Ledger, Parts, adopted, arrow, parquet, read_proven
 from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
-from .standing import Standing
 
 _TABLES = ("results", "failures")
 # Names that are words of Python at a time, and cases that are written at a time.
@@ -332,10 +331,7 @@ def _tables_of_cases(cases: Cases) -> Iterator[Any]:
 
 
 def _hash_of(path: Path) -> str | None:
-    try:
-        return hashlib.sha256(path.read_bytes()).hexdigest()
-    except FileNotFoundError:
-        return None
+    return digest(path) if path.exists() else None
 
 
 def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
