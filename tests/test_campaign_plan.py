@@ -168,6 +168,8 @@ def test_ranges_are_as_wide_as_they_are_written():
     assert row == {"x": 2.0, "y": 3.0}
     rows = list(grid({"x": {"log": [1, 4, 64], "count": 5}, "y": {"linear": [-1, -1], "count": 1}}))
     assert [r["x"] for r in rows] == [1.0, 2.0, 4.0, 16.0, 64.0] and rows[0]["y"] == -1.0
+    chosen = grid({"x": {"choose": [3, 4, 5], "weights": [1, 1, 0], "count": 3}})
+    assert [row["x"] for row in chosen] == [3.0, 4.0, 4.0]
     third = fill({"x": {"choose": [1, 2, 3], "weights": [1, 0, 1]}}, cases=8)
     assert {next(third)["x"] for _ in range(64)} == {1.0, 3.0}
     # nine digits, so that machines name the same cases

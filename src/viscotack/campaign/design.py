@@ -184,7 +184,11 @@ def _choice(name: str, values: npt.NDArray, weights: Sequence[float]) -> Any:
             f"{name}: needs a weight, not negative, for each of its {len(values)} choices, "
             f"got {list(weights)}"
         )
-    return lambda place: float(values[np.searchsorted(shares, place * shares[-1], side="right")])
+    # at the end of a grid, 1, the last one that has a weight
+    last = np.searchsorted(shares, shares[-1])
+    return lambda place: float(
+        values[min(last, np.searchsorted(shares, place * shares[-1], side="right"))]
+    )
 
 
 def _numbers(name: str, given: Any) -> list[float]:
