@@ -16,6 +16,7 @@ _BLOCK = 20_000
 PASSING = ("crashed", "worker died")
 
 Mask = npt.NDArray[np.bool_]
+Names = npt.NDArray[np.bytes_]
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Cases(Sequence[Case]):
         The inputs; not a number where a case has no such input.
     """
 
-    def __init__(self, names: npt.NDArray[np.bytes_], columns: Mapping[str, npt.NDArray]) -> None:
+    def __init__(self, names: Names, columns: Mapping[str, npt.NDArray]) -> None:
         self.names, self.columns = names, dict(columns)
         self._sorted: tuple[npt.NDArray, npt.NDArray] | None = None
 
@@ -106,7 +107,7 @@ class Cases(Sequence[Case]):
         _, first = np.unique(self.names, return_index=True)
         return self if len(first) == len(self) else self[np.sort(first)]
 
-    def places(self, names: "Iterable[str] | npt.NDArray[np.bytes_]") -> npt.NDArray[np.int64]:
+    def places(self, names: "Iterable[str] | Names") -> npt.NDArray[np.int64]:
         """Return where names are among the cases; -1 where they are not."""
         if self._sorted is None:
             order = np.argsort(self.names, kind="stable")
@@ -119,7 +120,7 @@ class Cases(Sequence[Case]):
         return np.where(known[at] == wanted, order[at], -1)
 
 
-def packed(names: Iterable[str]) -> npt.NDArray[np.bytes_]:
+def packed(names: Iterable[str]) -> Names:
     """Return names as an array, 16 bytes each for names by content."""
     return np.array([name.encode() for name in names], dtype="S")
 

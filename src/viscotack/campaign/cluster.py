@@ -6,7 +6,7 @@ known.
 """
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,6 +30,9 @@ _LISTED = 1.0
 _AHEAD = 1
 # Seconds in which an answer that is ready comes over the wire.
 _FETCH = 3.0
+_GONE = (
+    "the connection to the scheduler was lost; what is stored is safe: run again when it is back"
+)
 _THREAD = threading.local()
 # Asks a worker who it is. In words: over a function that it cannot import it would break down and
 # leave without saying why.
@@ -78,7 +81,6 @@ class DaskCrew:
     def __init__(self, client: Any, packed: bytes, settings: CaseSettings) -> None:
         self._client, self._packed, self._settings = client, packed, settings
         self._machines: dict[str, _Machine] = {}
-        self._unfit: dict[str, str] = {}
         self._flying: dict[int, tuple[Any, str]] = {}
         self._landed: SimpleQueue[tuple[str, Any, Any]] = SimpleQueue()
         self._lost: list[tuple[int, Lost]] = []
@@ -142,7 +144,8 @@ class DaskCrew:
             self._dismiss(address, f"{type(answer).__name__}: {answer}")
             yield what, Lost(f"its worker {address} cannot do it: {answer}", blame=False)
         elif answer is None:
-            self._check_connection()
+            if self._client.status != "running" or self._client.scheduler is None:
+                raise Gone(_GONE)
             future.cancel()
             yield what, Lost(f"its worker {address} left with its answer", blame=False)
         elif isinstance(answer, str):
@@ -153,7 +156,6 @@ class DaskCrew:
 
     def _dismiss(self, address: str, why: str) -> None:
         """Give a machine nothing any more."""
-        self._unfit[address] = why
         if machine := self._machines.get(address):
             machine.fit, machine.unfit = False, why
 
@@ -177,7 +179,10 @@ class DaskCrew:
         if now - self._listed < _LISTED:
             return
         self._listed = now
-        there = self._asked(lambda: self._client.nthreads())
+        try:
+            there = self._client.nthreads()
+        except (OSError, TimeoutError, RuntimeError, ValueError):
+            raise Gone(_GONE) from None
         for address in [a for a in self._machines if a not in there]:
             machine = self._machines.pop(address)
             for number in machine.flying:
@@ -222,22 +227,6 @@ class DaskCrew:
         return (
             f"no worker of {scheduler} may be given a case: {'; '.join(whys[:3])}{more}; "
             "workers must have this version of viscotack, and of what it stands on"
-        )
-
-    def _asked(self, question: Callable[[], Any]) -> Any:
-        try:
-            return question()
-        except (OSError, TimeoutError, RuntimeError, ValueError):
-            raise self._gone() from None
-
-    def _check_connection(self) -> None:
-        if self._client.status != "running" or self._client.scheduler is None:
-            raise self._gone()
-
-    def _gone(self) -> Gone:
-        return Gone(
-            "the connection to the scheduler was lost; what is stored is safe: run again when it "
-            "is back"
         )
 
 

@@ -10,11 +10,11 @@ from typing import IO, Any
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
 
 from .ordering import Ordered, measured
-from .parts import arrow
 
 # What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
 _MOST_MAT = 1e9
@@ -58,7 +58,8 @@ def _whole(table: Any) -> Ordered:
 
 def _write_csv(rows: Ordered, names: list[str], path: Target) -> None:
     # of a list a column for each place
-    places = [(n, i) for n in names for i in (range(rows.widths[n]) if n in rows.widths else [None])]
+    widths = {name: range(width) for name, width in rows.widths.items()}
+    places = [(name, i) for name in names for i in widths.get(name, [None])]
     header = [name if i is None else f"{name}_{i + 1:02d}" for name, i in places]
     with writing_whole(path) as file:
         _write_rows(file, [map(cell, header)])

@@ -15,16 +15,15 @@ from viscotack.problem.older import upgraded_path
 _LINE = re.compile(r"[^\n]*\n|[^\n]+")
 
 
-def read_words(path: Path) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
+def read_words(
+    path: Path, text: str | None = None
+) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
     """Return the names in the first row of a CSV file, and the other rows with their lines.
 
-    Rows are read as they are asked for; one that is wrong is refused then.
+    Rows are read as they are asked for, of the text of the file where it was read before; one that
+    is wrong is refused then.
     """
-    return _words(path, read_text(path))
-
-
-def _words(path: Path, text: str) -> tuple[list[str], Iterator[tuple[int, list[str]]]]:
-    rows = _filled(path, text)
+    rows = _filled(path, read_text(path) if text is None else text)
     names = [name.strip() for name in next(rows, (0, []))[1]]
     first = next(rows, None)
     if first is None or len(set(names)) != len(names):
@@ -58,10 +57,10 @@ class Listed:
 
     def __init__(self, path: Path, text: str) -> None:
         self.path, self._text = path, text
-        self.names = list(renamed(dict.fromkeys(_words(path, text)[0])))
+        self.names = list(renamed(dict.fromkeys(read_words(path, text)[0])))
 
     def __iter__(self) -> Iterator[tuple[int, dict[str, float]]]:
-        for line, row in _words(self.path, self._text)[1]:
+        for line, row in read_words(self.path, self._text)[1]:
             try:
                 yield line, {n: float(v) for n, v in zip(self.names, row, strict=True)}
             except ValueError as error:

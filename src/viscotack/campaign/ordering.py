@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .cases import Cases, packed
-from .parts import arrow
+from viscotack.files.arrow import arrow
+
+from .cases import Cases, Names, packed
 
 # Rows that are held at once: of a campaign 15 MB.
 _HELD = 10_000
@@ -53,7 +54,7 @@ class Ordered:
 @contextmanager
 def in_order(
     tables: Callable[[], Iterable[Any]],
-    names: npt.NDArray[np.bytes_],
+    names: Names,
     cases: Cases,
     counts: npt.NDArray[np.int64],
 ) -> Iterator[Ordered]:
@@ -102,7 +103,7 @@ def in_order(
         yield Ordered(schema, count, widths, chunks)
 
 
-def names_of(tables: Iterable[Any]) -> npt.NDArray[np.bytes_]:
+def names_of(tables: Iterable[Any]) -> Names:
     """Return the names of all rows of tables; as words of Python a table at a time only."""
     found = [packed(table.column("name").to_pylist()) for table in tables]
     return np.concatenate(found) if found else packed(())
@@ -116,9 +117,7 @@ def measured(table: Any) -> dict[str, int]:
     return {name: pa.compute.max(found).as_py() or 0 for name, found in lengths.items()}
 
 
-def _ranks(
-    names: npt.NDArray[np.bytes_], cases: Cases, counts: npt.NDArray[np.int64]
-) -> npt.NDArray[np.int64]:
+def _ranks(names: Names, cases: Cases, counts: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
     """Return the place of each row among those that count; -1 for one that does not."""
     places = cases.places(names)
     # rows of an earlier plan come last, by name

@@ -26,7 +26,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from viscotack.errors import InputError, NotInstalled
+from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 from viscotack.files.whole import is_draft, remove_drafts, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
@@ -34,21 +35,6 @@ _MERGED = 32
 _LARGEST = 30e6
 _TRIES = 5
 _NAME = re.compile(r"(\d{6,18})-(\d{6,18})\.parquet")
-
-
-def arrow() -> Any:
-    """Return the library of the store, or say how to get it."""
-    try:
-        import pyarrow
-        import pyarrow.compute
-        import pyarrow.feather
-        import pyarrow.parquet
-    except ImportError:
-        raise NotInstalled(
-            "campaigns are stored in Parquet, which needs pyarrow; install it with "
-            "pip install 'viscotack[campaign]'"
-        ) from None
-    return pyarrow
 
 
 @dataclass(frozen=True)

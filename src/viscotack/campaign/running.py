@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 from viscotack.files.lock import locked
 from viscotack.pool import NoWorker
 
@@ -24,7 +25,6 @@ from .columns import Kind
 from .crew import Crew, Gone, Lost
 from .identity import identity, words
 from .local import local
-from .parts import arrow
 from .plan import Plan
 from .store import Store
 

@@ -163,15 +163,11 @@ def _check_alike(one: Store, other: Store) -> None:
         was, now = (given["settings"].get(name) for given in (first, second))
         if was != now:
             raise InputError(f"{one.folder} has {name} = {was}, {other.folder} has {now}")
-    known: list[tuple[Store, dict[str, str]]] = [
-        (store, run["identity"])
-        for store in (one, other)
-        for run in store.provenance["runs"]
-        if "identity" in run
-    ]
-    for store, identity in known[1:]:
+    runs = [(store.folder, run) for store in (one, other) for run in store.provenance["runs"]]
+    known = [(folder, run["identity"]) for folder, run in runs if "identity" in run]
+    for folder, identity in known[1:]:
         if words := difference(identity, known[0][1]):
             raise InputError(
-                f"{store.folder} was run by another program than {known[0][0].folder}: {words}; "
-                "their rows do not belong in one table"
+                f"{folder} was run by another program than {known[0][0]}: {words}; their rows do "
+                "not belong in one table"
             )

@@ -27,16 +27,17 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 from viscotack.files.lock import Hold
 from viscotack.files.whole import remove_drafts, write_whole
 from viscotack.problem.older import upgraded, upgraded_output, upgraded_path
 from viscotack.version import __version__
 
 from .case import CaseSettings
-from .cases import Cases, Standing
+from .cases import Cases, Names, Standing
 from .identity import digest, identity
 from .ordering import Ordered, in_order, names_of
-from .parts import Ledger, Parts, adopted, arrow, parquet, read_proven
+from .parts import Ledger, Parts, adopted, parquet, read_proven
 from .plan import Plan, restored_kind
 from .provenance import FORMAT, FORMAT_VERSION, read_provenance, write_provenance
 
@@ -68,10 +69,10 @@ class Store:
     def __init__(self, folder: str | os.PathLike[str], hold: Hold | None = None) -> None:
         self.folder, self._hold = Path(folder), hold
         self._provenance = read_provenance(self.folder)
-        self._results, self._failures = (
-            Parts(self.folder / name, partial(self._ledger, name), partial(self._note, name))
+        self._parts = {
+            name: Parts(self.folder / name, partial(self._ledger, name), partial(self._note, name))
             for name in _TABLES
-        )
+        }
 
     @classmethod
     def create(
@@ -159,7 +160,7 @@ class Store:
 
         Nothing is removed that a run of this campaign has not written.
         """
-        for parts, name in ((self._results, "results"), (self._failures, "failures")):
+        for name, parts in self._parts.items():
             parts.settle()
             if missing := parts.forget_missing():
                 lost = [f"{name}/{part.name} with {part.rows} rows" for part in missing]
@@ -175,8 +176,8 @@ class Store:
         self, results: Sequence[Mapping[str, Any]], failures: Sequence[Mapping[str, Any]]
     ) -> None:
         """Store rows durably; the caller holds the lock."""
-        self._results.append(results)
-        self._failures.append(failures)
+        self._parts["results"].append(results)
+        self._parts["failures"].append(failures)
 
     def note_run(self, number: int | None = None, **facts: Any) -> int:
         """Add a run with its machine and versions to the provenance, or facts to one; its number.
@@ -198,23 +199,24 @@ class Store:
             )
             number = len(runs) - 1
         runs[number] |= facts
-        # what was written last is there: no part is only coming any more
-        for parts in (self._results, self._failures):
-            parts.settle()
-        self._write(runs=runs)
+        self._note_settled(runs=runs)
         return number
 
     def note_merged(self, runs: list[dict[str, Any]]) -> None:
         """Keep the runs of the campaigns that this one is whole of; the caller holds the lock."""
-        for parts in (self._results, self._failures):
+        self._note_settled(runs=runs, merging=[])
+
+    def _note_settled(self, **facts: Any) -> None:
+        # what was written last is there: no part is only coming any more
+        for parts in self._parts.values():
             parts.settle()
-        self._write(runs=runs, merging=[])
+        self._write(**facts)
 
     def standing(self, cases: Cases) -> Standing:
         """Return how cases stand, by what is stored."""
         standing = Standing.of(len(cases))
-        standing.note_results(cases.places(names_of(self._results.tables(["name"]))))
-        for table in self._failures.tables(["name", "failure"]):
+        standing.note_results(cases.places(self._names("results")))
+        for table in self._parts["failures"].tables(["name", "failure"]):
             names, failures = (table.column(n).to_pylist() for n in ("name", "failure"))
             standing.note_failures(cases.places(names), failures)
         return standing
@@ -243,23 +245,29 @@ class Store:
 
         Of two rows of a case the first counts: what was stored is not run again.
         """
-        names = names_of(self._results.tables(["name"]))
-        return in_order(
-            partial(_renamed, self._results), names, self._cases(), np.arange(len(names))
-        )
+        names = self._names("results")
+        return self._in_order("results", names, np.arange(len(names)))
 
     def ordered_failures(self) -> AbstractContextManager[Ordered]:
         """Hold the last failure of every case without a result, in the order of the plan."""
-        names = names_of(self._failures.tables(["name"]))
+        names = self._names("failures")
         solved = np.zeros(len(names), bool)
-        for table in self._results.tables(["name"]) if len(names) else ():
+        for table in self._parts["results"].tables(["name"]) if len(names) else ():
             solved |= np.isin(names, names_of([table]))
-        counts = np.flatnonzero(~solved)[::-1]
-        return in_order(partial(_renamed, self._failures), names, self._cases(), counts)
+        return self._in_order("failures", names, np.flatnonzero(~solved)[::-1])
+
+    def _names(self, table: str) -> Names:
+        return names_of(self._parts[table].tables(["name"]))
+
+    def _in_order(self, table: str, names: Names, counts: Any) -> AbstractContextManager[Ordered]:
+        def tables() -> Iterator[Any]:
+            return map(_with_names_of_today, self._parts[table].tables())
+
+        return in_order(tables, names, self._cases(), counts)
 
     def parts(self) -> dict[str, Parts]:
         """Return the tables by the names of their directories."""
-        return {"results": self._results, "failures": self._failures}
+        return self._parts
 
     def files(self) -> dict[str, list[str]]:
         """Return the other files, with the hashes that each may have."""
@@ -271,10 +279,8 @@ class Store:
 
     def lost(self) -> list[str]:
         """Return sentences for parts that were removed, whose cases are run again."""
-        return [f"{self.folder}/{words} was removed by somebody" for words in self._lost()]
-
-    def _lost(self) -> list[str]:
-        return self._provenance.get("lost", [])
+        lost = self._provenance.get("lost", [])
+        return [f"{self.folder}/{words} was removed by somebody" for words in lost]
 
     def _cases(self) -> Cases:
         path = self.folder / "cases.parquet"
@@ -347,11 +353,6 @@ def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
         "lost": [],
         "files": {name: [found] for name, found in hashes.items() if found},
     }
-
-
-def _renamed(parts: Parts) -> Iterator[Any]:
-    """Yield the tables of parts, in which older names are those of today."""
-    return map(_with_names_of_today, parts.tables())
 
 
 def _with_names_of_today(table: Any) -> Any:

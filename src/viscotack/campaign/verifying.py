@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 
 from .cases import Cases, packed
-from .parts import Part, Parts, arrow
+from .parts import Part, Parts
 from .store import Store
 
 

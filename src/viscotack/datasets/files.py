@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.files.arrow import arrow
 from viscotack.problem.older import upgraded_output
 
 NAMES = (
@@ -93,7 +94,7 @@ def load(name: str) -> Any:
     8505
     """
     content = _checked(name)
-    pa = _arrow()
+    pa = arrow("the datasets are stored")
     table = pa.parquet.read_table(pa.BufferReader(content), partitioning=None)
     facts = json.dumps(_facts(table.schema))
     names = [upgraded_output(name) for name in table.column_names]
@@ -109,7 +110,7 @@ def metadata(name: str) -> dict[str, Any]:
     'CC BY 4.0'
     """
     content = _checked(name)
-    pa = _arrow()
+    pa = arrow("the datasets are stored")
     return _facts(pa.parquet.read_schema(pa.BufferReader(content)))
 
 
@@ -152,15 +153,3 @@ def _checked(name: str) -> bytes:
 def _checksums() -> dict[str, str]:
     lines = _CHECKSUMS.read_text(encoding="utf-8").splitlines()
     return {file: digest for digest, file in (line.split() for line in lines)}
-
-
-def _arrow() -> Any:
-    try:
-        import pyarrow
-        import pyarrow.parquet
-    except ImportError:
-        raise ModuleNotFoundError(
-            "the datasets are stored in Parquet, which needs pyarrow; install it with "
-            "pip install 'viscotack[campaign]'"
-        ) from None
-    return pyarrow

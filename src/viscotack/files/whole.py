@@ -11,7 +11,7 @@ import re
 import secrets
 import stat
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
@@ -76,7 +76,8 @@ def writing_whole(target: Target) -> Iterator[IO[bytes]]:
             with open(handle, "wb", closefd=False) as file:
                 yield file
         elif found is None or stat.S_ISREG(found.st_mode):
-            with _draft(Path(os.path.realpath(path)), found) as file:
+            place = Path(os.path.realpath(path))
+            with _draft(place, None if found is None else found.st_mode, os.replace) as file:
                 yield file
         else:
             with open(path, "wb") as file:
@@ -96,13 +97,8 @@ def write_new(path: Path, content: Any) -> None:
         If that could not be done; with what was there as it was.
     """
     try:
-        draft = _draft_beside(path)
-        try:
-            _fill(draft, content)
-            _name(draft, path)
-        finally:
-            draft.unlink(missing_ok=True)
-        _sync(path.parent)
+        with _draft(path, None, _name) as file:
+            file.write(content)
     except OSError as error:
         raise _not_written(path, error) from None
 
@@ -215,27 +211,22 @@ def _draft_beside(place: Path) -> Path:
 
 
 @contextmanager
-def _draft(place: Path, found: os.stat_result | None) -> Iterator[IO[bytes]]:
-    """Hold a draft that takes the place of a file when it is finished and on the disk."""
+def _draft(
+    place: Path, mode: int | None, finish: Callable[[Path, Path], object]
+) -> Iterator[IO[bytes]]:
+    """Hold a draft that `finish` gives its name when it is complete and on the disk."""
     draft = _draft_beside(place)
     try:
         with open(draft, "xb") as file:
-            if found is not None:
-                os.chmod(draft, stat.S_IMODE(found.st_mode))
+            if mode is not None:
+                os.chmod(draft, stat.S_IMODE(mode))
             yield file
             file.flush()
             os.fsync(file.fileno())
-        os.replace(draft, place)
+        finish(draft, place)
     finally:
         draft.unlink(missing_ok=True)
     _sync(place.parent)
-
-
-def _fill(draft: Path, content: Any) -> None:
-    with open(draft, "xb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
 
 
 def _name(draft: Path, path: Path) -> None:
