@@ -15,6 +15,7 @@ from viscotack.files.text import cell
 from viscotack.files.whole import Target, write_whole, writing_whole
 
 from .ordering import Ordered, measured
+from .parts import write_parquet
 
 # What a MATLAB file may have [bytes]: it is made in memory, and its format ends at twice as much.
 _MOST_MAT = 1e9
@@ -85,13 +86,9 @@ def _entries(values: list[Any], place: int | None) -> list[Any]:
 
 
 def _write_parquet(rows: Ordered, names: list[str], path: Target) -> None:
-    pa = arrow()
-    schema = pa.schema([rows.schema.field(name) for name in names])
+    schema = arrow().schema([rows.schema.field(name) for name in names])
     with writing_whole(path) as file:
-        options = {"compression": "zstd", "write_page_checksum": True}
-        with pa.parquet.ParquetWriter(file, schema, **options) as writer:
-            for table in rows.chunks():
-                writer.write_table(table.select(names).cast(schema))
+        write_parquet(file, schema, (table.select(names) for table in rows.chunks()))
 
 
 def _write_mat(rows: Ordered, names: list[str], path: Target) -> None:

@@ -73,10 +73,11 @@ def in_order(
     """
     pa = arrow()
     ranks = _ranks(names, cases, counts)
-    del cases, names  # of a million 100 MB, and not needed any more
+    del cases, names, counts  # of a million 100 MB, and not needed any more
     count = int(np.count_nonzero(ranks >= 0))
     with tempfile.TemporaryDirectory(prefix="viscotack-") as folder:
         schemas, widths, begin = [pa.schema([])], {}, 0
+        boxes: dict[int, list[Path]] = {}
         for number, table in enumerate(tables()):
             here = ranks[begin : begin + table.num_rows]
             begin += table.num_rows
@@ -87,15 +88,16 @@ def in_order(
             for name, width in measured(table).items():
                 widths[name] = max(width, widths.get(name, 0))
             table = table.append_column(_RANK, pa.array(here))
-            for box in np.unique(here[here >= 0] // _HELD):
+            for box in np.unique(here[here >= 0] // _HELD).tolist():
                 rows = table.take(np.flatnonzero((here >= 0) & (here // _HELD == box)))
                 path = Path(folder, f"{box}-{number}.arrow")
                 pa.feather.write_feather(rows, path, compression="uncompressed")
+                boxes.setdefault(box, []).append(path)
         schema = pa.unify_schemas(schemas, promote_options="permissive")
 
         def chunks() -> Iterator[Any]:
-            for box in range(-(-count // _HELD)):
-                some = map(pa.feather.read_table, Path(folder).glob(f"{box}-*.arrow"))
+            for box in sorted(boxes):
+                some = map(pa.feather.read_table, boxes[box])
                 rows = pa.concat_tables([schema.empty_table(), *some], promote_options="permissive")
                 yield rows.take(np.argsort(rows.column(_RANK).to_numpy())).drop_columns(_RANK)
                 pa.default_memory_pool().release_unused()

@@ -150,12 +150,6 @@ class Parts:
                         "put it back, or run the campaign again for its cases"
                     ) from None
 
-    def read(self, columns: Sequence[str] | None = None) -> Any:
-        """Return all rows as a pyarrow.Table; errors as of `tables`."""
-        pa = arrow()
-        tables = list(self.tables(columns))
-        return pa.concat_tables(tables, promote_options="permissive") if tables else pa.table({})
-
     def kept(self) -> tuple[Part, ...]:
         """Return the parts that count now."""
         ledger = self._ledger()
@@ -319,13 +313,19 @@ def parquet(tables: Callable[[], Iterable[Any]]) -> Any:
     pa = arrow()
     schema = pa.unify_schemas([table.schema for table in tables()], promote_options="permissive")
     sink = pa.BufferOutputStream()
-    options = {"compression": "zstd", "write_page_checksum": True}
-    with pa.parquet.ParquetWriter(sink, schema, **options) as writer:
-        for table in tables():
-            both = [schema.empty_table(), table]
-            writer.write_table(pa.concat_tables(both, promote_options="permissive"))
+    write_parquet(sink, schema, tables())
     pa.default_memory_pool().release_unused()
     return sink.getvalue()
+
+
+def write_parquet(sink: Any, schema: Any, tables: Iterable[Any]) -> None:
+    """Write tables one behind another; what a table does not have is empty."""
+    pa = arrow()
+    options = {"compression": "zstd", "write_page_checksum": True}
+    with pa.parquet.ParquetWriter(sink, schema, **options) as writer:
+        for table in tables:
+            both = [schema.empty_table(), table]
+            writer.write_table(pa.concat_tables(both, promote_options="permissive"))
 
 
 def table_of(rows: Sequence[Mapping[str, Any]]) -> Any:

@@ -16,7 +16,7 @@ import os
 import platform
 import socket
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import asdict
 from datetime import UTC, datetime
@@ -114,7 +114,7 @@ class Store:
         if hold is not None:
             hold.confirm()
         # Until both are written either counts: at any instant the folder is in order.
-        known = {name: _hash_of(folder / name) for name in files}
+        known = {name: hash_of(folder / name) for name in files}
         header["files"] = {
             name: list(dict.fromkeys([new, *filter(None, [known[name]])]))
             for name, new in hashes.items()
@@ -273,10 +273,6 @@ class Store:
         """Return the other files, with the hashes that each may have."""
         return self._provenance.get("files", {})
 
-    def hash_of(self, name: str) -> str | None:
-        """Return the hash of a file as it is now; None if it is not there."""
-        return _hash_of(self.folder / name)
-
     def lost(self) -> list[str]:
         """Return sentences for parts that were removed, whose cases are run again."""
         lost = self._provenance.get("lost", [])
@@ -285,8 +281,8 @@ class Store:
     def _cases(self) -> Cases:
         path = self.folder / "cases.parquet"
         try:
-            hashes = self.files().get(path.name) or [str(_hash_of(path))]
-            present = _hash_of(path)
+            hashes = self.files().get(path.name) or [str(hash_of(path))]
+            present = hash_of(path)
             table = read_proven(path, present if present in hashes else hashes[0])
         except FileNotFoundError:
             raise InputError(
@@ -336,7 +332,8 @@ def _tables_of_cases(cases: Cases) -> Iterator[Any]:
         yield table_of_cases(cases[begin : begin + _WRITTEN])
 
 
-def _hash_of(path: Path) -> str | None:
+def hash_of(path: Path) -> str | None:
+    """Return the hash of a file as it is now; None if it is not there."""
     return digest(path) if path.exists() else None
 
 
@@ -345,7 +342,7 @@ def _of_today(folder: Path, provenance: Mapping[str, Any]) -> dict[str, Any]:
     if provenance["format_version"] == FORMAT_VERSION:
         return dict(provenance)
     names = ("cases.parquet", "plan.toml", "plan.csv")
-    hashes = {name: _hash_of(folder / name) for name in names}
+    hashes = {name: hash_of(folder / name) for name in names}
     return {
         **provenance,
         "format_version": FORMAT_VERSION,
@@ -379,12 +376,13 @@ def _check_same(folder: Path, old: Mapping[str, Any], new: Mapping[str, Any]) ->
     if old.get("shard") != new["shard"]:
         was, now = (f"shard {s}" if s else "a whole plan" for s in (old.get("shard"), new["shard"]))
         raise InputError(f"{folder} holds {was}, and this is {now}; give another --out")
-    differ: Iterable[str] = (n for n in _PHYSICAL if old["settings"][n] != new["settings"][n])
-    for name in differ:
-        raise InputError(
-            f"{folder} holds cases with {name} = {old['settings'][name]}, the plan asks for "
-            f"{new['settings'][name]}; give another --out, or the same {name}"
-        )
+    for name in _PHYSICAL:
+        was, now = old["settings"][name], new["settings"][name]
+        if was != now:
+            raise InputError(
+                f"{folder} holds cases with {name} = {was}, the plan asks for {now}; give another "
+                f"--out, or the same {name}"
+            )
     before, now = (list(given["settings"].get("own_sha256", ())) for given in (old, new))
     if before and before != now:
         files = ", ".join(new["settings"]["own"]) or "none"

@@ -11,7 +11,7 @@ from viscotack.files.arrow import arrow
 
 from .cases import Cases, packed
 from .parts import Part, Parts
-from .store import Store
+from .store import Store, hash_of
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def verify(store: Store) -> Verdict:
 
 def _wrong_files(store: Store) -> Iterator[str]:
     for name, hashes in store.files().items():
-        found = store.hash_of(name)
+        found = hash_of(store.folder / name)
         if found is None:
             yield f"{store.folder / name} is missing"
         elif found not in hashes:
