@@ -245,25 +245,27 @@ class Store:
 
         Of two rows of a case the first counts: what was stored is not run again.
         """
-        names = self._names("results")
-        return self._in_order("results", names, np.arange(len(names)))
+        cases, names = self._cases(), self._names("results")
+        return self._in_order("results", cases, names, np.arange(len(names)))
 
     def ordered_failures(self) -> AbstractContextManager[Ordered]:
         """Hold the last failure of every case without a result, in the order of the plan."""
-        names = self._names("failures")
+        cases, names = self._cases(), self._names("failures")
         solved = np.zeros(len(names), bool)
         for table in self._parts["results"].tables(["name"]) if len(names) else ():
             solved |= np.isin(names, names_of([table]))
-        return self._in_order("failures", names, np.flatnonzero(~solved)[::-1])
+        return self._in_order("failures", cases, names, np.flatnonzero(~solved)[::-1])
 
     def _names(self, table: str) -> Names:
         return names_of(self._parts[table].tables(["name"]))
 
-    def _in_order(self, table: str, names: Names, counts: Any) -> AbstractContextManager[Ordered]:
+    def _in_order(
+        self, table: str, cases: Cases, names: Names, counts: Any
+    ) -> AbstractContextManager[Ordered]:
         def tables() -> Iterator[Any]:
             return map(_with_names_of_today, self._parts[table].tables())
 
-        return in_order(tables, names, self._cases(), counts)
+        return in_order(tables, names, cases, counts)
 
     def parts(self) -> dict[str, Parts]:
         """Return the tables by the names of their directories."""
