@@ -13,8 +13,7 @@ import numpy as np
 
 from viscotack import InputError
 from viscotack.campaign import Store, read_plan
-from viscotack.campaign.case import attempt
-from viscotack.campaign.crew import Lost
+from viscotack.campaign.case import Lost, attempt
 
 
 def plan_of(folder, cases=20, text=""):

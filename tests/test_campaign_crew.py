@@ -8,9 +8,8 @@ import pytest
 import synthetic
 from viscotack import InputError, to_dict
 from viscotack.campaign import CaseSettings, NoWorker, cluster, local
-from viscotack.campaign.case import Answer
-from viscotack.campaign.cluster import DaskCrew, do_case, security_of
-from viscotack.campaign.crew import Gone, Lost
+from viscotack.campaign.case import Answer, Lost
+from viscotack.campaign.cluster import DaskCrew, Gone, do_case, security_of
 from viscotack.campaign.identity import identity
 
 pytest.importorskip("distributed", reason="the cluster extra is not installed")

@@ -24,7 +24,7 @@ from campaign_work import (
     stand_in,
 )
 from viscotack.campaign import AllCrashed, Store, run
-from viscotack.campaign.crew import Gone
+from viscotack.campaign.cluster import Gone
 from viscotack.campaign.running import PASSING
 
 HERE = Path(__file__).parent

@@ -30,8 +30,7 @@ from processes import LONG, children, lives, state, until
 from viscotack import to_dict
 from viscotack.campaign import CaseSettings, NoWorker, Store, run
 from viscotack.campaign import local as local_module
-from viscotack.campaign.case import Answer
-from viscotack.campaign.crew import Lost
+from viscotack.campaign.case import Answer, Lost
 from viscotack.campaign.local import local
 from viscotack.pool import supervisor
 from viscotack.pool.line import Line

@@ -115,6 +115,23 @@ class Answer:
     versions: str = ""
 
 
+@dataclass(frozen=True)
+class Lost:
+    """A case that has not come back.
+
+    Attributes
+    ----------
+    reason : str
+        What became of its worker.
+    blame : bool
+        Whether the case may be the cause: a process that did this case and no other has ended.
+        False where a machine of a cluster left with all that was on it.
+    """
+
+    reason: str
+    blame: bool = True
+
+
 class Unsolved(Exception):
     """A simulation that stopped before its end, with the reason."""
 

@@ -17,8 +17,7 @@ from typing import Any
 from viscotack.errors import InputError, NotInstalled
 from viscotack.pool import NoWorker
 
-from .case import Answer, CaseSettings, Work
-from .crew import Gone, Lost
+from .case import Answer, CaseSettings, Lost, Work
 from .identity import difference, identity
 
 # Seconds to wait for the scheduler; for the first worker; for one that is there to say what it is,
@@ -52,6 +51,10 @@ class Security:
     ca: Path
     cert: Path
     key: Path
+
+
+class Gone(ConnectionError):
+    """The cluster's scheduler cannot be reached any more."""
 
 
 @dataclass

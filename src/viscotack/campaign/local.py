@@ -10,8 +10,7 @@ from typing import Any
 
 from viscotack.pool import Event, Limits, NoWorker, Pool, Setup
 
-from .case import Answer, CaseSettings, Work, attempt
-from .crew import Lost
+from .case import Answer, CaseSettings, Lost, Work, attempt
 from .identity import difference, identity
 
 # Seconds beyond the time limit in which a case may still end by itself.

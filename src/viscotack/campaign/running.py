@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -18,11 +18,10 @@ from viscotack.files.arrow import arrow
 from viscotack.files.lock import locked
 from viscotack.pool import NoWorker
 
-from .case import Answer, Work, measure
+from .case import Answer, Lost, Work, measure
 from .cases import PASSING, Cases
-from .cluster import Security, check_installed, cluster
+from .cluster import Gone, Security, check_installed, cluster
 from .columns import Kind
-from .crew import Crew, Gone, Lost
 from .identity import identity, words
 from .local import local
 from .plan import Plan
@@ -180,6 +179,26 @@ def _check_whole(folder: Path) -> None:
             f"{folder} holds a merge of {', '.join(begun)} that has not ended; merge them again "
             "into it"
         )
+
+
+class Crew(Protocol):
+    """Workers that take cases by number, here or on a cluster, and bring back answers or a loss."""
+
+    def room(self) -> int:
+        """Return how many more cases may be handed in now; NoWorker if there will be none."""
+        ...
+
+    def hand(self, number: int, problem: str) -> None:
+        """Give a case, by a number of the caller's, to a worker that has room."""
+        ...
+
+    def collect(self, seconds: float) -> list[tuple[int, Answer | Lost]]:
+        """Return what has come back, after waiting so long at most for something to come [s]."""
+        ...
+
+    def workers(self) -> int:
+        """Return how many cases are done at once."""
+        ...
 
 
 class _Run:
