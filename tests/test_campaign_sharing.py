@@ -168,6 +168,23 @@ def test_shards_that_have_cases_in_common_are_merged_once(tmp_path, crew):
     assert merge([two, one, two], tmp_path / "n").plan().cases == plan.cases
 
 
+def test_a_folder_that_grows_during_a_merge_costs_no_row(tmp_path, crew, monkeypatch):
+    plan, add, grown = plan_of(tmp_path, cases=9), Store.add, []
+    last = max(case.name for case in plan.cases)
+    folders = shards(tmp_path, plan, work=stand_in)
+    folders.sort(key=lambda folder: any(c.name == last for c in Store(folder).plan().cases))
+
+    def growing(self, results, failures):
+        add(self, results, failures)
+        if not grown:
+            grown.append(folders[1])
+            add(Store(folders[1]), [{"name": "of another run"}], [])
+
+    monkeypatch.setattr(Store, "add", growing)
+    names = merge(folders, tmp_path / "m").results().column("name").to_pylist()
+    assert names == [case.name for case in plan.cases]
+
+
 def test_the_commands_share_and_merge(tmp_path, crew, capsys):
     plan_of(tmp_path, cases=4, text='settings.accuracy = 0.02\nsettings.until = "pull-off"')
     for k in (1, 2):

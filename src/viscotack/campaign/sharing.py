@@ -124,8 +124,9 @@ def _fresh(
         for begin in range(0, table.num_rows, _PART):
             some = table.slice(begin, _PART)
             places, first = np.unique(every.places(names_of([some])), return_index=True)
-            rows = some.take(np.sort(first[~copied[places]])).to_pylist()
-            copied[places] = True
+            fresh = (places >= 0) & ~copied[places]  # not what was added since names were read
+            rows = some.take(np.sort(first[fresh])).to_pylist()
+            copied[places[fresh]] = True
             yield [{name: v for name, v in row.items() if v is not None} for row in rows]
 
 
