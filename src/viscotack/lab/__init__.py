@@ -1,5 +1,7 @@
 """What laboratories have, and what it says: sweeps, master curves, relaxation and creep tests."""
 
+from viscotack.materials.shift import FittedShift as ShiftFit
+
 from .fit_passport import issued
 from .fit_report import FitReport
 from .fitting import fit
@@ -17,7 +19,7 @@ from .reading import (
     read_relaxations,
     read_shifts,
 )
-from .shift_laws import ShiftFit, fit_arrhenius, fit_wlf, nearest_law
+from .shift_laws import fit_arrhenius, fit_wlf, nearest_law
 from .shift_spread import allow_for_shifts
 from .shifting import shift_factors
 from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, ShiftTable, Source

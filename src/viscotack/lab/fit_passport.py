@@ -4,7 +4,7 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.materials.passport import Evidence, Origin, Passport
-from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
+from viscotack.materials.shift import Shift
 
 from .fit_report import FitReport
 from .shift_laws import nearest_law
@@ -45,9 +45,13 @@ def issued(
     source = seen.source
     fitted = None
     if isinstance(shift, ShiftTable):
-        fitted = _fitted(shift, seen.temperature)
+        zero, rows = seen.temperature, len(shift)
+        if zero is None and rows > 1:
+            raise InputError("a table of shifts needs the temperature of the master curve [K]")
+        if zero is not None and rows > 2:
+            fitted = nearest_law(shift, reference_temperature=zero)
         # one row shifts nothing
-        shift = _tabulated(shift, seen.temperature) if len(shift) > 1 else None
+        shift = shift.at_reference(zero) if zero is not None and rows > 1 else None
     elif shift is not None and seen.temperature is not None:
         shift = shift.at_reference(seen.temperature)
     return Passport(
@@ -83,22 +87,3 @@ def issued(
 def _thinned(draws: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return as many of the solids drawn as a file needs to say how they scatter."""
     return draws[:: max(len(draws) // _ALLOWED, 1)][:_ALLOWED]
-
-
-def _tabulated(table: ShiftTable, temperature: float | None) -> TabulatedShift:
-    if temperature is None:
-        raise InputError("a table of shifts needs the temperature of the master curve [K]")
-    rows, values = tuple(table.temperature.tolist()), tuple(table.log10_shift.tolist())
-    more = {
-        key: () if column is None else tuple(column.tolist())
-        for key, column in (("uncertainty", table.uncertainty), ("vertical", table.log10_vertical))
-    }
-    return TabulatedShift(temperature, rows, values, **more)
-
-
-def _fitted(table: ShiftTable, temperature: float | None) -> FittedShift | None:
-    """Return the law nearest to a table, None where none fits or nothing says where it is zero."""
-    if temperature is None or len(table) < 3:
-        return None
-    found = nearest_law(table, reference_temperature=temperature)
-    return found and FittedShift(found.law, found.standard_error, found.misfit)

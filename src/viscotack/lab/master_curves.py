@@ -240,10 +240,4 @@ def _near(temperature: Array, reference: float) -> bool:
 
 def shift_words(shift: Shift | ShiftTable) -> str:
     """Return in a few words how points are shifted."""
-    match shift:
-        case WLF(reference_temperature=reference, c1=c1, c2=c2):
-            return f"shifted by WLF with c1 = {c1:g}, c2 = {c2:g} K at {reference:g} K"
-        case Arrhenius(activation_energy=energy):
-            return f"shifted by Arrhenius with {energy / 1e3:g} kJ/mol"
-        case _:
-            return "shifted by a table"
+    return f"shifted by {shift.words() if isinstance(shift, WLF | Arrhenius) else 'a table'}"

@@ -1,14 +1,13 @@
 """Laws of time-temperature shift that fit a table of shift factors."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.materials.shift import WLF, Arrhenius
+from viscotack.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
 
 from .sweeps import ShiftTable
 
@@ -16,29 +15,7 @@ _MISSED = 0.1  # decades from a row that a law may miss however sure the row is
 _UNCERTAIN = 0.01  # decades: scatter of a shift beside what its table says
 
 
-@dataclass(frozen=True)
-class ShiftFit:
-    """A law and how well it is known.
-
-    Parameters
-    ----------
-    law : WLF or Arrhenius
-        The law at its reference temperature.
-    standard_error : tuple of float
-        Of c1 [-] and c2 [K], or of the activation energy [J/mol].
-    misfit : float
-        Root mean square of log10 a_T of the table less that of the law [decades].
-    worst : tuple of (float, float)
-        Temperature [K] and difference [decades] of the row that fits worst.
-    """
-
-    law: WLF | Arrhenius
-    standard_error: tuple[float, ...]
-    misfit: float
-    worst: tuple[float, float]
-
-
-def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
+def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     """Return the WLF law nearest to a table of shifts, by weighted least squares.
 
     Parameters
@@ -50,7 +27,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
 
     Returns
     -------
-    ShiftFit
+    FittedShift
         Standard errors from the curvature and the larger of the stated and the found scatter.
 
     Raises
@@ -75,7 +52,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
 
     def shape(q: Array) -> tuple[Array, float, float]:
         c1, c2 = math.exp(q[0]), math.exp(q[1]) - coldest
-        return -c1 * above / (c2 + above), c1, c2
+        return wlf_decades(above, c1, c2), c1, c2
 
     def residual(q: Array) -> Array:
         # the table's own zero is free: its reference need not be that of the law
@@ -100,7 +77,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
     return _fit(WLF(reference_temperature, c1, c2), error, table, difference)
 
 
-def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> ShiftFit:
+def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     """Return the Arrhenius law nearest to a table of shifts, by weighted least squares.
 
     Parameters
@@ -139,7 +116,7 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> ShiftFi
     return _fit(Arrhenius(reference_temperature, float(found[0])), error, table, difference)
 
 
-def nearest_law(table: ShiftTable, *, reference_temperature: float) -> ShiftFit | None:
+def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShift | None:
     """Return the WLF or Arrhenius law that is nearer to a table; None where neither fits.
 
     Three constants of WLF (its zero is one) must earn their keep against the two of Arrhenius, by
@@ -160,7 +137,7 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> ShiftFit 
         except ValueError:
             continue  # its reason is no news: the other law may fit
         off = _off(table, found.law) / _deviation(table)
-        if np.all(np.abs(off) < 3) or found.worst[1] ** 2 < _MISSED**2:
+        if np.all(np.abs(off) < 3) or abs(found.worst[1]) < _MISSED:
             fits.append((float(off @ off) + constants * math.log(len(table)), found))
     return min(fits, key=lambda pair: pair[0])[1] if fits else None
 
@@ -185,9 +162,9 @@ def _covariance(jacobian: Array, residual: Array) -> Array:
     return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)
 
 
-def _fit(law: WLF | Arrhenius, error: Array, table: ShiftTable, difference: Array) -> ShiftFit:
+def _fit(law: WLF | Arrhenius, error: Array, table: ShiftTable, difference: Array) -> FittedShift:
     worst = int(np.argmax(np.abs(difference)))
-    return ShiftFit(
+    return FittedShift(
         law,
         tuple(float(e) for e in error),
         float(np.sqrt(np.mean(difference**2))),

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.materials.shift import TabulatedShift
 
 from . import arrays
 
@@ -196,6 +197,13 @@ class ShiftTable:
 
     def __len__(self) -> int:
         return self.temperature.size
+
+    def at_reference(self, temperature: float) -> TabulatedShift:
+        """Return the table as a law that is zero at a temperature [K], for two rows or more."""
+        columns = (self.temperature, self.log10_shift, self.uncertainty, self.log10_vertical)
+        return TabulatedShift(
+            temperature, *(() if values is None else tuple(values.tolist()) for values in columns)
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,8 +21,8 @@ from viscotack.materials.checks import rests
 from viscotack.materials.material import Material
 from viscotack.materials.modes import maxwell, voigt
 from viscotack.materials.passport import Evidence, Origin, Passport
-from viscotack.materials.passport_tables import LAWS, VERSION, passport_text
-from viscotack.materials.shift import FittedShift, Shift, TabulatedShift
+from viscotack.materials.passport_tables import VERSION, passport_text
+from viscotack.materials.shift import LAWS, WLF, Arrhenius, FittedShift, Shift, TabulatedShift
 from viscotack.materials.words import FITS_ONLY, MODELS, units_of
 from viscotack.units import parse
 
@@ -185,14 +185,14 @@ def _fitted(table: Mapping[str, Any]) -> FittedShift | None:
     return FittedShift(_law(table), errors, float(table["misfit"]))
 
 
-def _law(table: Mapping[str, Any]) -> Any:
+def _law(table: Mapping[str, Any]) -> WLF | Arrhenius:
     zero = parse(table["zero"], "K")
     if table["law"] not in LAWS:
         raise InputError(
             f"[temperature] law must be one of {', '.join(LAWS)} or table, got {table['law']!r}"
         )
-    kind, units = LAWS[table["law"]]
-    return kind(zero, *(parse(table[key], unit) for key, unit in units.items()))
+    kind = LAWS[table["law"]]
+    return kind(zero, *(parse(table[key], unit) for key, unit in kind.units.items()))
 
 
 def _made(kind: Any, table: Mapping[str, Any]) -> Any:

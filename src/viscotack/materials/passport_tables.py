@@ -12,11 +12,6 @@ from viscotack.materials.shift import WLF, Arrhenius, FittedShift, Shift, Tabula
 from viscotack.materials.words import units_of, word_of
 
 VERSION = 1
-# Word in a file -> law of shift, and the SI unit of its constants.
-LAWS: dict[str, tuple[Any, dict[str, str]]] = {
-    "wlf": (WLF, {"c1": "1", "c2": "K"}),
-    "arrhenius": (Arrhenius, {"activation_energy": "J/mol"}),
-}
 _NOT_EXACT = 1e-3  # of the Prony series written for a power law
 _TIMES = {
     "elastic": "none",
@@ -127,10 +122,9 @@ def _shift_words(shift: Shift) -> dict[str, Any]:
     return _law_words(shift)
 
 
-def _law_words(shift: Shift) -> dict[str, Any]:
-    law = next(word for word, (kind, _) in LAWS.items() if isinstance(shift, kind))
-    constants = {key: _quantity(getattr(shift, key), unit) for key, unit in LAWS[law][1].items()}
-    return {"law": law, "zero": _quantity(shift.reference_temperature, "K")} | constants
+def _law_words(law: WLF | Arrhenius) -> dict[str, Any]:
+    constants = {key: _quantity(getattr(law, key), unit) for key, unit in law.units.items()}
+    return {"law": law.word, "zero": _quantity(law.reference_temperature, "K")} | constants
 
 
 def _fitted_words(fitted: FittedShift | None) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from viscotack.materials.passport import Passport
-from viscotack.materials.shift import WLF, FittedShift, TabulatedShift
+from viscotack.materials.shift import TabulatedShift
 from viscotack.materials.words import units_of, word_of
 
 
@@ -63,18 +63,4 @@ def shift_lines(passport: Passport) -> list[str]:
     ]
     if passport.fitted_shift is None:
         return [*lines, "  no WLF or Arrhenius law fits them"] if len(shift.values) > 2 else lines
-    return [*lines, f"  nearest law: {fitted_words(passport.fitted_shift)}"]
-
-
-def fitted_words(fitted: FittedShift) -> str:
-    """Return a law with its errors as a person reads it."""
-    law, errors = fitted.law, fitted.standard_error
-    if isinstance(law, WLF):
-        constants = (
-            f"WLF with c1 = {law.c1:.4g} +- {errors[0]:.2g}, c2 = {law.c2:.4g} +- {errors[1]:.2g} "
-            f"K at {law.reference_temperature - 273.15:.4g} C"
-        )
-    else:
-        energy = law.activation_energy / 1e3
-        constants = f"Arrhenius with {energy:.4g} +- {errors[0] / 1e3:.2g} kJ/mol"
-    return f"{constants}; {fitted.misfit:.2g} decades off on average"
+    return [*lines, f"  nearest law: {passport.fitted_shift.words()}"]

@@ -6,8 +6,9 @@ T is the one that the reference temperature has at omega a_T.
 """
 
 import math
-from dataclasses import dataclass, replace
-from typing import Self
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,13 @@ from scipy.interpolate import PchipInterpolator
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, positive, store
+
+UNIVERSAL = 17.44, 51.6  # c1 and c2 [K] at the glass transition (Eq. 4.25): means of many polymers
+
+
+def wlf_decades(above: Any, c1: float, c2: float) -> Any:
+    """Return log10 a_T of the WLF law, temperatures counted from its reference [K]."""
+    return -c1 * above / (c2 + above)
 
 
 @dataclass(frozen=True)
@@ -53,6 +61,9 @@ class WLF:
     8.689
     """
 
+    word: ClassVar[str] = "wlf"
+    units: ClassVar[Mapping[str, str]] = {"c1": "1", "c2": "K"}
+
     reference_temperature: float
     c1: float
     c2: float
@@ -76,7 +87,7 @@ class WLF:
         temperature : float
             Glass transition temperature [K]. The constants are averages over many polymers.
         """
-        return cls(positive("glass transition temperature", temperature, "K"), 17.44, 51.6)
+        return cls(positive("glass transition temperature", temperature, "K"), *UNIVERSAL)
 
     @property
     def pole(self) -> float:
@@ -92,7 +103,7 @@ class WLF:
                 f"{_in_celsius(float(np.min(above)) + self.reference_temperature)}; "
                 "leave these temperatures out, or use a measured table of shifts"
             )
-        return like_input(-self.c1 * above / (self.c2 + above))
+        return like_input(wlf_decades(above, self.c1, self.c2))
 
     def at_reference(self, temperature: float) -> "WLF":
         """Return the same law seen from another reference temperature [K], above the pole."""
@@ -104,6 +115,10 @@ class WLF:
                 f"{_in_celsius(self.pole)}, got {_in_celsius(temperature)}"
             )
         return WLF(temperature, self.c1 * self.c2 / c2, c2)
+
+    def words(self) -> str:
+        """Return the law as a person reads it."""
+        return f"WLF with c1 = {self.c1:g}, c2 = {self.c2:g} K at {self.reference_temperature:g} K"
 
 
 @dataclass(frozen=True)
@@ -131,6 +146,9 @@ class Arrhenius:
     0.608
     """
 
+    word: ClassVar[str] = "arrhenius"
+    units: ClassVar[Mapping[str, str]] = {"activation_energy": "J/mol"}
+
     reference_temperature: float
     activation_energy: float
 
@@ -151,6 +169,10 @@ class Arrhenius:
     def at_reference(self, temperature: float) -> "Arrhenius":
         """Return the same law seen from another reference temperature [K]."""
         return replace(self, reference_temperature=temperature)
+
+    def words(self) -> str:
+        """Return the law as a person reads it."""
+        return f"Arrhenius with {self.activation_energy / 1e3:g} kJ/mol"
 
 
 # K: a chamber is set to a whole degree and drifts, so this much beyond what was measured is inside
@@ -268,11 +290,12 @@ class TabulatedShift:
 
 
 Shift = WLF | Arrhenius | TabulatedShift
+LAWS: Mapping[str, type[WLF] | type[Arrhenius]] = {kind.word: kind for kind in (WLF, Arrhenius)}
 
 
 @dataclass(frozen=True)
 class FittedShift:
-    """A law nearest to a measured table, kept beside it: for other programs, and to compare.
+    """The law nearest to a measured table of shifts, and how well it is known.
 
     Parameters
     ----------
@@ -282,11 +305,28 @@ class FittedShift:
         Of c1 [-] and c2 [K], or of the activation energy [J/mol].
     misfit : float
         Root mean square of log10 a_T of the table less that of the law [decades].
+    worst : (float, float)
+        Temperature [K] and difference [decades] of the row that fits worst; passports do not keep
+        it, and it does not count in comparisons.
     """
 
     law: WLF | Arrhenius
     standard_error: tuple[float, ...]
     misfit: float
+    worst: tuple[float, float] = field(default=(math.nan, math.nan), compare=False)
+
+    def words(self) -> str:
+        """Return the law with its errors as a person reads it."""
+        law, errors = self.law, self.standard_error
+        if isinstance(law, WLF):
+            constants = (
+                f"WLF with c1 = {law.c1:.4g} +- {errors[0]:.2g}, c2 = {law.c2:.4g} +- "
+                f"{errors[1]:.2g} K at {law.reference_temperature - 273.15:.4g} C"
+            )
+        else:
+            energy = law.activation_energy / 1e3
+            constants = f"Arrhenius with {energy:.4g} +- {errors[0] / 1e3:.2g} kJ/mol"
+        return f"{constants}; {self.misfit:.2g} decades off on average"
 
 
 def _temperatures(values: npt.ArrayLike) -> Array:

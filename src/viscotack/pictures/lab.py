@@ -8,7 +8,7 @@ import numpy as np
 from viscotack.lab.fit_report import FitReport
 from viscotack.lab.observed import Observed
 from viscotack.materials.passport import Passport
-from viscotack.materials.shift import WLF, FittedShift, TabulatedShift
+from viscotack.materials.shift import FittedShift, TabulatedShift
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -123,7 +123,7 @@ def _shifts(axes: "Axes", shift: TabulatedShift, fitted: FittedShift | None) -> 
         inside = np.linspace(rows[0], rows[-1], 200)
         values = np.asarray(fitted.law.log10_shift(inside))
         zero = float(fitted.law.log10_shift(shift.reference_temperature))
-        name = "WLF" if isinstance(fitted.law, WLF) else "Arrhenius"
+        name = type(fitted.law).__name__
         axes.plot(inside - 273.15, values - zero, color=_COLOURS[1], label=name)
     axes.set_xlabel("temperature [°C]")
     axes.set_ylabel("$\\log_{10} a_T$")

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
+from viscotack.materials.shift import UNIVERSAL, wlf_decades
 from viscotack.theory._checks import Number, at_least, plain, positive
 
 _OPENS = "a crack that closes is another problem"
@@ -129,4 +130,4 @@ def wlf_shift(temperature: npt.ArrayLike, *, glass_transition: npt.ArrayLike) ->
             "the WLF shift has its pole 51.6 K below the glass transition and no value there or "
             f"below, got {np.min(x):.4g} K from it"
         )
-    return plain(10 ** (-17.44 * x / (51.6 + x)))
+    return plain(10 ** wlf_decades(x, *UNIVERSAL))
