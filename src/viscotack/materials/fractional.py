@@ -18,7 +18,7 @@ exp(-2 pi d/step).
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -37,11 +37,10 @@ from viscotack.materials.constants import (
     RubberyModulus,
 )
 from viscotack.materials.material import Complex, Real
-from viscotack.materials.modes import FINEST, ROUNDING, Modes, compressed
+from viscotack.materials.modes import FINEST, ROUNDING, Modes, blockwise, compressed
 
 _FINE = 0.127  # of the width d: exp(-2 pi/0.127) = 3e-22
 _LAST = 60.0  # a |ln u| beyond which the spectrum weighs less than round-off over any k
-_BLOCK = 2**18  # elements of one temporary array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,12 +196,9 @@ class FractionalZener:
 
     def reduced(self) -> "FractionalZener":
         """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        return FractionalZener(
-            rubbery_modulus=1.0,
-            glassy_modulus=self.glassy_modulus / self.rubbery_modulus,
-            order=self.order,
-            tau0=1.0,
-            poisson_ratio=0.0,
+        glassy = self.glassy_modulus / self.rubbery_modulus
+        return replace(
+            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
         )
 
     @property
@@ -247,10 +243,8 @@ def _summed(
     highest = float(np.max(x))
     rising = late * float(np.sum(weights[slow] * np.exp(highest - y[slow])))
     w, y = weights[between], y[between]
-    rows = max(1, _BLOCK // max(y.size, 1))
-    with np.errstate(over="ignore", under="ignore"):
-        blocks = [kernel(np.exp(x[i : i + rows, None] - y)) @ w for i in range(0, x.size, rows)]
-    found[inside] = constant + rising * np.exp(x - highest) + np.concatenate(blocks)
+    middle = blockwise(lambda column: kernel(np.exp(column - y)), w, x)
+    found[inside] = constant + rising * np.exp(x - highest) + middle
     return found
 
 

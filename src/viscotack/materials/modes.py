@@ -1,5 +1,6 @@
 """The memory of a linear viscoelastic solid as a few exponential modes."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,7 @@ from viscotack.materials.checks import like_input, nonnegative
 # Of E0 C(t): what its evaluation as a sum of exponentials may lose to rounding, and the smallest
 # tolerance that modes can be held to. Below it they are the closest ones, and state their error.
 ROUNDING, FINEST = 1e-14, 3e-14
+_BLOCK = 2**18  # elements of one temporary array
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,25 @@ def voigt(x: Array) -> npt.NDArray[np.complexfloating]:
     """Return 1/(1 + i x), a Voigt element at x = omega tau in [0, inf], each part exactly."""
     with np.errstate(divide="ignore", over="ignore"):
         return 1 / (1 + x**2) - 1j / (x + 1 / x)
+
+
+def blockwise(rows: Callable[[Array], npt.NDArray], weights: Array, x: Array) -> npt.NDArray:
+    """Return ``rows(x) @ weights``, of the shape of x, where `rows` takes columns of x.
+
+    Parameters
+    ----------
+    rows : callable
+        (column of x, shape (n, 1)) -> array of shape (n, N).
+    weights : ndarray, shape (N,)
+        Of the columns of that array, which is made of few rows at a time.
+    x : ndarray
+        Places.
+    """
+    count = max(1, _BLOCK // max(weights.size, 1))
+    flat = np.ravel(x)
+    with np.errstate(over="ignore", under="ignore"):
+        blocks = [rows(flat[i : i + count, None]) @ weights for i in range(0, flat.size, count)]
+    return np.concatenate([*blocks, []]).reshape(np.shape(x))
 
 
 def compressed(

@@ -170,12 +170,9 @@ class RetardationPowerLaw:
 
     def reduced(self) -> "RetardationPowerLaw":
         """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        return RetardationPowerLaw(
-            rubbery_modulus=1.0,
-            glassy_modulus=self.glassy_modulus / self.rubbery_modulus,
-            exponent=self.exponent,
-            tau0=1.0,
-            poisson_ratio=0.0,
+        glassy = self.glassy_modulus / self.rubbery_modulus
+        return replace(
+            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
         )
 
 
@@ -315,12 +312,9 @@ class RelaxationPowerLaw:
 
     def reduced(self) -> "RelaxationPowerLaw":
         """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
-        return RelaxationPowerLaw(
-            rubbery_modulus=1.0,
-            glassy_modulus=self.glassy_modulus / self.rubbery_modulus,
-            exponent=self.exponent,
-            tau0=1.0,
-            poisson_ratio=0.0,
+        glassy = self.glassy_modulus / self.rubbery_modulus
+        return replace(
+            self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
         )
 
     def _retardation(self, *, smallest: float, step: float) -> tuple[Array, Array]:

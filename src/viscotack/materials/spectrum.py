@@ -18,11 +18,10 @@ import numpy.typing as npt
 from scipy.special import kve, loggamma, rgamma
 
 from viscotack.arrays import Array
-from viscotack.materials.modes import maxwell
+from viscotack.materials.modes import blockwise, maxwell
 
 FINE = 0.2  # exp(-pi^2/0.2) = 4e-22
 _FIRST, _LAST = -37.0, math.log(60)  # ln u where exp(-u) is 1 to round-off, and where it is 0
-_BLOCK = 2**18  # elements of one temporary array
 
 
 def nodes(exponent: float, *, smallest: float, step: float) -> tuple[Array, Array]:
@@ -83,11 +82,7 @@ def summed(
     kernel: Callable[[Array], npt.NDArray], weights: Array, x: Array, u: Array
 ) -> npt.NDArray:
     """Return the sum over the nodes u of weights times kernel(x/u), of the shape of x."""
-    rows = max(1, _BLOCK // u.size)
-    flat = np.ravel(x)
-    with np.errstate(over="ignore"):  # inf is what the kernels expect then
-        blocks = [kernel(flat[i : i + rows, None] / u) @ weights for i in range(0, flat.size, rows)]
-    return np.concatenate([*blocks, []]).reshape(np.shape(x))
+    return blockwise(lambda column: kernel(column / u), weights, x)
 
 
 def coarse_step(exponent: float, *, longest: float, tolerance: float) -> tuple[float, float]:

@@ -34,6 +34,7 @@ from viscotack.materials.constants import (
     UpperOrder,
 )
 from viscotack.materials.material import Complex, Real
+from viscotack.materials.modes import blockwise
 
 NO_PLATEAU = (
     "two springpots have no plateau, neither rubbery nor glassy: their modulus goes on as a power "
@@ -42,7 +43,6 @@ NO_PLATEAU = (
 )
 _FINE = 0.127  # of the width in which the integrand is analytic: exp(-2 pi/0.127) = 3e-22
 _LAST = 40.0  # logarithms by which the integrand falls until it is left out
-_BLOCK = 2**18
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -249,9 +249,4 @@ def _summed(
     step = _FINE * width
     y = np.arange(low, high + step, step)
     weights = step * spectrum(y)
-    rows = max(1, _BLOCK // y.size)
-    with np.errstate(over="ignore", under="ignore"):
-        blocks = [
-            kernel(np.exp(x[i : i + rows, None] + y)) @ weights for i in range(0, x.size, rows)
-        ]
-    return np.concatenate([*blocks, []]).reshape(np.shape(T))
+    return blockwise(lambda column: kernel(np.exp(column + y)), weights, x).reshape(np.shape(T))

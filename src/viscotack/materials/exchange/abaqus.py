@@ -10,12 +10,11 @@ from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
+    as_told,
     from_ratios,
     head,
     number,
     other_bulk,
-    shear_factor,
-    told_incompressible,
     units_of,
 )
 from viscotack.materials.shift import WLF, Arrhenius
@@ -88,9 +87,7 @@ def read(text: str, units: Units | None) -> Prony:
             rows.append((line, values[0], values[1], values[2]))
     if elastic is None:
         raise InputError("there is no *ELASTIC with Young's modulus and Poisson ratio")
-    modulus, nu = elastic
-    if told_incompressible(text):
-        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
+    modulus, nu = as_told(text, *elastic)
     for line, g, k, _ in rows:
         if nu != 0.5 and abs(g - k) > 1e-6 * max(g, k):
             other_bulk(line, g, k)

@@ -11,12 +11,11 @@ from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
+    as_told,
     from_ratios,
     head,
     number,
     other_bulk,
-    shear_factor,
-    told_incompressible,
     units_of,
 )
 from viscotack.materials.shift import WLF, Arrhenius
@@ -89,8 +88,7 @@ def read(text: str, units: Units | None) -> Prony:
     nu = constants.get("NUXY", constants.get("PRXY"))
     if "EX" not in constants or nu is None:
         raise InputError("MP,EX and MP,NUXY (instantaneous modulus, Poisson ratio) are missing")
-    if told_incompressible(text):
-        constants["EX"], nu = 3 * constants["EX"] * shear_factor(nu), 0.5
+    modulus, nu = as_told(text, constants["EX"], nu)
     if "SHEAR" not in tables:
         raise InputError("there is no TB,PRONY with SHEAR in the text")
     for part, table in tables.items():
@@ -109,7 +107,7 @@ def read(text: str, units: Units | None) -> Prony:
         if not same:
             other_bulk(lines["SHEAR"], *sums)
     ratios = [(a, time * unit.second) for a, time in shear]
-    return from_ratios(constants["EX"] * unit.pascal, ratios, nu, instantaneous=True)
+    return from_ratios(modulus * unit.pascal, ratios, nu, instantaneous=True)
 
 
 def _pairs(table: dict[int, float], line: int) -> list[tuple[float, float]]:

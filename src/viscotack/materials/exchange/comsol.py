@@ -5,23 +5,20 @@ tau_m. Young's modulus and Poisson ratio of the linear elastic material are the 
 stand in comments here, as that file has no place for them.
 """
 
-import re
-
 from viscotack.errors import InputError
 from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
+    as_told,
     head,
     number,
+    rows_of,
     series,
     shear_factor,
-    told_incompressible,
+    stated_number,
     units_of,
 )
-
-_MODULUS = re.compile(r"long-term Young's modulus\s+(\S+)")
-_POISSON = re.compile(r"Poisson ratio\s+(\S+)")
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
@@ -51,25 +48,21 @@ def read(
 ) -> Prony:
     """Return the series of a table of branches; elastic constants from comments if not given."""
     unit = units_of(text, units)
-    found = _MODULUS.search(text), _POISSON.search(text)
-    modulus = rubbery_modulus
-    if modulus is None and found[0] is not None:
-        modulus = number(found[0][1], _line(text, found[0]), "Young's modulus") * unit.pascal
-    nu = poisson_ratio
-    if nu is None and found[1] is not None:
-        nu = number(found[1][1], _line(text, found[1]), "the Poisson ratio")
+    modulus, nu = rubbery_modulus, poisson_ratio
+    if modulus is None:
+        stated = stated_number(text, "long-term Young's modulus", "Young's modulus")
+        modulus = stated and stated * unit.pascal
+    if nu is None:
+        nu = stated_number(text, "Poisson ratio", "the Poisson ratio")
     if modulus is None or nu is None:
         raise InputError(
             "a table of branches does not say the long-term Young's modulus and the Poisson "
             "ratio; give both"
         )
-    if told_incompressible(text) and poisson_ratio is None and rubbery_modulus is None:
-        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
+    given = rubbery_modulus is not None or poisson_ratio is not None
+    modulus, nu = as_told(text, modulus, nu, given=given)
     branches = []
-    for line, raw in enumerate(text.splitlines(), 1):
-        words = raw.split("%")[0].replace(",", " ").split()
-        if not words:
-            continue
+    for line, words, raw in rows_of(text, "%"):
         if len(words) != 3:
             raise InputError(
                 f"line {line}: expected branch, shear modulus and relaxation time, got {raw!r}"
@@ -78,7 +71,3 @@ def read(
         time = number(words[2], line, "the relaxation time") * unit.second
         branches.append((G / shear_factor(nu), time))
     return series(modulus, branches, nu)
-
-
-def _line(text: str, found: re.Match) -> int:
-    return text.count("\n", 0, found.start()) + 1

@@ -10,13 +10,13 @@ from viscotack.materials.branched_solids import Prony
 from viscotack.materials.exchange.units import (
     Card,
     Units,
+    as_told,
     bulk_factor,
     head,
     number,
     other_bulk,
     series,
     shear_factor,
-    told_incompressible,
     units_of,
 )
 
@@ -71,8 +71,8 @@ def read(
             "/VISC/PRONY does not say the long-term Young's modulus and the Poisson ratio, its "
             "/MAT does; give both"
         )
-    if told_incompressible(text) and rubbery_modulus is None and poisson_ratio is None:
-        modulus, nu = 3 * modulus * shear_factor(nu), 0.5
+    given = rubbery_modulus is not None or poisson_ratio is not None
+    modulus, nu = as_told(text, modulus, nu, given=given)
     if not rows:
         raise InputError("there is no /VISC/PRONY in the text")
     line, first = rows[0]

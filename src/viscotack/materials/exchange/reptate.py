@@ -15,8 +15,10 @@ from viscotack.materials.exchange.units import (
     head,
     number,
     refuse_units,
+    rows_of,
     series,
     shear_factor,
+    stated_number,
 )
 
 _SLOWER = 1e4
@@ -49,18 +51,14 @@ def read(
     """Return the series; the plateau is the last mode if a comment says so, or is given."""
     if units is not None:
         refuse_units("RepTate", units)
-    stated = re.search(re.escape(_PLATEAU) + r"\s+(\S+)", text)
     nu = poisson_ratio
-    if nu is None and stated is not None:
-        nu = number(stated[1], text.count("\n", 0, stated.start()) + 1, "the Poisson ratio")
+    if nu is None:
+        nu = stated_number(text, re.escape(_PLATEAU), "the Poisson ratio")
     if nu is None:
         raise InputError("modes of RepTate do not say the Poisson ratio; give it")
     rows: list[tuple[float, float]] = []
     count = None
-    for line, raw in enumerate(text.splitlines(), 1):
-        words = raw.split("#")[0].split()
-        if not words:
-            continue
+    for line, words, raw in rows_of(text, "#"):
         if count is None:
             count = int(number(words[0], line, "the number of modes"))
             continue
@@ -71,7 +69,7 @@ def read(
     if count != len(rows):
         raise InputError(f"the file says {count} modes, and {len(rows)} follow")
     if rubbery_modulus is None:
-        if stated is None or not rows:
+        if _PLATEAU not in text or not rows:
             raise InputError(
                 "modes of RepTate flow: they have no rubbery modulus; give it, or fit the data"
             )

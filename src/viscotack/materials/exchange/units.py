@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -96,9 +97,30 @@ class Card:
         )
 
 
-def told_incompressible(text: str) -> bool:
-    """Return whether a comment says that the bulk modulus stands for a Poisson ratio of 0.5."""
-    return _INCOMPRESSIBLE in text
+def as_told(
+    text: str, modulus: float, poisson_ratio: float, *, given: bool = False
+) -> tuple[float, float]:
+    """Return Young's modulus [Pa] and Poisson ratio of the material that a text was written for.
+
+    A comment says where the bulk modulus stands for a Poisson ratio of 0.5; it does not count where
+    one of the two was given beside the text.
+    """
+    if given or _INCOMPRESSIBLE not in text:
+        return modulus, poisson_ratio
+    return 3 * modulus * shear_factor(poisson_ratio), 0.5
+
+
+def stated_number(text: str, pattern: str, what: str) -> float | None:
+    """Return the number behind a pattern in a text, None where it does not stand there."""
+    found = re.search(pattern + r"\s+(\S+)", text)
+    return found and number(found[1], text.count("\n", 0, found.start()) + 1, what)
+
+
+def rows_of(text: str, comment: str) -> Iterator[tuple[int, list[str], str]]:
+    """Yield number, words and text of each line that holds more than a comment."""
+    for line, raw in enumerate(text.splitlines(), 1):
+        if words := raw.split(comment)[0].replace(",", " ").split():
+            yield line, words, raw
 
 
 def refuse_units(program: str, units: Units) -> None:
