@@ -37,6 +37,13 @@ def test_a_contact_radius_is_read_where_there_is_one(tmp_path):
     )
 
 
+def test_labels_between_tables_that_repeat_their_headings_are_no_rows(tmp_path):
+    between = b"Result:,probe 2\r\nInterval:,2\r\n"
+    records = read(tmp_path, PLAIN + between + PLAIN)
+    assert [len(record) for record in records] == [WHOLE.time.size] * 2
+    assert np.array_equal(records[0].force, records[1].force)
+
+
 def test_intervals_in_files_of_their_own_are_one_test(tmp_path):
     # numbered so that the order of names is not that of the intervals
     paths = []

@@ -1,7 +1,8 @@
 """From the tables of a file to frequency sweeps in SI, and what all readers have in common."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,7 @@ from .columns import Columns, Table, Units
 from .diagnosis import cause, has_sweep
 from .doubts import doubtful_modulus
 from .grouping import GAP, grouped
+from .joining import numbered_on
 from .lab_file import LabFile
 from .sweeps import FrequencySweeps, Source
 
@@ -38,31 +40,22 @@ def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) ->
         if not table.rows or not has_sweep(columns):
             notes.append(f"a table without sweeps is not used: {headings_of([table])}")
             continue
-        values, kind = _part(columns, given)
-        if _repeats_one_state(values):
+        part = _part(columns, given)
+        if _repeats_one_state(part):
             what = "one temperature and one frequency, perhaps an amplitude or time sweep"
             if len(tables) == 1:
                 raise columns.error(f"{what}; expected several frequencies or temperatures")
             notes.append(f"a table from line {table.rows[0][0]} is not used: {what}")
             continue
-        parts.append((values, kind))
+        parts.append(part)
         notes += columns.notes
     if not parts:
         raise no_such_test(file, tables, given, "dma")
-    kinds = {part[1] for part in parts}
-    if len(kinds) > 1:
+    if len({part.kind for part in parts}) > 1:
         raise file.error("some tables are tensile (E), others shear (G); say --kind E or --kind G")
-    numbers = _numbered([part[0]["sweep"] for part in parts])
-    joined = {
-        name: np.concatenate([part[0][name] for part in parts])
-        for name in ("temperature", "angular_frequency", "storage", "loss")
-    }
-    return FrequencySweeps(
-        **joined,
-        kind=kinds.pop(),
-        sweep=numbers,
-        source=source_of(file, format, notes),
-    )
+    source = source_of(file, format, notes)
+    # one table keeps its own numbers
+    return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
 
 
 def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> InputError:
@@ -77,23 +70,23 @@ def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: s
     return file.error(f"no table with {expected[wanted]}; {why or f'found {headings_of(tables)}'}")
 
 
-def _repeats_one_state(values: dict[str, Array]) -> bool:
+def _repeats_one_state(part: FrequencySweeps) -> bool:
     """Return whether many points share one frequency and one temperature."""
-    omega, temperature = values["angular_frequency"], values["temperature"]
+    omega, temperature = part.angular_frequency, part.temperature
     one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
     # a temperature that nobody says does not tell points apart
     return omega.size > 1 and bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
-def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
-    """Return the columns of one table in SI and the kind of its moduli."""
+def _part(columns: Columns, given: Given) -> FrequencySweeps:
+    """Return the sweeps of one table."""
     parts = ("storage", "loss") if "storage" in columns else ("magnitude",)
     by_angle = "loss" not in columns or "storage" not in columns
     angle = ("phase",) if by_angle and "tan_delta" not in columns else ()
     frequency = () if "angular_frequency" in columns else ("frequency",)
     refuse_what_is_lacking(columns, given, parts, "temperature", *frequency, *parts, *angle)
     kind = kind_of(columns, given, *parts)
-    values = {
+    values: dict[str, Any] = {
         "temperature": temperatures(columns, given),
         "angular_frequency": columns.angular_frequency(),
     }
@@ -116,7 +109,7 @@ def _part(columns: Columns, given: Given) -> tuple[dict[str, Array], str]:
         columns.notes += [how] * bool(how)
     elif np.any(values["sweep"] != np.round(values["sweep"])):
         raise columns.error(f'column "{columns.name("sweep")}" must hold whole numbers')
-    return values, kind
+    return FrequencySweeps(**values, kind=kind)
 
 
 def _moduli(columns: Columns) -> tuple[Array, Array]:
@@ -234,18 +227,6 @@ def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Ar
             f"{expected[row]:g}: a number is damaged, or the units are wrong",
             int(row),
         )
-
-
-def _numbered(parts: Sequence[Array]) -> npt.NDArray[np.int64]:
-    """Return one numbering for the sweeps of all tables; of one table its own."""
-    if len(parts) == 1:
-        return parts[0].astype(np.int64)
-    numbered, count = [], 0
-    for part in parts:
-        own, numbers = np.unique(part, return_inverse=True)
-        numbered.append(numbers + count)
-        count += own.size
-    return np.concatenate(numbered)
 
 
 def headings_of(tables: Sequence[Table]) -> str:

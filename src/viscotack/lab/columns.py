@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -53,6 +54,8 @@ _HELD = 0.05  # of the level of a step; an instrument holds it better
 _STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
 
+Rows = tuple[tuple[int, tuple[str, ...]], ...]
+
 
 @dataclass(frozen=True)
 class Table:
@@ -78,7 +81,7 @@ class Table:
 
     headings: tuple[str, ...]
     units: tuple[str, ...]
-    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    rows: Rows
     words: str = ""
     temperature: float | None = None
     notes: tuple[str, ...] = ()
@@ -102,15 +105,27 @@ def tabulated(
     headings: Sequence[str],
     units: Sequence[str] | None,
     rows: Iterable[tuple[int, Sequence[str]]],
-    *,
-    words: str = "",
-    temperature: float | None = None,
-    notes: tuple[str, ...] = (),
-    levels: Mapping[str, float] | None = None,
-    label: str = "",
+    **stated: Any,
 ) -> Table:
-    """Return a table whose rows are as long as its headings, or say which row is not."""
-    width = _width(headings)
+    """Return a table whose rows are as long as its headings, or say which row is not.
+
+    `stated` are the other fields of :class:`Table`.
+    """
+    names, beside, chosen = ruled(file, headings, units, rows)
+    given = [recognise(heading) for heading in names]
+    # a row of units wins only where the heading itself has none
+    own = [(heading and heading.unit) or unit for heading, unit in zip(given, beside, strict=True)]
+    return Table(names, tuple(own), chosen, **stated)
+
+
+def ruled(
+    file: LabFile,
+    headings: Sequence[str],
+    units: Sequence[str] | None,
+    rows: Iterable[tuple[int, Sequence[str]]],
+) -> tuple[tuple[str, ...], tuple[str, ...], Rows]:
+    """Return headings, units and rows of one length, or say which row is longer or shorter."""
+    width = max((i + 1 for i, cell in enumerate(headings) if cell.strip()), default=0)
     chosen = []
     for line, cells in rows:
         cells = tuple(map(str.strip, cells))
@@ -121,14 +136,9 @@ def tabulated(
                 line,
             )
         chosen.append((line, cells[:width]))
-    given = [recognise(heading) for heading in headings[:width]]
-    own = [heading.unit if heading else "" for heading in given]
-    if units is not None:
-        # a row of units wins only where the heading itself has none
-        beside = [*units, *[""] * width][:width]
-        own = [mine or bare(theirs) for mine, theirs in zip(own, beside, strict=True)]
     names = tuple(heading.strip() for heading in headings[:width])
-    return Table(names, tuple(own), tuple(chosen), words, temperature, notes, levels or {}, label)
+    beside = [*(units or ()), *[""] * width][:width]
+    return names, tuple(map(bare, beside)), tuple(chosen)
 
 
 def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
@@ -196,7 +206,8 @@ class Columns:
             self._found.setdefault(heading.quantity, []).append((index, heading))
         self.keep = np.ones(len(table.rows), dtype=bool)
         self._chosen: dict[str, tuple[int, Heading]] = {}
-        self._decimal = ""
+        used = [index for columns in self._found.values() for index, _ in columns]
+        self._cells = Cells(file, table, units.decimal, used, self.notes)
 
     def __contains__(self, quantity: str) -> bool:
         return quantity in self._found
@@ -235,7 +246,7 @@ class Columns:
     def numbers(self, quantity: str, *, needed: bool = True) -> Array:
         """Return a column in the unit of the file; a row without a needed number is left out."""
         index, _ = self._column(quantity)
-        values = self._numbers(index, quantity)
+        values = self._cells.numbers(index)
         if needed:
             self.keep &= ~np.isnan(values)
         return values
@@ -412,7 +423,7 @@ class Columns:
         kinds = {heading.kind for _, heading in (first, other)} - {None}
         units = {bare(heading.unit or self.table.units[index]) for index, heading in (first, other)}
         if len(kinds) < 2 and len(units) == 1:
-            values = [self._numbers(index, quantity) for index, _ in (first, other)]
+            values = [self._cells.numbers(index) for index, _ in (first, other)]
             # a temperature is in degrees, where one percent of the number means nothing
             slack = 0.5 if quantity == "temperature" else 0.01 * np.abs(values[0])
             if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
@@ -420,20 +431,6 @@ class Columns:
                 return
         cure = "say --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
         raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
-
-    def _numbers(self, index: int, quantity: str) -> Array:
-        cells = [cells[index] for _, cells in self.table.rows]
-        values = plain_numbers(cells)
-        if values is not None and self.units.decimal != ",":
-            return values
-        mark = self._mark()
-        values = np.empty(len(cells))
-        for row, text in enumerate(cells):
-            try:
-                values[row] = number(text, mark)
-            except ValueError as error:
-                raise self.error(f'column "{self.table.headings[index]}": {error}', row) from None
-        return values
 
     def _unit(self, quantity: str) -> str:
         index, heading = self._column(quantity)
@@ -445,21 +442,58 @@ class Columns:
             return error
         return self.error(f'column "{self.name(quantity)}": {text}')
 
-    def _mark(self) -> str:
-        """Return the decimal mark, from the numbers of the columns that are recognised."""
-        if self.units.decimal is not None:
-            return self.units.decimal
-        if not self._decimal:
-            indices = [index for columns in self._found.values() for index, _ in columns]
-            cells = [cells[index] for _, cells in self.table.rows for index in indices]
+
+class Cells:
+    """Cells of a table as numbers, with one decimal mark for all columns that are used.
+
+    Parameters
+    ----------
+    file, table
+        Where the cells stand.
+    decimal : str or None
+        Decimal mark that the caller says.
+    used : iterable of int
+        Columns that were recognised.
+    notes : list of str
+        To which a decimal comma is added.
+    """
+
+    def __init__(
+        self,
+        file: LabFile,
+        table: Table,
+        decimal: str | None,
+        used: Iterable[int],
+        notes: list[str],
+    ):
+        self._file, self._table, self._used, self._notes = file, table, list(used), notes
+        self._said, self._found = decimal, ""
+
+    def numbers(self, index: int) -> Array:
+        """Return a column in the unit of the file; nan for gaps."""
+        rows = self._table.rows
+        cells = [cells[index] for _, cells in rows]
+        values = plain_numbers(cells)
+        if values is not None and self._said != ",":
+            return values
+        mark = self._mark()
+        values = np.empty(len(cells))
+        for row, text in enumerate(cells):
             try:
-                self._decimal = decimal_mark(cells)
+                values[row] = number(text, mark)
             except ValueError as error:
-                raise self.error(str(error)) from None
-            self.notes += ["decimal comma"] * (self._decimal == ",")
-        return self._decimal
+                name = self._table.headings[index]
+                raise self._file.error(f'column "{name}": {error}', rows[row][0]) from None
+        return values
 
-
-def _width(cells: Sequence[str]) -> int:
-    """Return the number of cells up to the last one that is not empty."""
-    return max((i + 1 for i, cell in enumerate(cells) if cell.strip()), default=0)
+    def _mark(self) -> str:
+        if self._said is not None:
+            return self._said
+        if not self._found:
+            cells = [cells[index] for _, cells in self._table.rows for index in self._used]
+            try:
+                self._found = decimal_mark(cells)
+            except ValueError as error:
+                raise self._file.error(str(error), self._table.rows[0][0]) from None
+            self._notes += ["decimal comma"] * (self._found == ",")
+        return self._found

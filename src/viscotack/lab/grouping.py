@@ -49,12 +49,18 @@ def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[n
     return numbers, f"{count} sweeps told apart by {how}" if count > 1 else ""
 
 
+def levels(temperature: Array) -> list[npt.NDArray[np.int64]]:
+    """Return the points of each temperature, from cold to hot, as indices."""
+    order = np.argsort(temperature, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(temperature[order]) > GAP) + 1)
+
+
 def _clusters(temperature: Array) -> npt.NDArray[np.int64] | None:
     if np.any(np.isnan(temperature)):
         return None
-    order = np.argsort(temperature)
     clusters = np.empty(temperature.size, dtype=np.int64)
-    clusters[order] = np.concatenate(([0], np.cumsum(np.diff(temperature[order]) > GAP)))
+    for number, points in enumerate(levels(temperature)):
+        clusters[points] = number
     return clusters
 
 

@@ -35,12 +35,15 @@ def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
     """
     if len(parts) == 1:
         return parts[0]
-    kinds = {part.kind for part in parts}
-    if len(kinds) > 1:
+    if len({part.kind for part in parts}) > 1:
         raise InputError(
             "some files are tensile (E), others shear (G); read them apart, or say --kind"
         )
-    source = joined_source([part.source for part in parts])
+    return numbered_on(parts, joined_source([part.source for part in parts]))
+
+
+def numbered_on(parts: Sequence[FrequencySweeps], source: Source) -> FrequencySweeps:
+    """Return sweeps of one kind as one set, their numbers going on from part to part."""
     numbers, count = [], 0
     for part in parts:
         own, renumbered = np.unique(part.sweep, return_inverse=True)
@@ -49,7 +52,7 @@ def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
     names = ("temperature", "angular_frequency", "storage", "loss")
     return FrequencySweeps(
         **{name: np.concatenate([getattr(part, name) for part in parts]) for name in names},
-        kind=kinds.pop(),
+        kind=parts[0].kind,
         sweep=np.concatenate(numbers),
         source=source,
     )

@@ -2,10 +2,12 @@
 
 import hashlib
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike, fspath
 from pathlib import Path
+from types import ModuleType
 
 from viscotack.errors import InputError
 
@@ -121,3 +123,20 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         raise file.error(
             f"the bytes after {error.start} are not {encoding} text: the file is cut or damaged"
         ) from None
+
+
+def format_of(
+    file: LabFile, formats: Mapping[str, ModuleType], said: str | None, otherwise: str
+) -> str:
+    """Return the name of the format that was said, or that of the first layout that knows a file.
+
+    `otherwise` is the one whose reader says what it expected.
+    """
+    found = (layout.name(file) for layout in dict.fromkeys(formats.values()))
+    return said or next(filter(None, found), otherwise)
+
+
+def refuse_unknown(format: str | None, formats: Mapping[str, ModuleType]) -> None:
+    """Refuse a format that no layout has."""
+    if format is not None and format not in formats:
+        raise InputError(f"--format must be one of {', '.join(formats)}, got {format!r}")

@@ -6,6 +6,8 @@ E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) are of this kind.
 
 import csv
 import re
+from collections.abc import Callable
+from typing import Any
 
 from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
@@ -32,8 +34,8 @@ def tables(file: LabFile) -> list[Table]:
     ValueError
         If no line looks like headings, or a row does not have a cell for each of them.
     """
-    found = _headings(file)
-    if found is None:
+    at = _headings(file)
+    if at is None:
         first = next((line.strip() for line in file.lines if line.strip()), "")
         only = recognise(first.lstrip("#% "))
         if only is not None:
@@ -49,44 +51,15 @@ def tables(file: LabFile) -> list[Table]:
             "\"f, E', E'', T\" with units beside or below them; the file begins "
             f"{first[:60]!r}"
         )
-    line, separator, headings = found
+    line, separator, headings = at
     words = " ".join(text for text in file.lines[: line - 1] if _speaks_of_geometry(text))
     preamble = [re.split(r"[\t;,]", text) for text in file.lines[: line - 1]]
     stated = stated_temperature(preamble)
-    # an instrument repeats the headings above each of its intervals
-    same = file.lines[line - 1].strip()
-    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
-    return [
-        _table(file, headings, separator, range(start, end), words, stated)
-        for start, end in zip(starts, [*(s - 1 for s in starts[1:]), len(file.lines)], strict=True)
-    ]
-
-
-def _table(
-    file: LabFile,
-    headings: list[str],
-    separator: str | None,
-    lines: range,
-    words: str,
-    temperature: float | None,
-) -> Table:
-    """Return the table below one line of headings; `lines` counts from 0."""
-    numbered = [
-        (i + 1, cells(file, file.lines[i], i + 1, separator))
-        for i in lines
-        if file.lines[i].strip() and not is_comment(file.lines[i])
-    ]
-    if lines.stop < len(file.lines):
-        # what stands above the next headings: "Result: ...", "Interval: 2"
-        while numbered and numbered[-1][1][0].rstrip().endswith(":"):
-            numbered.pop()
-    units = None
-    while numbered and not any(is_number(cell) for cell in numbered[0][1]):
-        above = numbered.pop(0)[1]
-        if any(cell.strip() for cell in above):
-            units = above
-            break
-    return tabulated(file, headings, units, numbered, words=words, temperature=temperature)
+    found = []
+    for lines in repeats(file, line):
+        units, rows = below(file, lines, separator)
+        found.append(tabulated(file, headings, units, rows, words=words, temperature=stated))
+    return found
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
@@ -102,22 +75,73 @@ def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[
         raise file.error("a quotation mark is not closed", number) from None
 
 
-def _headings(file: LabFile) -> tuple[int, str | None, list[str]] | None:
-    """Return the line number, the separator and the cells of the first line of headings."""
-    for number, text in enumerate(file.lines[:_LOOKED], start=1):
+def first_line(
+    file: LabFile, looked: int, heads: Callable[[list[str], bool], bool]
+) -> tuple[int, str | None, list[str]] | None:
+    """Return number, separator and cells of the first line of headings.
+
+    Parameters
+    ----------
+    file : LabFile
+        The text.
+    looked : int
+        Lines in which they are looked for.
+    heads : callable
+        (cells, whether a separator stands between them) -> whether they are headings.
+    """
+    for count, text in enumerate(file.lines[:looked], start=1):
         for separator in separators(text):
             try:
-                row = cells(file, text.lstrip("#% "), number, separator)
+                row = cells(file, text.lstrip("#% "), count, separator)
             except ValueError:
                 continue
-            if first_headings([row]) is not None and (separator or _mostly_headings(row)):
-                return number, separator, row
+            if heads(row, separator is not None):
+                return count, separator, row
     return None
 
 
-def _mostly_headings(row: list[str]) -> bool:
+def repeats(file: LabFile, line: int) -> list[range]:
+    """Return the lines, from 0, below each line that repeats the headings of one of them."""
+    # an instrument repeats the headings above each of its intervals
+    same = file.lines[line - 1].strip()
+    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
+    ends = [*(start - 1 for start in starts[1:]), len(file.lines)]
+    return [range(start, end) for start, end in zip(starts, ends, strict=True)]
+
+
+def below(
+    file: LabFile, lines: range, separator: str | None
+) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
+    """Return the units, where a row has them, and the rows of numbered lines, from 0."""
+    rows = [
+        (i + 1, cells(file, file.lines[i], i + 1, separator))
+        for i in lines
+        if file.lines[i].strip() and not is_comment(file.lines[i])
+    ]
+    if lines.stop < len(file.lines):
+        # what stands above the next headings: "Result: ...", "Interval: 2"
+        while rows and rows[-1][1][0].rstrip().endswith(":"):
+            rows.pop()
+    units = None
+    while rows and units is None and not any(map(is_number, rows[0][1])):
+        above = rows.pop(0)[1]
+        units = above if any(cell.strip() for cell in above) else None
+    return units, rows
+
+
+def mostly(row: list[str], known: Callable[[str], Any]) -> bool:
     """Return whether words with spaces between them are headings and no sentence."""
-    return 2 * sum(recognise(cell) is not None for cell in row) > len(row)
+    return 2 * sum(known(cell) is not None for cell in row) > len(row)
+
+
+def _headings(file: LabFile) -> tuple[int, str | None, list[str]] | None:
+    return first_line(
+        file,
+        _LOOKED,
+        lambda row, parted: (
+            first_headings([row]) is not None and (parted or mostly(row, recognise))
+        ),
+    )
 
 
 def _speaks_of_geometry(text: str) -> bool:

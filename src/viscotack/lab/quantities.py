@@ -86,7 +86,7 @@ _GEOMETRIES = {
     ),
 }  # fmt: skip
 _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'", "″": "''", '"': "''"})
-_BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
+BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
 # what stands in a bracket behind a quantity and makes another quantity of it, no unit
@@ -127,7 +127,7 @@ def recognise(text: str) -> Heading | None:
     whole = _named(text)
     if whole is not None:
         return Heading(*whole, "")
-    for pattern in (_BRACKET, _SLASH):
+    for pattern in (BRACKET, _SLASH):
         if match := pattern.fullmatch(text):
             name, rest = _named(match[1]), _named(match[2])
             if name is None:
@@ -188,8 +188,8 @@ def kind_of_geometry(text: str) -> str | None:
     >>> kind_of_geometry("Geometry name: Dual cantilever"), kind_of_geometry("Torque")
     ('E', 'G')
     """
-    plain = _plain(text)
-    kinds = [k for k, words in _GEOMETRIES.items() if any(word in plain for word in words)]
+    word = plain(text)
+    kinds = [k for k, words in _GEOMETRIES.items() if any(each in word for each in words)]
     return kinds[0] if len(kinds) == 1 else None
 
 
@@ -197,25 +197,25 @@ def _named(text: str) -> tuple[str, str | None] | None:
     text = text.strip()
     if len(text) == 1 and text in _BY_LETTER:
         return _BY_LETTER[text], "G" if text == "J" else None
-    plain = _plain(text)
+    word = plain(text)
     if text.translate(_QUOTES) in _DIELECTRIC:
         return None
-    if plain in _BY_SYMBOL:
-        return _BY_SYMBOL[plain]
-    if plain in _BY_WORD and (len(text) > 1 or text in _GREEK):
-        return _BY_WORD[plain], None
+    if word in _BY_SYMBOL:
+        return _BY_SYMBOL[word]
+    if word in _BY_WORD and (len(text) > 1 or text in _GREEK):
+        return _BY_WORD[word], None
     # "Tensile storage modulus", "Storage modulus E'", "Shear stress"
     for kind, words in _KIND_WORDS.items():
-        for word in words:
-            if plain.startswith(word) and plain.removeprefix(word) in _BY_WORD:
-                return _BY_WORD[plain.removeprefix(word)], kind
+        for first in words:
+            if word.startswith(first) and word.removeprefix(first) in _BY_WORD:
+                return _BY_WORD[word.removeprefix(first)], kind
     for symbol, (name, kind) in _BY_SYMBOL.items():
-        if plain.endswith(symbol) and _BY_WORD.get(plain.removesuffix(symbol)) == name:
+        if word.endswith(symbol) and _BY_WORD.get(word.removesuffix(symbol)) == name:
             return name, kind
     return None
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
     """Return a heading in small letters without spaces, underscores, hyphens, dots and accents."""
     text = unicodedata.normalize("NFKD", text.translate(_QUOTES)).casefold()
     return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")

@@ -27,7 +27,7 @@ from .arrays import KINDS
 from .columns import Columns, Table, Units
 from .diagnosis import test_of
 from .joining import joined, kelvin_in_name
-from .lab_file import LabFile, load
+from .lab_file import LabFile, format_of, load, refuse_unknown
 from .quantities import kelvin, radians_per_second, scale
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
 
@@ -90,10 +90,10 @@ def read(
             "it holds a relaxation and a creep test; say --test relaxation or --test creep"
         )
     if "relaxation" in tests:
-        relaxations = _relaxations(opened)
-        return relaxations[0] if len(relaxations) == 1 else relaxations
-    creeps = _creeps(opened)
-    return creeps[0] if len(creeps) == 1 else creeps
+        found = _each(RelaxationTest, opened)
+    else:
+        found = _each(CreepTest, opened)
+    return found[0] if len(found) == 1 else found
 
 
 def read_dma(
@@ -198,9 +198,8 @@ def read_relaxation(
         As :func:`read_dma`; also if there is not exactly one table of this kind.
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    given = _given(kind, temperature, units)
-    file, format, tables = _tables(path, format)
-    return step_tests.relaxation(file, format, tables, given)
+    (opened,) = _opened([path], format, kind, temperature, units, False)
+    return step_tests.one(RelaxationTest, *opened)
 
 
 def read_creep(
@@ -224,9 +223,8 @@ def read_creep(
         As :func:`read_dma`; also if there is not exactly one table of this kind.
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    given = _given(kind, temperature, units)
-    file, format, tables = _tables(path, format)
-    return step_tests.creep(file, format, tables, given)
+    (opened,) = _opened([path], format, kind, temperature, units, False)
+    return step_tests.one(CreepTest, *opened)
 
 
 def read_relaxations(
@@ -252,7 +250,8 @@ def read_relaxations(
         As :func:`read_dma`; also if a file has not exactly one table of this kind.
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    return _relaxations(_opened(path, format, kind, temperature, units, temperature_in_name))
+    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    return _each(RelaxationTest, opened)
 
 
 def read_creeps(
@@ -278,7 +277,8 @@ def read_creeps(
         As :func:`read_dma`; also if a file has not exactly one table of this kind.
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
-    return _creeps(_opened(path, format, kind, temperature, units, temperature_in_name))
+    opened = _opened(path, format, kind, temperature, units, temperature_in_name)
+    return _each(CreepTest, opened)
 
 
 def read_shifts(
@@ -336,36 +336,19 @@ def _opened(
     return opened
 
 
-def _relaxations(opened: Sequence[_Opened]) -> tuple[RelaxationTest, ...]:
-    tests = [test for each in opened for test in step_tests.relaxations(*each)]
-    return tuple(sorted(tests, key=_temperature))
-
-
-def _creeps(opened: Sequence[_Opened]) -> tuple[CreepTest, ...]:
-    tests = [test for each in opened for test in step_tests.creeps(*each)]
-    return tuple(sorted(tests, key=_temperature))
-
-
-def _temperature(test: RelaxationTest | CreepTest) -> float:
-    return 0.0 if test.temperature is None else test.temperature
+def _each(kind: type[step_tests.Test], opened: Sequence[_Opened]) -> tuple[step_tests.Test, ...]:
+    tests = [test for one in opened for test in step_tests.each(kind, *one)]
+    return tuple(sorted(tests, key=lambda test: test.temperature or 0.0))
 
 
 def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
-    if format is not None and format not in FORMATS:
-        raise InputError(f"--format must be one of {', '.join(FORMATS)}, got {format!r}")
+    refuse_unknown(format, FORMATS)
     file = load(path)
-    found = format or _sniffed(file)
+    found = format_of(file, FORMATS, format, "csv")
     tables = FORMATS[found].tables(file)
     said = () if format is not None else (f"format found out: {found}",)
     cut = () if found == "trios-json" else file.left_out
     return replace(file, notes=(*said, *file.notes, *cut)), found, tables
-
-
-def _sniffed(file: LabFile) -> str:
-    for layout in dict.fromkeys(FORMATS.values()):
-        if (name := layout.name(file)) is not None:
-            return name
-    return "csv"  # whose reader says what it expected
 
 
 def _given(kind: str | None, temperature: float | None, units: Units) -> assembly.Given:

@@ -11,7 +11,7 @@ from viscotack.errors import InputError
 from viscotack.materials.shift import TabulatedShift
 
 from . import vertical as moving
-from .grouping import GAP
+from .grouping import GAP, levels
 from .overlap import Curve, Hold, Step, step_between, vertical_at
 from .sweeps import FrequencySweeps, ShiftTable
 
@@ -71,10 +71,10 @@ def shift_factors(
     Points within 1 K are one temperature, their mean. More than 200 points of one temperature are
     averaged over equal stretches of the logarithm of frequency.
     """
-    levels = temperature_levels(sweeps)
+    each = temperature_levels(sweeps)
     return shifts_between(
-        np.array([float(np.mean(level.temperature)) for level in levels]),
-        [curve(level) for level in levels],
+        np.array([float(np.mean(level.temperature)) for level in each]),
+        [curve(level) for level in each],
         reference_temperature=reference_temperature,
         by=by,
         vertical=vertical,
@@ -197,9 +197,7 @@ def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
     """Return the points of each temperature, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
         raise InputError("the temperature of some points is not known; say it, --temperature")
-    order = np.argsort(sweeps.temperature, kind="stable")
-    breaks = np.flatnonzero(np.diff(sweeps.temperature[order]) > GAP) + 1
-    return [sweeps.chosen(points) for points in np.split(order, breaks)]
+    return [sweeps.chosen(points) for points in levels(sweeps.temperature)]
 
 
 def curve(level: FrequencySweeps) -> Curve:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -22,37 +23,32 @@ from .assembly import (
 from .columns import Columns, Table
 from .diagnosis import test_of
 from .doubts import doubtful_modulus
-from .grouping import GAP
+from .grouping import levels
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
 
-
-def relaxation(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> RelaxationTest:
-    """Return the one stress relaxation test of a file."""
-    found = _rows(file, tables, given, "modulus")
-    return _relaxation(file, format, replace(found, temperature=_one_temperature(found)))
-
-
-def relaxations(
-    file: LabFile, format: str, tables: Sequence[Table], given: Given
-) -> tuple[RelaxationTest, ...]:
-    """Return the stress relaxation tests of a file, one for each temperature."""
-    rows = _rows(file, tables, given, "modulus")
-    return tuple(_relaxation(file, format, each) for each in _by_temperature(rows))
+Test = TypeVar("Test", RelaxationTest, CreepTest)
+# test -> what it measures, what is divided by what where that is not a column, and its name
+_MEASURED: dict[type, tuple[str, str, str, str]] = {
+    RelaxationTest: ("modulus", "stress", "strain", "relaxation"),
+    CreepTest: ("compliance", "strain", "stress", "creep"),
+}
 
 
-def creep(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> CreepTest:
-    """Return the one creep test of a file."""
-    found = _rows(file, tables, given, "compliance")
-    return _creep(file, format, replace(found, temperature=_one_temperature(found)))
+def one(
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+) -> Test:
+    """Return the one test of a kind that a file holds."""
+    rows = _rows(file, tables, given, kind)
+    return _test(kind, file, format, replace(rows, temperature=_one_temperature(rows)))
 
 
-def creeps(
-    file: LabFile, format: str, tables: Sequence[Table], given: Given
-) -> tuple[CreepTest, ...]:
-    """Return the creep tests of a file, one for each temperature."""
-    rows = _rows(file, tables, given, "compliance")
-    return tuple(_creep(file, format, each) for each in _by_temperature(rows))
+def each(
+    kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
+) -> list[Test]:
+    """Return the tests of a kind in a file, one for each temperature."""
+    rows = _by_temperature(_rows(file, tables, given, kind))
+    return [_test(kind, file, format, part) for part in rows]
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,31 +62,18 @@ class _Rows:
     columns: Columns
 
 
-def _relaxation(file: LabFile, format: str, rows: _Rows) -> RelaxationTest:
-    return RelaxationTest(
+def _test(kind: type[Test], file: LabFile, format: str, rows: _Rows) -> Test:
+    held = _MEASURED[kind][2]
+    known = rows.temperature[~np.isnan(rows.temperature)]
+    stated: dict[str, Any] = {held: _level(rows.columns, held)}
+    return kind(
         rows.time,
         rows.values,
         rows.kind,
-        strain=_level(rows.columns, "strain"),
-        temperature=_mean(rows.temperature),
+        temperature=float(np.mean(known)) if known.size else None,
         source=source_of(file, format, [*file.notes, *rows.columns.notes]),
+        **stated,
     )
-
-
-def _creep(file: LabFile, format: str, rows: _Rows) -> CreepTest:
-    return CreepTest(
-        rows.time,
-        rows.values,
-        rows.kind,
-        stress=_level(rows.columns, "stress"),
-        temperature=_mean(rows.temperature),
-        source=source_of(file, format, [*file.notes, *rows.columns.notes]),
-    )
-
-
-def _mean(temperature: Array) -> float | None:
-    known = temperature[~np.isnan(temperature)]
-    return float(np.mean(known)) if known.size else None
 
 
 def _one_temperature(rows: _Rows) -> Array:
@@ -111,8 +94,6 @@ def _by_temperature(rows: _Rows) -> list[_Rows]:
     steps = np.diff(rows.time)
     if np.any(np.isnan(rows.temperature)) or np.all(steps > 0) or np.all(steps < 0):
         return [replace(rows, temperature=_one_temperature(rows))]
-    order = np.argsort(rows.temperature, kind="stable")
-    breaks = np.flatnonzero(np.diff(rows.temperature[order]) > GAP) + 1
     parts = [
         replace(
             rows,
@@ -120,7 +101,7 @@ def _by_temperature(rows: _Rows) -> list[_Rows]:
             values=rows.values[part],
             temperature=rows.temperature[part],
         )
-        for part in np.split(order, breaks)
+        for part in levels(rows.temperature)
     ]
     return [replace(part, temperature=_one_temperature(part)) for part in parts]
 
@@ -166,10 +147,9 @@ def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
         )
 
 
-def _rows(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> _Rows:
+def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: type) -> _Rows:
     """Return time, modulus or compliance, and temperature of the one table that has them."""
-    over, under = ("stress", "strain") if wanted == "modulus" else ("strain", "stress")
-    test = "relaxation" if wanted == "modulus" else "creep"
+    wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
         columns = Columns(file, table, given.units, given.kind)

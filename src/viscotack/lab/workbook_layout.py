@@ -47,11 +47,7 @@ def tables(file: LabFile) -> list[Table]:
         rows = found[title]
         at = first_headings(rows[:_LOOKED])
         if at is not None:
-            below = enumerate(rows[at + 1 :], start=at + 2)
-            data = [(number, cells) for number, cells in below if any(cells)]
-            # a row with a number in it is a point, of headings that hold their units
-            has_units = data and not any(map(is_number, data[0][1]))
-            units = data.pop(0)[1] if has_units else None
+            units, data = under(rows, at)
             words = " ".join(" ".join(row) for row in rows[:at] if "geometry" in row[0].casefold())
             stated = stated_temperature(rows[:at])
             return [tabulated(file, rows[at], units, data, words=words, temperature=stated)]
@@ -59,6 +55,14 @@ def tables(file: LabFile) -> list[Table]:
         f"no sheet has headings such as \"f, T, E', E''\" in its first {_LOOKED} rows; "
         f"the sheets are {', '.join(map(repr, found))}"
     )
+
+
+def under(rows: Cells, at: int) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
+    """Return the units under a row of headings, where a row has them, and the numbered rows."""
+    data = [(number, row) for number, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
+    # a row with a number in it is a point, of headings that hold their units
+    has_units = data and not any(map(is_number, data[0][1]))
+    return data.pop(0)[1] if has_units else None, data
 
 
 def sheets(file: LabFile) -> dict[str, Cells]:

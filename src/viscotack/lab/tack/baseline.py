@@ -75,7 +75,7 @@ def free_after(force: Array) -> int:
         return 0
     free = count
     # of the whole, free or not: a few quiet points at the end are no measure of noise
-    least = max(_noise(force), 1e-9 * float(np.ptp(force)))
+    least = max(point_noise(force), 1e-9 * float(np.ptp(force)))
     for _ in range(30):
         part = force[-free:]
         x = np.linspace(-1.0, 0.0, part.size)
@@ -95,7 +95,7 @@ def free_after(force: Array) -> int:
     return free
 
 
-def _noise(values: Array) -> float:
+def point_noise(values: Array) -> float:
     """Return the standard deviation of single points, from second differences: no slope in it."""
     return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6))
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
+from viscotack.lab.columns import Table
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.plain_layout import is_number
-from viscotack.lab.workbook_layout import sheets
+from viscotack.lab.workbook_layout import sheets, under
 
-from .grid import Grid, grid, heads_columns
+from .grid import grid, heads_columns
 
 _LOOKED = 50  # rows in which the headings are looked for
 
@@ -16,7 +16,7 @@ def name(file: LabFile) -> str | None:
     return "workbook" if file.is_workbook and b"segments/0" not in file.content else None
 
 
-def grids(file: LabFile, names: Sequence[str] = ()) -> list[Grid]:
+def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     """Return the table of each sheet that names a force and a position or a time.
 
     `names` are headings that the caller names, by which their row is found.
@@ -34,12 +34,8 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Grid]:
     tables = []
     for title, rows in found.items():
         at = next((i for i, row in enumerate(rows[:_LOOKED]) if heads_columns(row, names)), None)
-        if at is None:
-            continue
-        below = [(i, row) for i, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
-        has_units = below and not any(map(is_number, below[0][1]))
-        units = below.pop(0)[1] if has_units else None
-        tables.append(grid(file, rows[at], units, below, f"sheet {title!r}"))
+        if at is not None:
+            tables.append(grid(file, rows[at], *under(rows, at), f"sheet {title!r}"))
     if not tables:
         raise file.error(
             'no sheet names the columns of a tack test, such as "Travel, Force, Time", in its '

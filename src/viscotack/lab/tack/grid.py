@@ -7,11 +7,11 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.lab.columns import Cells, Table, ruled
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.numbers import decimal_mark, number, plain_numbers
 from viscotack.lab.quantities import bare, no_unit
-from viscotack.lab.sweeps import Source
 
+from .header import recorded
 from .headings import POSITIONS, SIZES, factor, measures, recognise
 from .record import TackRecord
 
@@ -38,41 +38,20 @@ class Given:
         return tuple(name for name in (self.force_column, self.position_column) if name)
 
 
-@dataclass(frozen=True)
-class Grid:
-    """Headings with their units, and rows of cells with their line numbers, as text."""
-
-    headings: tuple[str, ...]
-    units: tuple[str, ...]
-    rows: tuple[tuple[int, tuple[str, ...]], ...]
-    label: str = ""
-
-
 def grid(
     file: LabFile,
     headings: Sequence[str],
     units: Sequence[str] | None,
     rows: Iterable[tuple[int, Sequence[str]]],
     label: str = "",
-) -> Grid:
+) -> Table:
     """Return a table whose rows are as long as its headings, or say which row is not."""
-    width = max((i + 1 for i, cell in enumerate(headings) if cell.strip()), default=0)
-    chosen = []
-    for line, cells in rows:
-        cells = tuple(map(str.strip, cells))
-        if len(cells) < width or any(cells[width:]):
-            raise file.error(
-                f"{len(cells)} cells where the headings have {width}; a cell is missing or added, "
-                "or the file is cut",
-                line,
-            )
-        chosen.append((line, cells[:width]))
-    beside = [*(units or ()), *[""] * width][:width]
-    return Grid(
-        tuple(heading.strip().strip('"').strip() for heading in headings[:width]),
-        tuple(bare(unit.strip().strip('"')) for unit in beside),
-        tuple(chosen),
-        label,
+    names, beside, chosen = ruled(file, headings, units, rows)
+    return Table(
+        tuple(name.strip('"').strip() for name in names),
+        tuple(bare(unit.strip('"')) for unit in beside),
+        chosen,
+        label=label,
     )
 
 
@@ -85,7 +64,7 @@ def heads_columns(cells: Sequence[str], names: Sequence[str] = ()) -> bool:
     return "force" in named and bool(named & {*POSITIONS, "time"})
 
 
-def record(file: LabFile, table: Grid, given: Given, format: str, few: bool = False) -> TackRecord:
+def record(file: LabFile, table: Table, given: Given, format: str, few: bool = False) -> TackRecord:
     """Return the record that a table holds; one of several intervals may be of `few` rows.
 
     Raises
@@ -114,18 +93,15 @@ def record(file: LabFile, table: Grid, given: Given, format: str, few: bool = Fa
         )
     if time is None:
         time = _time_from(file, position, given, notes)
-    source = Source(file.path, file.sha256, format, (*file.notes, *notes))
-    try:
-        return TackRecord(
-            time[keep],
-            force[keep],
-            position[keep],
-            _INTO[kind],
-            contact_radius=None if size is None else size[keep],
-            source=source,
-        )
-    except InputError as error:
-        raise file.error(str(error)) from None
+    (found,) = recorded(
+        file,
+        format,
+        notes,
+        (time[keep], force[keep], position[keep]),
+        into=_INTO[kind],
+        contact_radius=None if size is None else size[keep],
+    )
+    return found
 
 
 def _time_from(file: LabFile, position: Array, given: Given, notes: list[str]) -> Array:
@@ -144,11 +120,10 @@ def _time_from(file: LabFile, position: Array, given: Given, notes: list[str]) -
 class _Columns:
     """The columns of a table by their meaning."""
 
-    def __init__(self, file: LabFile, table: Grid, given: Given, notes: list[str]):
+    def __init__(self, file: LabFile, table: Table, given: Given, notes: list[str]):
         self.file, self.table, self.given, self.notes = file, table, given, notes
         self.units: dict[int, str] = {}
         self.found: dict[str, list[int]] = {}
-        self._mark = ""
         for index, text in enumerate(table.headings):
             heading = recognise(text)
             if heading is None:
@@ -158,6 +133,7 @@ class _Columns:
             if measures(unit, heading.quantity):
                 self.found.setdefault(heading.quantity, []).append(index)
                 self.units[index] = unit
+        self.cells = Cells(file, table, given.decimal, self.units, notes)
 
     def named(self, name: str) -> int:
         """Return the column with a heading that the caller names."""
@@ -178,9 +154,9 @@ class _Columns:
             raise self.file.error(
                 f"no column is a {word} (the columns are {known}); say --{word}-column NAME"
             )
-        first = self.numbers(places[0])
+        first = self.cells.numbers(places[0])
         for other in places[1:]:
-            values = self.numbers(other)
+            values = self.cells.numbers(other)
             if self.units[other] != self.units[places[0]] or not np.array_equal(
                 values, first, equal_nan=True
             ):
@@ -230,37 +206,8 @@ class _Columns:
                 f'the column "{self.table.headings[index]}" has no unit; say {flag} or write it'
             )
         try:
-            return self.numbers(index) * factor(unit, quantity)
+            return self.cells.numbers(index) * factor(unit, quantity)
         except InputError as error:
             if str(error).startswith(self.file.path):
                 raise
             raise self.file.error(f'column "{self.table.headings[index]}": {error}') from None
-
-    def numbers(self, index: int) -> Array:
-        """Return a column in the unit of the file."""
-        cells = [cells[index] for _, cells in self.table.rows]
-        values = plain_numbers(cells)
-        if values is not None and self.given.decimal != ",":
-            return values
-        mark = self._decimal()
-        values = np.empty(len(cells))
-        for row, text in enumerate(cells):
-            try:
-                values[row] = number(text, mark)
-            except InputError as error:
-                line = self.table.rows[row][0]
-                name = self.table.headings[index]
-                raise self.file.error(f'column "{name}": {error}', line) from None
-        return values
-
-    def _decimal(self) -> str:
-        if self.given.decimal is not None:
-            return self.given.decimal
-        if not self._mark:
-            cells = [cells[i] for _, cells in self.table.rows for i in self.units]
-            try:
-                self._mark = decimal_mark(cells)
-            except InputError as error:
-                raise self.file.error(str(error)) from None
-            self.notes += ["decimal comma"] * (self._mark == ",")
-        return self._mark

@@ -5,11 +5,10 @@ too, for instruments write the same word over volts. Texture analysers give forc
 """
 
 import re
-import unicodedata
 from dataclasses import dataclass
 
 from viscotack.errors import InputError
-from viscotack.lab.quantities import bare, no_unit, scale
+from viscotack.lab.quantities import BRACKET, bare, no_unit, plain, scale
 
 # quantity -> words, in small letters without spaces, marks and accents
 _WORDS = {
@@ -43,7 +42,6 @@ _SI = {
 STANDARD_GRAVITY = 9.80665  # m/s2: what a gram of force weighs
 _GRAMS = {"g": 1e-3, "gf": 1e-3, "kg": 1.0, "kgf": 1.0, "gram": 1e-3, "grams": 1e-3}
 _SECONDS = {"sec": "s", "secs": "s", "sek": "s", "seconds": "s", "Sec": "s"}
-_BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _COMMA = re.compile(r"(.*\S)\s*,\s*(\S+)")
 
 
@@ -66,15 +64,15 @@ def recognise(text: str) -> Heading | None:
     (Heading(quantity='force', unit='mN'), True, True)
     """
     text = text.strip().strip('"').strip()
-    if (whole := _BY_WORD.get(_plain(text))) is not None:
+    if (whole := _BY_WORD.get(plain(text))) is not None:
         return Heading(whole, "")
-    for pattern in (_BRACKET, _COMMA):
+    for pattern in (BRACKET, _COMMA):
         match = pattern.fullmatch(text)
-        name = _BY_WORD.get(_plain(match[1])) if match else None
+        name = _BY_WORD.get(plain(match[1])) if match else None
         if match and name:
             return Heading(name, bare(match[2])) if measures(match[2], name) else None
     for place in re.finditer("_", text):
-        name, unit = _BY_WORD.get(_plain(text[: place.start()])), text[place.end() :]
+        name, unit = _BY_WORD.get(plain(text[: place.start()])), text[place.end() :]
         if name is not None and not no_unit(unit) and measures(unit, name):
             return Heading(name, unit)
     return None
@@ -88,10 +86,10 @@ def factor(unit: str, quantity: str) -> float:
     >>> factor("mm", "gap"), round(factor("g", "force"), 6)
     (0.001, 0.009807)
     """
-    plain = bare(unit)
-    if quantity == "force" and plain in _GRAMS:
-        return _GRAMS[plain] * STANDARD_GRAVITY
-    return scale(_SECONDS.get(plain, plain), _SI[quantity])
+    own = bare(unit)
+    if quantity == "force" and own in _GRAMS:
+        return _GRAMS[own] * STANDARD_GRAVITY
+    return scale(_SECONDS.get(own, own), _SI[quantity])
 
 
 def measures(unit: str, quantity: str) -> bool:
@@ -103,9 +101,3 @@ def measures(unit: str, quantity: str) -> bool:
     except InputError:
         return False
     return True
-
-
-def _plain(text: str) -> str:
-    """Return a heading in small letters without spaces, hyphens, dots, underscores and accents."""
-    text = unicodedata.normalize("NFKD", text).casefold().replace("ß", "ss")
-    return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")

@@ -10,10 +10,9 @@ import struct
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.sweeps import Source
 
+from .header import bending, recorded
 from .record import TackRecord
 
 START = b"\x05\x00"  # version 5, written by a processor of the usual order of bytes
@@ -48,21 +47,14 @@ def records(file: LabFile) -> list[TackRecord]:
     deflection, height = columns["Defl"], columns["ZSnsr"]
     keep = np.isfinite(deflection) & np.isfinite(height)
     time = np.arange(1, height.size + 1) / rate
-    notes = (f"cantilever of {stiffness:.4g} N/m, whose bending is taken off the height",)
-    try:
-        return [
-            TackRecord(
-                time[keep],
-                stiffness * deflection[keep],
-                height[keep],
-                # the sensor's number grows when the tip is lowered
-                into=1,
-                compliance=1 / stiffness,
-                source=Source(file.path, file.sha256, "ibw", (*file.notes, *notes)),
-            )
-        ]
-    except InputError as error:
-        raise file.error(str(error)) from None
+    return recorded(
+        file,
+        "ibw",
+        (bending(stiffness),),
+        (time[keep], stiffness * deflection[keep], height[keep]),
+        into=1,  # the sensor's number grows when the tip is lowered
+        compliance=1 / stiffness,
+    )
 
 
 def _wave(file: LabFile) -> tuple[dict[str, Array], str]:

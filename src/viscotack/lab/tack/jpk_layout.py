@@ -14,11 +14,9 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LARGEST, LabFile
-from viscotack.lab.sweeps import Source
 
+from .header import Words, bending, real, recorded, whole
 from .record import TackRecord
-
-Words = dict[str, str]
 
 _TYPES = {
     "signedshort": ">i2",
@@ -69,7 +67,7 @@ def records(file: LabFile) -> list[TackRecord]:
     for number in numbers:
         folder = f"segments/{number}/"
         own = _properties(files[folder + "segment-header.properties"])
-        points = _whole(file, own, "force-segment-header.num-points")
+        points = whole(file, own, "force-segment-header.num-points")
         if points == 0:
             continue
         deflection, stiffness = _deflection(file, files, folder, own, shared)
@@ -77,7 +75,7 @@ def records(file: LabFile) -> list[TackRecord]:
         height = _channel(file, files, folder, own, shared, used, "m")
         if not deflection.size == height.size == points:
             raise file.error(f"segment {number} says {points} points and has {deflection.size}")
-        duration = _real(file, own, "force-segment-header.duration")
+        duration = real(file, own, "force-segment-header.duration")
         if not duration > 0:
             raise file.error(f"segment {number} lasts {duration:g} s")
         columns[0].append(clock + duration * np.arange(1, points + 1) / points)
@@ -88,22 +86,15 @@ def records(file: LabFile) -> list[TackRecord]:
         raise file.error("no segment has points")
     notes = (f"height from the channel {used}",)
     if stiffness:
-        notes += (f"cantilever of {stiffness:.4g} N/m, whose bending is taken off the height",)
-    time, force, position = map(np.concatenate, columns)
-    try:
-        return [
-            TackRecord(
-                time,
-                force,
-                position,
-                # heights grow away from the sample
-                into=-1,
-                compliance=1 / stiffness if stiffness else 0.0,
-                source=Source(file.path, file.sha256, "jpk-force", (*file.notes, *notes)),
-            )
-        ]
-    except InputError as error:
-        raise file.error(str(error)) from None
+        notes += (bending(stiffness),)
+    return recorded(
+        file,
+        "jpk-force",
+        notes,
+        map(np.concatenate, columns),
+        into=-1,  # heights grow away from the sample
+        compliance=1 / stiffness if stiffness else 0.0,
+    )
 
 
 def _deflection(
@@ -114,7 +105,7 @@ def _deflection(
     words = _of_channel(file, own, shared, "vDeflection")
     key = "conversion-set.conversion.force."
     based = words.get(key + "base-calibration-slot") == "distance"
-    stiffness = abs(_real(file, words, key + "scaling.multiplier")) if based else 0.0
+    stiffness = abs(real(file, words, key + "scaling.multiplier")) if based else 0.0
     return force, stiffness
 
 
@@ -186,8 +177,8 @@ def _channel(
 def _scaled(file: LabFile, words: Words, key: str, values: Array) -> Array:
     if words.get(key + "scaling.style", "offsetmultiplier") != "offsetmultiplier":
         raise file.error(f"{key}scaling.style is not offsetmultiplier")
-    offset = _real(file, words, key + "scaling.offset")
-    return offset + _real(file, words, key + "scaling.multiplier") * values
+    offset = real(file, words, key + "scaling.offset")
+    return offset + real(file, words, key + "scaling.multiplier") * values
 
 
 def _properties(content: bytes) -> Words:
@@ -197,20 +188,3 @@ def _properties(content: bytes) -> Words:
             key, _, value = line.partition("=")
             found[key.strip()] = value.strip()
     return found
-
-
-def _whole(file: LabFile, words: Words, key: str) -> int:
-    value = words.get(key, "")
-    if re.fullmatch(r"[0-9]{1,8}", value) is None:
-        raise file.error(f"{key} must be a whole number, got {value[:20]!r}")
-    return int(value)
-
-
-def _real(file: LabFile, words: Words, key: str) -> float:
-    try:
-        value = float(words.get(key, ""))
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise file.error(f"{key} must be a number, got {words.get(key, '')[:20]!r}")
-    return value

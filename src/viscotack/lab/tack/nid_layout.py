@@ -10,13 +10,10 @@ import re
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.sweeps import Source
 
+from .header import Words, real, recorded, whole
 from .record import TackRecord
-
-Section = dict[str, str]
 
 _END = b"#!"
 _MARK = b"[DataSet]"
@@ -68,21 +65,13 @@ def records(file: LabFile) -> list[TackRecord]:
         clock = float(time[-1][-1]) if height.size else clock
     if not force:
         raise file.error("there is no part called Spec forward or Spec backward: an image?")
-    source = Source(file.path, file.sha256, "nid", (*file.notes, *notes))
     # not told apart: the numbers grow when the head is lowered on some heads and fall on others
-    try:
-        return [
-            TackRecord(
-                np.concatenate(time), np.concatenate(force), np.concatenate(position), source=source
-            )
-        ]
-    except InputError as error:
-        raise file.error(str(error)) from None
+    return recorded(file, "nid", notes, map(np.concatenate, (time, force, position)))
 
 
-def _sections(text: str) -> dict[str, Section]:
-    found: dict[str, Section] = {}
-    current: Section = {}
+def _sections(text: str) -> dict[str, Words]:
+    found: dict[str, Words] = {}
+    current: Words = {}
     for line in text.splitlines():
         if line.startswith("[") and line.rstrip().endswith("]"):
             current = found.setdefault(line.strip()[1:-1], {})
@@ -93,7 +82,7 @@ def _sections(text: str) -> dict[str, Section]:
 
 
 def _curves(
-    file: LabFile, sections: dict[str, Section], content: bytes
+    file: LabFile, sections: dict[str, Words], content: bytes
 ) -> dict[tuple[str, str], Array]:
     """Return the curves of spectroscopy by their part and channel, in SI."""
     order = [
@@ -107,8 +96,9 @@ def _curves(
         head = sections.get(title)
         if head is None:
             raise file.error(f"the header has no section [{title}]")
-        points, lines = _whole(file, head, "Points", title), _whole(file, head, "Lines", title)
-        bits = _whole(file, head, "SaveBits", title)
+        label = f"[{title}]: "
+        points, lines = whole(file, head, "Points", label), whole(file, head, "Lines", label)
+        bits = whole(file, head, "SaveBits", label)
         if bits not in (8, 16, 32) or head.get("SaveOrder", "Intel") != "Intel":
             raise file.error(f"[{title}] is saved in a way that is not read ({bits} bits)")
         if head.get("SaveSign", "Signed") != "Signed" or points * lines > _MOST:
@@ -126,39 +116,22 @@ def _curves(
             continue
         if lines > 1:
             raise file.error(f"[{title}] holds {lines} curves; export one curve in each file")
-        low, span = _real(file, head, "Dim2Min", title), _real(file, head, "Dim2Range", title)
-        whole = np.frombuffer(piece, dtype=f"<i{bits // 8}").astype(float)
-        found[frame, channel] = low + span * (whole / 2.0**bits + 0.5)
+        low, span = real(file, head, "Dim2Min", label), real(file, head, "Dim2Range", label)
+        counts = np.frombuffer(piece, dtype=f"<i{bits // 8}").astype(float)
+        found[frame, channel] = low + span * (counts / 2.0**bits + 0.5)
     return found
 
 
-def _step(file: LabFile, sections: dict[str, Section]) -> tuple[float, tuple[str, ...]]:
+def _step(file: LabFile, sections: dict[str, Words]) -> tuple[float, tuple[str, ...]]:
     """Return the time between points [s]."""
     for key, section in sections.items():
         if not key.endswith("Spec") or "Modulation time" not in section:
             continue
         match = _TIME.fullmatch(section["Modulation time"])
-        planned = _whole(file, section, "Data points", key)
+        planned = whole(file, section, "Data points", f"[{key}]: ")
         if match is None or planned < 2 or not float(match[1]):
             break
         return float(match[1]) * _PARTS[match[2]] / planned, (
             f"{planned} points were planned in {section['Modulation time']}, equally far apart",
         )
     raise file.error("the header does not say the modulation time and the number of points")
-
-
-def _whole(file: LabFile, section: Section, key: str, title: str) -> int:
-    value = section.get(key, "")
-    if re.fullmatch(r"[0-9]{1,7}", value) is None:
-        raise file.error(f"[{title}]: {key} must be a whole number, got {value[:20]!r}")
-    return int(value)
-
-
-def _real(file: LabFile, section: Section, key: str, title: str) -> float:
-    try:
-        value = float(section.get(key, ""))
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise file.error(f"[{title}]: {key} must be a number, got {section.get(key, '')[:20]!r}")
-    return value

@@ -14,7 +14,7 @@ from types import ModuleType
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.lab.lab_file import LabFile, load
+from viscotack.lab.lab_file import format_of, load, refuse_unknown
 
 from . import book_layout, ibw_layout, jpk_layout, nid_layout, text_layout
 from .grid import Given, record
@@ -105,8 +105,7 @@ def read(
 
 def _check(format: str | None, given: Given) -> None:
     """Refuse what a caller says wrongly before the file is blamed for it."""
-    if format is not None and format not in FORMATS:
-        raise InputError(f"--format must be one of {', '.join(FORMATS)}, got {format!r}")
+    refuse_unknown(format, FORMATS)
     if given.decimal not in (None, ".", ","):
         raise InputError(f"--decimal must be . or , got {given.decimal!r}")
     for unit, quantity in (
@@ -193,26 +192,13 @@ def _records(
     path: AnyPath, format: str | None, given: Given, few: bool = False
 ) -> list[TackRecord]:
     file = load(path, raw=_RAW)
-    found = format or _sniffed(file)
+    found = format_of(file, FORMATS, format, "text")
     layout = FORMATS[found]
     # a damaged number may be beyond all floats; the record refuses it by name
     with np.errstate(all="ignore"):
-        return _of_layout(file, layout, found, given, few)
-
-
-def _of_layout(
-    file: LabFile, layout: ModuleType, found: str, given: Given, few: bool
-) -> list[TackRecord]:
-    if layout in (text_layout, book_layout):
+        if layout not in (text_layout, book_layout):
+            return layout.records(file)
         if not file.lines and not file.is_workbook:
             raise file.error("the file is neither text nor an Excel workbook; export it as text")
         file = replace(file, notes=(*file.notes, *file.left_out))
         return [record(file, table, given, found, few) for table in layout.grids(file, given.names)]
-    return layout.records(file)
-
-
-def _sniffed(file: LabFile) -> str:
-    for name, layout in FORMATS.items():
-        if layout.name(file) is not None:
-            return name
-    return "text"  # whose reader says what it expected

@@ -16,6 +16,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
+from .baseline import point_noise
 from .record import TackRecord
 
 _TURN = 0.1  # of the range of depths
@@ -159,8 +160,7 @@ def _departure(time: Array, depth: Array, dwell: int, at: int, late: int, way: f
     held = (lasted < 0.5 * lasted[0]) & (lasted > 0.1 * lasted[0])
     # a drive may overshoot when it arrives, so that its deepest point is not its level
     level = float(np.median(depth[dwell : late + 1][held])) if held.sum() >= 10 else depth[at]
-    scatter = 1.4826 * float(np.median(np.abs(np.diff(depth[dwell:], 2)))) / np.sqrt(6)
-    near = depth[at : late + 1] >= level - 4 * scatter - _STEP * way
+    near = depth[at : late + 1] >= level - 4 * point_noise(depth[dwell:]) - _STEP * way
     return at + int(np.flatnonzero(near)[-1]) if near.any() else at
 
 

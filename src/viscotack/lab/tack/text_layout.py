@@ -7,10 +7,11 @@ and nanoindenters (tabs, micronewtons in Latin-1).
 
 from collections.abc import Sequence
 
+from viscotack.lab.columns import Table
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.plain_layout import cells, is_comment, is_number, separators
+from viscotack.lab.plain_layout import below, first_line, mostly, repeats
 
-from .grid import Grid, grid, heads_columns
+from .grid import grid, heads_columns
 from .headings import recognise
 
 _LOOKED = 300  # lines in which the headings are looked for
@@ -21,7 +22,7 @@ def name(file: LabFile) -> str | None:
     return None if _headings(file) is None else "text"
 
 
-def grids(file: LabFile, names: Sequence[str] = ()) -> list[Grid]:
+def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
     """Return the table of a file, or one for each line that repeats the headings.
 
     `names` are headings that the caller names, by which their line is found.
@@ -39,45 +40,18 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Grid]:
             f'"Time [s], Gap [mm], Normal Force [N]"; the file begins {first[:60]!r}'
         )
     line, separator, headings = found
-    same = file.lines[line - 1].strip()
-    starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
-    ends = [*(start - 1 for start in starts[1:]), len(file.lines)]
     return [
-        _below(file, headings, separator, range(start, end), f"table {count}")
-        for count, (start, end) in enumerate(zip(starts, ends, strict=True), start=1)
+        grid(file, headings, *below(file, lines, separator), f"table {count}")
+        for count, lines in enumerate(repeats(file, line), start=1)
     ]
-
-
-def _below(
-    file: LabFile, headings: list[str], separator: str | None, lines: range, label: str
-) -> Grid:
-    """Return the table below one line of headings; `lines` counts from 0."""
-    rows = [
-        (i + 1, cells(file, file.lines[i], i + 1, separator))
-        for i in lines
-        if file.lines[i].strip() and not is_comment(file.lines[i])
-    ]
-    units = None
-    while rows and not any(map(is_number, rows[0][1])):
-        units = rows.pop(0)[1]
-        if any(cell.strip() for cell in units):
-            break
-    return grid(file, headings, units, rows, label)
 
 
 def _headings(file: LabFile, names: Sequence[str] = ()) -> tuple[int, str | None, list[str]] | None:
     """Return the line number, the separator and the cells of the first line of headings."""
-    for count, text in enumerate(file.lines[:_LOOKED], start=1):
-        for separator in separators(text):
-            try:
-                row = cells(file, text.lstrip("#% "), count, separator)
-            except ValueError:
-                continue
-            if heads_columns(row, names) and (separator or names or _mostly_headings(row)):
-                return count, separator, row
-    return None
-
-
-def _mostly_headings(row: list[str]) -> bool:
-    """Return whether words with spaces between them are headings and no sentence."""
-    return 2 * sum(recognise(cell) is not None for cell in row) > len(row)
+    return first_line(
+        file,
+        _LOOKED,
+        lambda row, parted: (
+            heads_columns(row, names) and (parted or bool(names) or mostly(row, recognise))
+        ),
+    )
