@@ -1,5 +1,8 @@
 """Files of tack tests: every layout gives the same test, in SI, or is refused with the cause."""
 
+import sys
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -149,6 +152,84 @@ def test_a_microscope_that_was_not_calibrated_is_refused(tmp_path):
         read(tmp_path, content, "curve.ibw")
     with pytest.raises(InputError, match="ends after"):
         read(tmp_path, tack_files.nid(WHOLE)[:-100], "curve.nid")
+
+
+class Curve(dict):
+    """A curve as afmformats has it: columns by name, metadata, its number in the file."""
+
+    columns = property(lambda self: list(self))
+
+    def __init__(self, test, enum, **metadata):
+        super().__init__(force=test.force, time=test.time)
+        self["height (measured)"] = -test.drive
+        self.enum, self.metadata = enum, metadata
+
+
+class NotCalibrated(BaseException):
+    """What afmformats raises is no Exception."""
+
+
+def stand_in(monkeypatch, load_data):
+    monkeypatch.setitem(sys.modules, "afmformats", SimpleNamespace(load_data=load_data))
+
+
+def test_a_map_is_read_by_afmformats_curve_by_curve(tmp_path, monkeypatch):
+    def load_data(path):
+        assert path == str(tmp_path / "map.jpk-force-map")
+        bent, bare = {"spring constant": 1e4}, {"spring constant": float("nan")}
+        return [Curve(WHOLE, 7, **bent), Curve(WHOLE, 8, **bare)]
+
+    stand_in(monkeypatch, load_data)
+    packed = tack_files.jpk(WHOLE)
+    first, second = read(tmp_path, packed, "map.jpk-force-map")
+    assert np.array_equal(first.force, WHOLE.force) and np.array_equal(first.time, WHOLE.time)
+    assert (first.into, first.compliance, second.compliance) == (-1, 1e-4, 0.0)
+    assert first.source.format == "afmformats" and "curve 7" in first.source.notes[0]
+    (cycle,) = tack.evaluate(second).cycles
+    assert cycle.pull_off_force.value == pytest.approx(-WHOLE.force.min())
+
+
+def test_a_curve_of_afmformats_without_time_needs_the_nominal_speed(tmp_path, monkeypatch):
+    curve = Curve(WHOLE, 0)
+    del curve["time"]
+    stand_in(monkeypatch, lambda path: [curve])
+    content = b"Force-Distance Curve\nFile Format:\t3\n"
+    with pytest.raises(InputError, match="test.csv.*no column of time.*--nominal-speed"):
+        read(tmp_path, content)
+    (record,) = read(tmp_path, content, nominal_speed=1e-5)
+    assert record.time[-1] == pytest.approx(np.sum(np.abs(np.diff(WHOLE.drive))) / 1e-5)
+    del curve["force"]
+    with pytest.raises(InputError, match="curve 0 has no force"):
+        read(tmp_path, content, nominal_speed=1e-5)
+
+
+def test_what_afmformats_cannot_read_is_refused_by_the_name_of_the_file(tmp_path, monkeypatch):
+    def load_data(path):
+        raise NotCalibrated("Please specify sensitivity and spring constant!")
+
+    stand_in(monkeypatch, load_data)
+    with pytest.raises(InputError, match="map.h5: afmformats cannot read it: Please specify"):
+        read(tmp_path, b"\x89HDF\r\n\x1a\n" + bytes(40), "map.h5")
+
+
+def test_without_afmformats_the_error_says_how_to_install_it(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "afmformats", None)
+    with pytest.raises(ImportError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):
+        read(tmp_path, tack_files.jpk(WHOLE), "map.jpk-qi-data")
+
+
+@pytest.mark.outside
+def test_a_curve_of_afm_workshop_is_read_by_afmformats(tmp_path):
+    pytest.importorskip("afmformats", reason="pip install viscotack[afm]")
+    down, up = slice(0, 500), slice(-500, None)
+    rows = [1e9 * x[part] for part in (down, up) for x in (WHOLE.drive, WHOLE.force)]
+    head = ["Force-Distance Curve", "File Format:\t3", "", "Mode:\tSingle", "Point:\t1", ""]
+    names = [f"{way} {name}(nN)" for way in ("Extend", "Retract") for name in ("Z-Sense", "Force")]
+    content = tack_files.text([name.replace("Sense(nN", "Sense(nm") for name in names], rows, head)
+    (record,) = read(tmp_path, content, nominal_speed=1e-5)
+    assert record.force == pytest.approx(np.r_[WHOLE.force[down], WHOLE.force[up]], rel=1e-6)
+    assert -record.position == pytest.approx(np.r_[WHOLE.drive[down], WHOLE.drive[up]], rel=1e-6)
+    assert record.source.format == "afmformats" and record.into == -1
 
 
 ALL = {

@@ -8,6 +8,7 @@ from itertools import chain
 from os import PathLike, fspath
 from pathlib import Path
 from types import ModuleType
+from zipfile import ZipFile
 
 from viscotack.errors import InputError
 
@@ -123,6 +124,11 @@ def _decoded(file: LabFile) -> tuple[str, str]:
         raise file.error(
             f"the bytes after {error.start} are not {encoding} text: the file is cut or damaged"
         ) from None
+
+
+def huge(archive: ZipFile) -> bool:
+    """Return whether an archive unpacks to more than 200 MB."""
+    return sum(part.file_size for part in archive.infolist()) > 4 * LARGEST
 
 
 def format_of(

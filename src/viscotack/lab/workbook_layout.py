@@ -14,7 +14,7 @@ from typing import Any
 from viscotack.errors import InputError
 
 from .columns import Table, first_headings, stated_temperature, tabulated
-from .lab_file import LARGEST, LabFile
+from .lab_file import LabFile, huge
 from .plain_layout import is_number
 
 _SHEET = "Exported Data"
@@ -102,7 +102,7 @@ def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
 def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     openpyxl = import_module("openpyxl")
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
-        if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
+        if huge(parts):
             raise InputError("it unpacks to more than 200 MB")
         formulas = any(
             _FORMULA.search(parts.read(part))

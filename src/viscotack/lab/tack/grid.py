@@ -92,7 +92,7 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
             f"{int(np.sum(keep))} rows with a force and a position; a test needs {needed}"
         )
     if time is None:
-        time = _time_from(file, position, given, notes)
+        time = time_by_speed(file, position, given, notes)
     (found,) = recorded(
         file,
         format,
@@ -104,7 +104,8 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
     return found
 
 
-def _time_from(file: LabFile, position: Array, given: Given, notes: list[str]) -> Array:
+def time_by_speed(file: LabFile, position: Array, given: Given, notes: list[str]) -> Array:
+    """Return the time [s] of a record without one, by the nominal speed that the caller says."""
     if given.nominal_speed is None:
         raise file.error(
             "there is no column of time, so that the true speed cannot be known; say "

@@ -13,7 +13,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.lab.lab_file import LARGEST, LabFile
+from viscotack.lab.lab_file import LabFile, huge
 
 from .header import Words, bending, real, recorded, whole
 from .record import TackRecord
@@ -48,7 +48,7 @@ def records(file: LabFile) -> list[TackRecord]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
-            if sum(part.file_size for part in parts.infolist()) > 4 * LARGEST:
+            if huge(parts):
                 raise file.error("it unpacks to more than 200 MB")
             files = {part: parts.read(part) for part in parts.namelist()}
     except InputError:

@@ -16,7 +16,7 @@ import numpy as np
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import format_of, load, refuse_unknown
 
-from . import book_layout, ibw_layout, jpk_layout, nid_layout, text_layout
+from . import afm_layout, book_layout, ibw_layout, jpk_layout, nid_layout, text_layout
 from .grid import Given, record
 from .headings import factor
 from .record import TackRecord
@@ -25,6 +25,7 @@ AnyPath = str | PathLike[str]
 
 # format -> the module that knows its layout, in the order in which they are tried
 FORMATS: dict[str, ModuleType] = {
+    "afmformats": afm_layout,
     "jpk-force": jpk_layout,
     "nid": nid_layout,
     "ibw": ibw_layout,
@@ -33,7 +34,7 @@ FORMATS: dict[str, ModuleType] = {
 }
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
 # how files begin that are neither text nor workbooks
-_RAW = (b"[DataSet]", ibw_layout.START)
+_RAW = (b"[DataSet]", ibw_layout.START, afm_layout.HDF)
 
 
 def read(
@@ -55,9 +56,9 @@ def read(
     paths : path-like, or sequence of them
         A text file (CSV, Anton Paar, Bluehill, testXpert, texture analyser, nanoindenter), a
         workbook (testXpert; extra ``lab``), a force curve of a microscope (Nanosurf .nid, JPK
-        .jpk-force, Asylum .ibw). Files named
-        ``..._Interval_7.csv`` are intervals of one test and are joined in the order of their
-        numbers.
+        .jpk-force, Asylum .ibw), or one that afmformats reads (maps of JPK, AFM Workshop, .h5;
+        extra ``afm``). Files named ``..._Interval_7.csv`` are intervals of one test and are joined
+        in the order of their numbers.
     format : str, optional
         One of :data:`FORMATS`; otherwise it is found out from the content.
     force_unit, length_unit, time_unit : str, optional
@@ -196,6 +197,8 @@ def _records(
     layout = FORMATS[found]
     # a damaged number may be beyond all floats; the record refuses it by name
     with np.errstate(all="ignore"):
+        if layout is afm_layout:
+            return layout.records(file, given)
         if layout not in (text_layout, book_layout):
             return layout.records(file)
         if not file.lines and not file.is_workbook:

@@ -1,0 +1,82 @@
+"""Layouts of microscopes that afmformats reads and this package does not (extra ``afm``).
+
+Maps of JPK (.jpk-force-map, .jpk-qi-data), curves of AFM Workshop, and the files that afmformats
+writes itself (.h5, .tab). Its heights grow away from the sample. It is by Paul Müller and others,
+under the MIT licence: https://afmformats.readthedocs.io.
+"""
+
+import io
+import logging
+import zipfile
+from importlib import import_module
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+
+from viscotack.lab.lab_file import LabFile, huge
+
+from .grid import Given, time_by_speed
+from .header import bending, recorded
+from .record import TackRecord
+
+HDF = b"\x89HDF"  # how an .h5 begins
+_ENDINGS = (".jpk-force-map", ".jpk-qi-data", ".h5")
+_FIRST = ("Force-Distance Curve", "# afmformats")  # lines: of AFM Workshop, and of a .tab
+
+
+def name(file: LabFile) -> str | None:
+    """Return the name of the format, or None if the file is another one."""
+    first = file.lines[0] if file.lines else ""
+    known = PurePath(file.path).suffix.casefold() in _ENDINGS or first.startswith(_FIRST)
+    return "afmformats" if known else None
+
+
+def records(file: LabFile, given: Given) -> list[TackRecord]:
+    """Return every curve of a file as a record.
+
+    Raises
+    ------
+    ValueError
+        If afmformats cannot read the file, or a curve has no force, or no time and no nominal
+        speed was said.
+    ImportError
+        If afmformats is not installed.
+    """
+    try:
+        library = import_module("afmformats")
+    except ImportError:
+        raise ImportError(
+            f"{file.path}: afmformats reads such files and is not installed: "
+            "pip install viscotack[afm]"
+        ) from None
+    if file.content.startswith(b"PK"):
+        with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
+            if huge(parts):
+                raise file.error("it unpacks to more than 200 MB")
+    # it logs the traceback of what it raises, too
+    logging.getLogger("afmformats").setLevel(logging.CRITICAL)
+    try:
+        curves = list(library.load_data(file.path))
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:
+        # its errors are no Exceptions, and damaged files make it fail in other ways
+        raise file.error(f"afmformats cannot read it: {error}") from None
+    return [found for curve in curves for found in _record(file, curve, given)]
+
+
+def _record(file: LabFile, curve: Any, given: Given) -> list[TackRecord]:
+    if not {"force", "height (measured)"} <= set(curve.columns):
+        raise file.error(f"curve {curve.enum} has no force and measured height")
+    force, height = (np.asarray(curve[key], float) for key in ("force", "height (measured)"))
+    notes = [f"curve {curve.enum} of the file, read by afmformats"]
+    if "time" in curve.columns:
+        time = np.asarray(curve["time"], dtype=float)
+    else:
+        time = time_by_speed(file, height, given, notes)
+    stiffness = float(curve.metadata.get("spring constant", np.nan))
+    known = 0 < stiffness < np.inf
+    more = {"into": -1, "compliance": 1 / stiffness if known else 0.0}
+    notes += [bending(stiffness)] * known
+    return recorded(file, "afmformats", notes, (time, force, height), **more)
