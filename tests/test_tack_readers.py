@@ -214,8 +214,12 @@ def test_what_afmformats_cannot_read_is_refused_by_the_name_of_the_file(tmp_path
 
 def test_without_afmformats_the_error_says_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "afmformats", None)
-    with pytest.raises(ImportError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):
+    with pytest.raises(InputError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):
         read(tmp_path, tack_files.jpk(WHOLE), "map.jpk-qi-data")
+    # it does not hide the others
+    (tmp_path / "plain.csv").write_bytes(PLAIN)
+    found = tack.survey([tmp_path / "map.jpk-qi-data", tmp_path / "plain.csv"])
+    assert len(found.cycles) == len(found.unread) == 1
 
 
 @pytest.mark.outside

@@ -6,6 +6,7 @@ Every format is brought into this one shape first; what the words mean is decide
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,8 +21,10 @@ from .doubts import doubtful_temperature
 from .lab_file import LabFile
 from .numbers import decimal_mark, half_digit, number, plain_numbers
 from .quantities import (
+    POSSIBLE,
     Heading,
     bare,
+    in_kelvin,
     kelvin,
     kind_of_geometry,
     no_unit,
@@ -173,10 +176,9 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
         match = _STATED.fullmatch(value.strip())
         if heading is None or heading.quantity != "temperature" or match is None:
             continue
-        factor, offset = kelvin(match[2])
-        kelvins = float(match[1].replace(",", ".")) * factor + offset
-        if 0 < kelvins < 3000:
-            found.add(kelvins)
+        value = in_kelvin(float(match[1].replace(",", ".")), match[2])
+        if POSSIBLE[0] < value < POSSIBLE[1]:
+            found.add(value)
     return found.pop() if len(found) == 1 else None
 
 
@@ -228,20 +230,16 @@ class Columns:
         said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
             raise self.error("one column is tensile (E), another one is shear (G); say --kind E|G")
-        for kind in said:
-            return kind
-        beside = {
-            heading.kind
-            for heading in map(recognise, self.table.headings)
-            if heading is not None and heading.kind
-        } | {kind_of_geometry(text) for text in (*self.table.headings, self.table.words)}
-        beside -= {None}
-        if len(beside) != 1:
-            return None
-        for kind in beside:
-            word = KINDS.get(kind or "")
+        if said:
+            return said.pop()
+        known = [heading.kind for heading in map(recognise, self.table.headings) if heading]
+        texts = (*self.table.headings, self.table.words)
+        beside = {*known, *map(kind_of_geometry, texts)} - {None}
+        kind = beside.pop() if len(beside) == 1 else None
+        if kind is not None:
+            word = KINDS[kind]
             self.notes.append(f"the words around the moduli speak of {word}, so kind is {kind!r}")
-            return kind
+        return kind
 
     def numbers(self, quantity: str, *, needed: bool = True) -> Array:
         """Return a column in the unit of the file; a row without a needed number is left out."""
@@ -325,7 +323,7 @@ class Columns:
         except ValueError as error:
             raise self._located("temperature", error) from None
         kelvins = self.numbers("temperature") * factor + offset
-        for row in np.flatnonzero(~((kelvins > 0) & (kelvins < 3000) | np.isnan(kelvins))):
+        for row in np.flatnonzero((kelvins <= POSSIBLE[0]) | (kelvins >= POSSIBLE[1])):
             raise self.error(f"a temperature of {kelvins[row]:g} K is not possible", int(row))
         self.notes += doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
@@ -350,25 +348,21 @@ class Columns:
         return omega
 
     def _angular(self, name: str) -> Array:
-        unit = self._unit(name)
+        unit, said = self._unit(name), self.units.frequency
         angular = name == "angular_frequency"
-        said = self.units.frequency
+        if no_unit(unit) and said is None and angular:
+            self.notes.append(f'"{self.name(name)}" has no unit and is taken in rad/s')
+            return self.numbers(name)
         try:
-            if said is not None:
-                factor = radians_per_second(said, angular="rad" in said)
-                try:
-                    own = factor if no_unit(unit) else radians_per_second(unit, angular=angular)
-                except ValueError:
-                    own = factor  # the file is ambiguous: the caller decides
+            if said is None:
+                factor = radians_per_second(unit, angular=angular)
+            else:
+                factor = own = radians_per_second(said, angular="rad" in said)
+                if not no_unit(unit):
+                    with suppress(ValueError):  # where the file is ambiguous the caller decides
+                        own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
                     raise InputError(f"the file says {bare(unit)}, --frequency-unit says {said}")
-            elif no_unit(unit) and angular:
-                factor = 1.0
-                self.notes.append(f'"{self.name(name)}" has no unit and is taken in rad/s')
-            elif no_unit(unit):
-                raise InputError("no unit; say --frequency-unit Hz or rad/s, or write it")
-            else:
-                factor = radians_per_second(unit, angular=angular)
         except ValueError as error:
             raise self._located(name, error) from None
         return self.numbers(name) * factor
@@ -387,17 +381,11 @@ class Columns:
             raise self.error(
                 f"{text!r} above the columns is no temperature; expected such as '20 °C'"
             )
-        unit = match[2] or self.units.temperature
-        if unit is None:
-            raise self.error(
-                f"{text!r} above the columns has no unit; if it is a temperature, say "
-                "--temperature-unit degC or K"
-            )
-        factor, offset = kelvin(unit)
-        kelvins = float(match[1]) * factor + offset
-        if not 0 < kelvins < 3000:
-            raise self.error(f"a temperature of {kelvins:g} K is not possible")
-        return kelvins
+        # a label without a unit was refused by `lacking`
+        value = in_kelvin(float(match[1]), match[2] or self.units.temperature or "")
+        if not POSSIBLE[0] < value < POSSIBLE[1]:
+            raise self.error(f"a temperature of {value:g} K is not possible")
+        return value
 
     def _said(self, target: str) -> str:
         """Return the unit that the caller gives for columns without one."""

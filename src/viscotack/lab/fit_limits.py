@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from .fit_plateaus import change, open_ends
-from .fit_prony import FittedSeries, fit_series
-from .fit_report import Interval, Scatter
+from .fit_prony import fit_series
+from .fit_report import Fitted, Interval, Scatter
 from .observed import Observed, only
 
 # A law that puts a plateau this many times beyond the measured moduli extrapolates.
@@ -83,7 +83,7 @@ def scatter_of(data: Observed, material: Any) -> float:
     return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
 
 
-def series_cautions(data: Observed, found: FittedSeries, *, few: bool) -> tuple[str, ...]:
+def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, ...]:
     """Return what to know of a fitted series: too many constants, gaps, moduli that contradict."""
     words = []
     arms, numbers = found.grid, data.values.size
@@ -116,7 +116,7 @@ def series_cautions(data: Observed, found: FittedSeries, *, few: bool) -> tuple[
     return tuple(words)
 
 
-def few_arms_caution(data: Observed, found: FittedSeries) -> tuple[str, ...]:
+def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
     """Return what a given number of arms costs beside as many as the data carry."""
     few = len(found.material.branches)
     if data.values.size < 6:

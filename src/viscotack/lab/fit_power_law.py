@@ -10,7 +10,6 @@ by the residuals (:mod:`.fit_errors`): errors that points have in common count a
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,27 +17,16 @@ import numpy as np
 from viscotack.arrays import Array
 
 from .fit_errors import errors
-from .fit_report import Interval, Scatter, scatter, unit_of
+from .fit_report import Fitted, Interval, information_criterion, scatter, unit_of
 from .fit_search import Search
 from .observed import Observed
 
 _POOR = 0.25  # half an interval of ln(constant) from which on the profile is asked
 
 
-@dataclass(frozen=True, eq=False)
-class FewConstants:
-    """A fitted solid, the intervals of its constants, and solids that the data allow as well."""
-
-    material: Any
-    intervals: tuple[Interval, ...]
-    scatter: Scatter
-    constants: int
-    draws: tuple[Any, ...]
-
-
 def fit_constants(
     data: Observed, *, model: str, known: Mapping[str, float], level: float, draws: int, seed: int
-) -> FewConstants:
+) -> Fitted:
     """Return a power law or a standard solid fitted to measured numbers.
 
     Parameters
@@ -92,7 +80,8 @@ def fit_constants(
         for value in [float(getattr(material, name))]
     )
     sample = _draws(search, best.x, known_errors.covariance(influences), ends, draws, seed)
-    return FewConstants(material, intervals, spread, len(search.free), sample)
+    criterion = information_criterion(residuals, len(search.free))
+    return Fitted(material, intervals, spread, len(search.free), criterion, sample)
 
 
 def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> tuple[Any, int]:

@@ -8,7 +8,7 @@ tried; the information criterion chooses. Arms that get no modulus are left out.
 plateaus are those of all series on a dense grid (:mod:`.fit_plateaus`).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +22,7 @@ from viscotack.materials.modes import maxwell
 
 from .fit_errors import Errors, errors
 from .fit_plateaus import NAMES, Plateau, open_ends
-from .fit_report import Interval, Scatter, information_criterion, scatter
+from .fit_report import Fitted, Interval, information_criterion, scatter
 from .nonnegative import nonnegative
 from .observed import Observed, only
 
@@ -35,23 +35,7 @@ _MADE = 120  # measurements made to see how far a sum of squares grows by chance
 _FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) beside the smallest number
 
 
-@dataclass(frozen=True, eq=False)
-class FittedSeries:
-    """A fitted Prony series, intervals of its plateaus, and series that the data allow as well."""
-
-    material: Prony
-    intervals: tuple[Interval, ...]
-    scatter: Scatter
-    constants: int
-    grid: int
-    criterion: float
-    compared: tuple[tuple[str, float], ...]
-    draws: tuple[Prony, ...]
-
-
-def fit_series(
-    data: Observed, *, arms: int | None, level: float, draws: int, seed: int
-) -> FittedSeries:
+def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, seed: int) -> Fitted:
     """Return a Prony series fitted to measured numbers.
 
     Parameters
@@ -100,7 +84,7 @@ def fit_series(
         spread = scatter(residuals, constants, known.words())
         intervals = _plateaus(data, material, times, weights, known, level, seed)
         sample = _bootstrap(data, times, weights, known, draws, seed)
-    return FittedSeries(
+    return Fitted(
         material=material,
         intervals=intervals,
         scatter=spread,

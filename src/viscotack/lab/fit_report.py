@@ -88,6 +88,28 @@ class Scatter:
     shared: str = ""
 
 
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A fitted solid, intervals of its constants, and solids that the data allow as well.
+
+    Attributes
+    ----------
+    material, intervals, scatter, constants, criterion, compared, draws
+        As of :class:`FitReport`.
+    grid : int
+        Of a Prony series, how many relaxation times were tried.
+    """
+
+    material: Any
+    intervals: tuple[Interval, ...]
+    scatter: Scatter
+    constants: int
+    criterion: float
+    draws: tuple[Any, ...]
+    compared: tuple[tuple[str, float], ...] = ()
+    grid: int = 0
+
+
 def scatter(residuals: Array, constants: int, shared: str = "") -> Scatter:
     """Return the scatter of residuals of shape (P, N) after a fit of so many constants."""
     degrees = residuals.size - constants

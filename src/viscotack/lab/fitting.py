@@ -159,7 +159,6 @@ def _fitted(
     cautions: tuple[str, ...] = ()
     if model == "prony":
         found = fit_series(data, arms=arms, level=level, draws=draws, seed=seed)
-        compared, criterion = others or found.compared, found.criterion
         if arms is not None:
             cautions = few_arms_caution(data, found)
         if draws:
@@ -167,9 +166,6 @@ def _fitted(
             cautions += series_cautions(data, found, few=bool(cautions))
     else:
         found = fit_constants(data, model=model, known=known, level=level, draws=draws, seed=seed)
-        compared = others
-        residuals = data.weighed(data.residuals(found.material))
-        criterion = information_criterion(residuals, found.constants)
     cautions = (*misfit_cautions(data, found.material, found.scatter), *cautions)
     if data.points:
         cautions = (*cautions, data.source.notes[-1])
@@ -181,8 +177,8 @@ def _fitted(
         level=level,
         scatter=found.scatter,
         constants=found.constants,
-        criterion=criterion,
-        compared=compared,
+        criterion=found.criterion,
+        compared=others or found.compared,
         undetermined=undetermined(data, found.material, found.intervals),
         cautions=cautions,
         draws=found.draws,

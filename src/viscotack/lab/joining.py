@@ -10,7 +10,7 @@ import numpy as np
 from viscotack.errors import InputError
 
 from .lab_file import LabFile
-from .quantities import kelvin
+from .quantities import in_kelvin
 from .sweeps import FrequencySweeps, Source
 
 _IN_NAME = re.compile(
@@ -89,11 +89,7 @@ def kelvin_in_name(file: LabFile) -> float:
         raise file.error(
             f"{match[1]!r} in its name may be below zero or behind a hyphen; name it with '_'"
         )
-    found = {
-        float(match["number"]) * factor + offset
-        for match in _IN_NAME.finditer(stem)
-        for factor, offset in [kelvin(match["unit"])]
-    }
+    found = {in_kelvin(float(m["number"]), m["unit"]) for m in _IN_NAME.finditer(stem)}
     if len(found) != 1 or min(found) <= 0:
         raise file.error(
             f"its name has {len(found)} temperatures such as '25C'; --temperature-in-name needs "

@@ -93,6 +93,7 @@ _WORD = re.compile(r"[^\W\d_]+")
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
 _LONGEST_UNIT = 3  # letters; a longer word in a bracket that is no unit describes
 
+POSSIBLE = 0.0, 3000.0  # K: temperatures of a test lie between
 _CELSIUS = {"°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"}
 _FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
 _NO_UNIT = {"", "-", "[-]", "1", "–"}
@@ -262,6 +263,12 @@ def kelvin(unit: str) -> tuple[float, float]:
     if unit == "K":
         return 1.0, 0.0
     raise InputError(f"{unit!r} is not a unit of temperature; expected C, K or F")
+
+
+def in_kelvin(number: float, unit: str) -> float:
+    """Return a temperature in a unit as kelvin."""
+    factor, offset = kelvin(unit)
+    return number * factor + offset
 
 
 def radians_per_second(unit: str, *, angular: bool) -> float:

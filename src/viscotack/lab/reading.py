@@ -28,7 +28,7 @@ from .columns import Columns, Table, Units
 from .diagnosis import test_of
 from .joining import joined, kelvin_in_name
 from .lab_file import LabFile, format_of, load, refuse_unknown
-from .quantities import kelvin, radians_per_second, scale
+from .quantities import POSSIBLE, kelvin, radians_per_second, scale
 from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
 
 Path = str | PathLike[str]
@@ -357,7 +357,7 @@ def _given(kind: str | None, temperature: float | None, units: Units) -> assembl
         raise InputError(f"--kind must be E (tensile) or G (shear), got {kind!r}")
     if units.decimal not in (None, ".", ","):
         raise InputError(f"--decimal must be . or , got {units.decimal!r}")
-    if temperature is not None and not 0 < temperature < 3000:
+    if temperature is not None and not POSSIBLE[0] < temperature < POSSIBLE[1]:
         raise InputError(
             f"--temperature must be above 0 K, got {temperature!r} K; give Celsius + 273.15"
         )

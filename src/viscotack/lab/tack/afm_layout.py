@@ -38,17 +38,14 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
     Raises
     ------
     ValueError
-        If afmformats cannot read the file, or a curve has no force, or no time and no nominal
-        speed was said.
-    ImportError
-        If afmformats is not installed.
+        If afmformats is not installed or cannot read the file, or a curve has no force, or no time
+        and no nominal speed was said.
     """
     try:
         library = import_module("afmformats")
     except ImportError:
-        raise ImportError(
-            f"{file.path}: afmformats reads such files and is not installed: "
-            "pip install viscotack[afm]"
+        raise file.error(
+            "afmformats reads such files and is not installed: pip install viscotack[afm]"
         ) from None
     if file.content.startswith(b"PK"):
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
