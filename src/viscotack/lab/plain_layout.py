@@ -76,7 +76,11 @@ def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[
 
 
 def first_line(
-    file: LabFile, looked: int, heads: Callable[[list[str], bool], bool]
+    file: LabFile,
+    looked: int,
+    heads: Callable[[list[str]], bool],
+    known: Callable[[str], Any],
+    sure: bool = False,
 ) -> tuple[int, str | None, list[str]] | None:
     """Return number, separator and cells of the first line of headings.
 
@@ -87,7 +91,12 @@ def first_line(
     looked : int
         Lines in which they are looked for.
     heads : callable
-        (cells, whether a separator stands between them) -> whether they are headings.
+        Cells -> whether they are headings.
+    known : callable
+        Cell -> what it means, None for nothing: of words with spaces between them most must mean
+        something, or the line is a sentence.
+    sure : bool
+        Whether `heads` knows that without.
     """
     for count, text in enumerate(file.lines[:looked], start=1):
         for separator in separators(text):
@@ -95,7 +104,9 @@ def first_line(
                 row = cells(file, text.lstrip("#% "), count, separator)
             except ValueError:
                 continue
-            if heads(row, separator is not None):
+            if not heads(row):
+                continue
+            if separator or sure or 2 * sum(known(cell) is not None for cell in row) > len(row):
                 return count, separator, row
     return None
 
@@ -129,19 +140,8 @@ def below(
     return units, rows
 
 
-def mostly(row: list[str], known: Callable[[str], Any]) -> bool:
-    """Return whether words with spaces between them are headings and no sentence."""
-    return 2 * sum(known(cell) is not None for cell in row) > len(row)
-
-
 def _headings(file: LabFile) -> tuple[int, str | None, list[str]] | None:
-    return first_line(
-        file,
-        _LOOKED,
-        lambda row, parted: (
-            first_headings([row]) is not None and (parted or mostly(row, recognise))
-        ),
-    )
+    return first_line(file, _LOOKED, lambda row: first_headings([row]) is not None, recognise)
 
 
 def _speaks_of_geometry(text: str) -> bool:

@@ -111,15 +111,10 @@ def _table(
         levels["stress"] = _level(file, parameters, "stress", None)
     if kelvin is not None:
         notes += doubtful_temperature(np.array([kelvin]), False)
-    return tabulated(
-        file,
-        [name for name, _ in fixed],
-        [unit for _, unit in fixed],
-        [(line, cells[:count]) for line, cells in rows],
-        temperature=kelvin,
-        notes=tuple(notes),
-        levels=levels,
-    )
+    names, units = zip(*fixed, strict=True)
+    first = [(line, cells[:count]) for line, cells in rows]
+    stated = {"temperature": kelvin, "notes": tuple(notes), "levels": levels}
+    return tabulated(file, names, units, first, **stated)
 
 
 def _ending(file: LabFile) -> str:

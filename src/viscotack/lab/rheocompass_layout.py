@@ -58,14 +58,9 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
     at = first_headings([row for _, row in rows])
     if at is None:
         raise file.error("expected headings below the beginning of the interval", line)
-    units = next(
-        (
-            i
-            for i, (_, row) in enumerate(rows[at + 1 : at + 1 + _UNITS_WITHIN], start=at + 1)
-            if any(cell.strip().startswith("[") for cell in row)
-        ),
-        None,
-    )
+    below = enumerate(rows[at + 1 : at + 1 + _UNITS_WITHIN], start=at + 1)
+    bracketed = (i for i, (_, row) in below if any(c.strip().startswith("[") for c in row))
+    units = next(bracketed, None)
     if units is None:
         raise file.error("expected units in square brackets below the headings", rows[at][0])
     data: list[Row] = []
@@ -82,14 +77,8 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
     if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
         headings, unit_cells = headings[1:], unit_cells[1:]
     own = stated_temperature([row for _, row in rows[:at]])
-    return tabulated(
-        file,
-        headings,
-        unit_cells,
-        data,
-        words=words,
-        temperature=stated if own is None else own,
-    )
+    kelvins = stated if own is None else own
+    return tabulated(file, headings, unit_cells, data, words=words, temperature=kelvins)
 
 
 def _separator(file: LabFile) -> str | None:

@@ -61,37 +61,26 @@ def _table(file: LabFile, rows: list[Row], words: str, temperature: float | None
         if counted:
             raise file.error(f"the step has {counted} points but no headings", rows[0][0])
         return None
-    if at + 1 < len(rows):
-        # the units end with the last column that has one
-        units = rows[at + 1][1]
-        units += [""] * (len(rows[at][1]) - len(units))
-    data: list[Row] = []
-    for number, row in rows[at + 2 :]:
-        if not any(cell.strip() for cell in row):
-            if data:
-                break
-            continue
-        data.append((number, row))
     if at + 1 == len(rows):
         raise file.error("expected a row of units below the headings", rows[at][0])
+    headings, units = rows[at][1], rows[at + 1][1]
+    data: list[Row] = []
+    for number, row in rows[at + 2 :]:
+        if any(cell.strip() for cell in row):
+            data.append((number, row))
+        elif data:
+            break
     if counted is not None and counted != len(data):
         raise file.error(
             f"the step says {counted} points and has {len(data)}: the file is cut or edited",
             rows[at][0],
         )
     notes = ()
-    if data and 1 < len(data[0][1]) < len(rows[at][1]):
+    if data and 1 < len(data[0][1]) < len(headings):
         # at the time of the step quotients have no value, and the last cells are not written
         notes = (f"line {data.pop(0)[0]} left out: it lacks cells, at the beginning of the step",)
-    return tabulated(
-        file,
-        rows[at][1],
-        rows[at + 1][1],
-        data,
-        words=words,
-        temperature=temperature,
-        notes=notes,
-    )
+    stated = {"words": words, "temperature": temperature, "notes": notes}
+    return tabulated(file, headings, units, data, **stated)
 
 
 def _starts(file: LabFile) -> list[int]:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from viscotack.lab.columns import Table
 from viscotack.lab.lab_file import LabFile
-from viscotack.lab.plain_layout import below, first_line, mostly, repeats
+from viscotack.lab.plain_layout import below, first_line, repeats
 
 from .grid import grid, heads_columns
 from .headings import recognise
@@ -48,10 +48,5 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
 
 def _headings(file: LabFile, names: Sequence[str] = ()) -> tuple[int, str | None, list[str]] | None:
     """Return the line number, the separator and the cells of the first line of headings."""
-    return first_line(
-        file,
-        _LOOKED,
-        lambda row, parted: (
-            heads_columns(row, names) and (parted or bool(names) or mostly(row, recognise))
-        ),
-    )
+    named = bool(names)
+    return first_line(file, _LOOKED, lambda row: heads_columns(row, names), recognise, named)
