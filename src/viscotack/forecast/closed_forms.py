@@ -21,7 +21,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.problem.ranges import at_least, at_most
-from viscotack.protocol import AtDepth, AtForce, AtRadius, Start
+from viscotack.protocol import AtDepth, Start
 from viscotack.theory import (
     CrackLaw,
     detachment,
@@ -31,6 +31,7 @@ from viscotack.theory import (
     rate,
     unloading,
 )
+from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones, effective_range, softening
 from viscotack.traction.growing import check_of_gap_alone
 
@@ -155,12 +156,11 @@ def closed_forms(asked: Groups) -> ClosedForms:
     mu, k = groups.tabor, groups.modulus_ratio
     slowest = float(np.asarray(lennard_jones.pull_off_ratio(mu)))
     fastest = float(np.asarray(lennard_jones.pull_off_ratio(mu * k ** (1 / 3)))) / k
-    depth = start_depth(groups)
-    start = None
-    if depth is not None:
-        start = float(np.asarray(jkr.contact_radius_at_depth(depth, **_UNIT))) / _TIP
+    contact = contact_in_groups(groups.start, tabor=mu)
+    start = None if contact is None else float(np.asarray(contact.contact_radius)) / _TIP
+    depth = None if contact is None else float(np.asarray(contact.depth))
     try:
-        return _by_theory(asked, groups, slowest, fastest, start)
+        return _by_theory(asked, groups, slowest, fastest, depth, start)
     except ValueError as error:  # a material has no modes as fine as a theory asks for
         return _without_theory(str(error), slowest, fastest, start)
 
@@ -184,10 +184,14 @@ def _without_theory(why: str, slowest: float, fastest: float, start: float | Non
 
 
 def _by_theory(
-    asked: Groups, groups: Groups, slowest: float, fastest: float, start: float | None
+    asked: Groups,
+    groups: Groups,
+    slowest: float,
+    fastest: float,
+    depth: float | None,
+    start: float | None,
 ) -> ClosedForms:
     """Evaluate the theories of a moving edge."""
-    depth = start_depth(groups)
     # where JKR has no such start the regime is that of a pull from no load
     free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
     curve = _unloading(groups, free if depth is None else depth)
@@ -260,8 +264,8 @@ def edge_curve(problem: Problem | Groups) -> unloading.Unloading | None:
     asked = problem.groups()
     check_retraction(asked)
     groups = lennard_jones_alike(asked)
-    depth = start_depth(groups)
-    curve = None if depth is None else _unloading(groups, depth)
+    contact = contact_in_groups(groups.start, tabor=groups.tabor)
+    curve = None if contact is None else _unloading(groups, float(contact.depth))
     if curve is None:
         return None
     return curve._replace(
@@ -311,22 +315,6 @@ def lennard_jones_alike(groups: Groups) -> Groups:
 def _rate(groups: Groups) -> float:
     assert groups.rate is not None, "checked at the door"
     return groups.rate
-
-
-def start_depth(groups: Groups) -> float | None:
-    """Return the depth of the start by JKR, R = E0* = dg0 = 1; None where JKR has no contact."""
-    start = groups.start
-    if isinstance(start, AtDepth):
-        depth = start.depth / groups.tabor
-    elif isinstance(start, AtForce):
-        if start.force < -1:
-            return None
-        radius = jkr.contact_radius_at_force(start.force * _JKR_FORCE, **_UNIT)
-        depth = float(np.asarray(jkr.depth(radius, **_UNIT)))
-    else:
-        assert isinstance(start, AtRadius), "checked at the door"
-        depth = float(np.asarray(jkr.depth(start.contact_radius * _TIP, **_UNIT)))
-    return depth if depth > float(np.asarray(jkr.instability(**_UNIT).depth)) else None
 
 
 def _crack(groups: Groups) -> CrackLaw:

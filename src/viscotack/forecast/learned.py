@@ -14,7 +14,7 @@ from viscotack.materials import RetardationPowerLaw
 from viscotack.methods.crack_band import band_parts, not_measured
 from viscotack.problem import Case, Groups
 from viscotack.protocol import AtDepth, AtForce, AtRadius
-from viscotack.theory import jkr
+from viscotack.theory.elastic.relaxed import contact_in_groups
 from viscotack.traction import LennardJones
 
 from .allow_list import ANY, Verified
@@ -230,7 +230,8 @@ def said_of_crack(asked: Question) -> Said | str:
         asked.groups,
     )
     if np.isnan(rows[0, physics.PRELOAD]) and rows[0, physics.TABOR] >= short_range.LOW[0]:
-        rows[0, physics.PRELOAD] = _short_range_depth(groups)
+        contact = contact_in_groups(groups.start, tabor=groups.tabor)
+        rows[0, physics.PRELOAD] = np.nan if contact is None else contact.depth * groups.tabor
     if not np.isfinite(rows).all() or not learned.in_range(rows)[0]:
         return "out of the range that was learned from the theory of a crack at the edge"
     said = learned.evaluate(rows)
@@ -239,22 +240,6 @@ def said_of_crack(asked: Question) -> Said | str:
     if elsewhere := not_measured(groups):
         return f"the band of the theory of a crack at the edge was not measured here: {elsewhere}"
     return said
-
-
-def _short_range_depth(groups: Groups) -> float:
-    """Return the depth of a relaxed start [h0] by JKR; nan where there is none."""
-    unit = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
-    match groups.start:
-        case AtForce(force=force):
-            try:
-                radius = jkr.contact_radius_at_force(1.5 * np.pi * force, **unit)
-            except ValueError:  # no such contact: the theories refuse it in words
-                return np.nan
-        case AtRadius(contact_radius=contact_radius):
-            radius = contact_radius * np.pi ** (1 / 3)
-        case _:
-            return np.nan
-    return float(jkr.depth(radius, **unit)) * groups.tabor
 
 
 # Inputs --------------------------------------------------------------------------------------

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from viscotack.errors import InputError, OutOfRange
 from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods.by_crack import CrackContact, crack_contact
 from viscotack.methods.crack_band import not_measured
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import PunchGroups
 from viscotack.problem.ranges import at_least, outside
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius
-from viscotack.theory import hertz
+from viscotack.theory.elastic.relaxed import contact_in_groups, radius_without_adhesion
 from viscotack.traction import (
     Dugdale,
     Exponential,
@@ -23,7 +21,7 @@ from viscotack.traction import (
 )
 
 from .allow_list import ANY, Verified
-from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike, start_depth
+from .closed_forms import ClosedForms, Estimate, closed_forms, lennard_jones_alike
 from .prediction import Prediction, of_theory
 from .question import Question
 from .two_peaks import two_peaks
@@ -102,7 +100,7 @@ def estimate_of(asked: Question, name: str) -> Estimate:
 def closed_form_limits(asked: Question) -> str:
     """Return which number of a problem lies outside of the measured range of the closed forms."""
     groups = asked.groups
-    if (radius := _start_radius(groups)) > _LARGEST_START:
+    if (radius := radius_without_adhesion(groups.start, tabor=groups.tabor)) > _LARGEST_START:
         return (
             f"the start is a contact of radius {radius:.4g} (pi R^2 dg0/E0*)^(1/3), and the "
             f"theories are evaluated up to {_LARGEST_START:g}"
@@ -123,8 +121,10 @@ def closed_form_limits(asked: Question) -> str:
         ranges = {**ranges, "rate": (0.0, ranges["rate"][1])}
     if words := outside(values, ranges):
         return words
-    depth = start_depth(alike)
-    return "" if depth is None else two_peaks(alike.tabor, k, depth * alike.tabor, values["rate"])
+    contact = contact_in_groups(alike.start, tabor=alike.tabor)
+    if contact is None:
+        return ""
+    return two_peaks(alike.tabor, k, float(contact.depth) * alike.tabor, values["rate"])
 
 
 def elastic_limits(asked: Question) -> str:
@@ -188,18 +188,3 @@ def by_crack_contact(asked: Question) -> Prediction:
     why = f"by the theory {CRACK_CONTACT!r}: {found.why}"
     work = found.work_to_pull_off
     return of_theory(asked, found.pull_off_force, found.band, CRACK_CONTACT, why, work=work)
-
-
-def _start_radius(groups: Groups) -> float:
-    """Return the radius of the start without adhesion [(pi R^2 dg0/E0*)^(1/3)]."""
-    start = groups.start
-    match start:
-        case AtRadius():
-            return start.contact_radius
-        case AtForce():
-            load = 1.5 * np.pi * max(start.force, 0.0)
-            radius = hertz.contact_radius_at_force(load, radius=1.0, contact_modulus=1.0)
-        case AtDepth():
-            depth = max(start.depth, 0.0) / groups.tabor  # R = E0* = dg0 = 1, so that h0 = 1/mu
-            radius = hertz.contact_radius_at_depth(depth, radius=1.0)
-    return float(radius / np.pi ** (1 / 3))

@@ -16,13 +16,11 @@ Source for the sphere: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and 31, the Ta
 corrected in Eq. 31.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, log
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from viscotack.errors import InputError
@@ -32,6 +30,7 @@ from viscotack.problem.units import time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
 from viscotack.theory.elastic import indenter
+from viscotack.theory.elastic.relaxed import contact
 from viscotack.traction import Traction
 
 # Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
@@ -204,19 +203,15 @@ def _where(function: Any, value: float) -> float:
 
 
 def _relaxed_radius(problem: Any, start: Start) -> float:
-    """Return the JKR contact radius of a relaxed state [m], or 0 where JKR has none."""
-    E = problem.material.contact_modulus
-    R, w = problem.geometry.radius, problem.traction.work_of_adhesion
+    """Return the JKR contact radius of a relaxed state [m], or 0 where JKR has none.
+
+    Of a pull that detaches, the radius at pull-off.
+    """
     if isinstance(start, AtRadius):
         return start.contact_radius
+    R, w = problem.geometry.radius, problem.traction.work_of_adhesion
     if isinstance(start, AtForce):
-        P, P1 = start.force, 1.5 * np.pi * R * w
-        # eq. (2.3) solved for the radius, on the branch that a dead load keeps
-        return float((3 * R / (4 * E) * (np.sqrt(max(P + P1, 0)) + np.sqrt(P1)) ** 2) ** (1 / 3))
-    # eq. (2.4), delta = a^2/R - sqrt(2 pi a w/E*), with sqrt(a) = y (c R)^(1/3)
-    c = np.sqrt(2 * np.pi * w / E)
-    roots: Sequence[complex] | npt.NDArray = np.roots(
-        [1, 0, 0, -1, -start.depth * R / (c * R) ** (4 / 3)]
-    )
-    real = [y.real for y in roots if abs(y.imag) < 1e-9 * max(1.0, abs(y))]
-    return float(max(real, default=0.0) ** 2 * (c * R) ** (2 / 3))
+        start = AtForce(max(start.force, -1.5 * np.pi * R * w))
+    E = problem.material.contact_modulus
+    found = contact(start, shape=problem.geometry, contact_modulus=E, work_of_adhesion=w)
+    return 0.0 if found is None else float(found.contact_radius)

@@ -9,7 +9,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
@@ -31,7 +30,7 @@ from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.surrogate import store
 from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
-from viscotack.theory.elastic import indenter
+from viscotack.theory.elastic.relaxed import contact, curve
 from viscotack.theory.punch import Pad, unloading
 
 # Speeds of the picture of force against speed, and how many decades around the present one.
@@ -124,62 +123,27 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
     }
     shape: Any = problem.geometry
     unit = problem.scales().radius
-
-    def along(what: str, a: Any) -> Any:
-        if what == "radius":
-            return a
-        function = indenter.depth if what == "depth" else indenter.force
-        return np.asarray(function(a, shape=shape, **solid))
-
+    depth, force = curve(shape, **solid)
     a = unit * np.geomspace(1e-3, _LARGEST, 240)
-    lowest = int(np.argmin(along("depth", a)))
-    end = max(_radii(problem, a[lowest:], along), default=None)
-    if end is None:
+    last = a[np.argmin(depth(a))]
+    contacts = (contact(state, shape=shape, **solid) for state in states(problem.protocol))
+    held = [x for x in contacts if x is not None and x.contact_radius < a[-1]]
+    start = max(held, key=lambda x: x.contact_radius, default=None)
+    if start is None:
         found["notes"].append("JKR has no contact at the start: adhesion does not hold it there")
-    radii = np.linspace(_USUAL * unit if end is None else end, a[lowest], _POINTS)
+    radii = np.linspace(_USUAL * unit if start is None else start.contact_radius, last, _POINTS)
     found["curves"]["elastic"] = _curve(
         "infinitely slow, short range (JKR)",
-        along("depth", radii),
-        along("force", radii),
+        depth(radii),
+        force(radii),
         radius=drawn(radii),
     )
-    if end is not None and isinstance(problem.protocol.start, Start):
+    if start is not None and isinstance(problem.protocol.start, Start):
         found["start"] = {
-            "depth": float(along("depth", end)),
-            "force": float(along("force", end)),
-            "radius": end,
+            "depth": start.depth,
+            "force": start.force,
+            "radius": start.contact_radius,
         }
-
-
-def _radii(problem: Problem, a: Any, along: Any) -> list[float]:
-    """Return the contact radii of the states that a test asks for, where JKR has them.
-
-    Parameters
-    ----------
-    problem : Problem
-        The test.
-    a : ndarray
-        Contact radii that a rigid drive holds [m], ascending.
-    along : callable
-        Returns depth, force or radius at such radii.
-    """
-    found = []
-    for state in states(problem.protocol):
-        what = state.word
-        (value,) = vars(state).values()
-        seen = along(what, a)
-        # of a force the branch that a dead load keeps
-        first = int(np.argmin(seen)) if what == "force" else 0
-        beyond = int(np.searchsorted(seen[first:], value)) + first
-        if not seen[first] <= value or beyond >= len(a):
-            continue
-        low, high = a[max(beyond - 1, 0)], a[beyond]
-        if seen[max(beyond - 1, 0)] == value or low == high:
-            found.append(float(low))
-            continue
-        root: Any = brentq(lambda x, w=what, v=value: float(along(w, x)) - v, low, high)
-        found.append(float(root))
-    return found
 
 
 def _edge(problem: Problem, found: dict[str, Any]) -> None:

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, Frictionless, PowerLawProfile, Sphere
@@ -34,6 +32,7 @@ from viscotack.problem.nouns import Nouns, known
 from viscotack.problem.prony_file import read_prony
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start, check_number_of_moves
 from viscotack.protocol.words import PURE_NUMBERS, move_from_words
+from viscotack.theory.elastic.relaxed import radius_without_adhesion
 from viscotack.traction import LennardJones
 from viscotack.units import parse, positive
 
@@ -448,18 +447,13 @@ def _start(door: Door, given: Mapping[str, Any], numbers: Mapping[str, float]) -
     value = field.card.checked(f"--{name}", given[name], "1")
     if "tabor" in numbers:
         q = numbers.get("profile_exponent", 2.0)
-        _refuse_large(name, kind, value, numbers["tabor"], q)
+        _refuse_large(name, kind(value), numbers["tabor"], q)
     return kind(value)
 
 
-def _refuse_large(name: str, kind: Any, value: float, tabor: float, exponent: float) -> None:
-    # a large contact is Hertz's, of a power law about: depth like a^q, force like a^(q + 1)
-    radius = {
-        AtDepth: (max(value, 0.0) / tabor) ** (1 / exponent) / np.cbrt(np.pi),
-        AtForce: (9 / 8 * max(value, 0.0)) ** (1 / (exponent + 1)),
-        AtRadius: value,
-        Apart: 0.0,
-    }[kind]
+def _refuse_large(name: str, start: Start | Apart, tabor: float, exponent: float) -> None:
+    radius = radius_without_adhesion(start, tabor=tabor, exponent=exponent)
+    (value,) = vars(start).values()
     if radius > _LARGEST_START and tabor < (least := revolution.SIMULATED_TABOR[0]):
         raise InputError(
             f"--tabor must be at least {least:g} for a simulation, got {tabor:g}; below take "

@@ -10,6 +10,7 @@ from . import (
     lennard_jones,
     maugis,
     profiles,
+    relaxed,
     transition,
 )
 
@@ -23,5 +24,6 @@ __all__ = [
     "lennard_jones",
     "maugis",
     "profiles",
+    "relaxed",
     "transition",
 ]

@@ -16,6 +16,7 @@ from viscotack.theory._checks import Number, at_least, plain
 from viscotack.theory._scales import contact_scales
 
 _NO_DEPTH = "above that the contact is lost even on a rigid drive, see instability"
+_FAR = 1e30
 _NO_FORCE = "a stronger pull detaches, see pull_off_force"
 
 
@@ -130,12 +131,15 @@ def _roots_at_depth(d: npt.NDArray[np.float64]) -> tuple[Any, Any]:
     of nearly equal numbers are written as quotients. At d = -3/4 round-off may leave a tiny
     negative number under a root.
     """
+    # beyond that the root grows with the fourth root of the depth, to round-off
+    far = np.maximum(d, _FAR) / _FAR
+    d = np.minimum(d, _FAR)
     C = np.cbrt(1 / 8 + np.sqrt(np.maximum(1 / 64 + d**3 / 27, 0)))
     m = 1 / (4 * (C**2 + d / 3 + (d / (3 * C)) ** 2))
     t = np.sqrt(2 * m)
     larger = (t + np.sqrt(np.maximum(2 * np.sqrt(2) / t - t**2, 0))) / 2
     product = -d * np.sqrt(m) / (m**1.5 + 0.5)
-    return larger, product / larger
+    return far**0.25 * larger, product / larger
 
 
 def _root_at_force(P: npt.NDArray[np.float64]) -> Any:
