@@ -47,7 +47,7 @@ ROOMS = (
     "__init__",
 )
 # The same inside the theories: what all of them share, then the wings.
-WINGS = ("_checks", "_scales", "elastic", "crack", "sphere", "punch")
+WINGS = ("_checks", "_roots", "_scales", "elastic", "crack", "sphere", "punch")
 # Rooms in which names are found for a release that moved to a later one (docs/migration.md).
 MOVED = {("bem", "methods")}
 # Properties that call the functions of the same name, which take what has the properties.

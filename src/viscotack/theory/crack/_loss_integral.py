@@ -6,16 +6,16 @@ the integral of I(omega_c sin theta) sin theta is smooth between the angles wher
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
+from viscotack.theory._roots import regula_falsi
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
-_ROUNDS, _CLOSE = 60, 1e-13
+_CLOSE = 1e-13
 _BLOCK = 2**18
-
-Array = npt.NDArray[np.floating[Any]]
 
 
 class Table(NamedTuple):
@@ -67,24 +67,9 @@ def _solved(speed: Array, table: Table) -> Array:
     aim = np.log(2 * np.pi * speed)
     at_rows = np.log(rows / rest(rows, table))
     i = np.clip(np.searchsorted(at_rows, aim) - 1, 0, rows.size - 2)
-    low, high = np.log(rows[i]), np.log(rows[i + 1])
-    below, above = at_rows[i] - aim, at_rows[i + 1] - aim
-    # regula falsi; an end that stays is given half of its weight (Illinois)
-    before = np.zeros(aim.shape)
-    found = np.ones(aim.shape)
-    for _ in range(_ROUNDS):
-        span = above - below
-        x = np.where(span > 0, low - below * (high - low) / np.where(span > 0, span, 1), low)
-        found = rest(np.exp(x), table)
-        miss = x - np.log(found) - aim
-        if np.max(np.abs(miss)) < _CLOSE:
-            break
-        side = np.where(miss < 0, -1.0, 1.0)
-        again = np.where(side == before, 0.5, 1.0)
-        low, high = np.where(side < 0, x, low), np.where(side > 0, x, high)
-        below, above = (
-            np.where(side < 0, miss, below * again),
-            np.where(side > 0, miss, above * again),
-        )
-        before = side
-    return np.asarray(1 / found)
+
+    def miss(log_cutoff: Array) -> Array:
+        return log_cutoff - np.log(rest(np.exp(log_cutoff), table)) - aim
+
+    found = regula_falsi(miss, np.log(rows[i]), np.log(rows[i + 1]), noise=_CLOSE)
+    return 1 / rest(np.exp(found), table)

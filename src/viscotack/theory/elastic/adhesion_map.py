@@ -23,15 +23,15 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._roots import halved
 
 from . import _maugis_equations as equations
 from .lennard_jones import tabor_number
-from .maugis_detachment import parameter_from_tabor
+from .maugis import parameter_from_tabor
 
 SMALL, LARGE = 0.05, 20.0
 _RANGE = (1e-3, 1e3)
 _LOG_EXCESS = (-45.0, 30.0)
-_HALVINGS = 60
 # h0 in the depth unit of Maugis' equations, times mu
 _GAP = (0.75 * np.pi) ** (-2 / 3)
 
@@ -159,9 +159,4 @@ def _load_at_lift(tabor: npt.ArrayLike, lift: float) -> Any:
 
 def _zero(function: Callable[[Any], Any], lam: Any) -> Any:
     """Return where a function that falls through zero with ln(c/a - 1) does so, or an end."""
-    low, high = (np.full(np.shape(lam), bound) for bound in _LOG_EXCESS)
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        above = function(middle) > 0
-        low, high = np.where(above, middle, low), np.where(above, high, middle)
-    return (low + high) / 2
+    return halved(function, *(np.full(np.shape(lam), bound) for bound in _LOG_EXCESS))

@@ -14,51 +14,40 @@ holds. Formulas use, with Eq. 4.16,
           \hat\delta = \frac{\delta}{(\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}}, \quad
           \hat P = \frac{P}{\pi R \Delta\gamma_0}.
 
+A JKR contact is a Hertz contact of the same radius lifted by a flat punch, by
+:math:`\delta_1 = \sqrt{2 \pi a \Delta\gamma_0 / E^*}`: pressure, displacement and gap of its
+surface follow. ``position`` is the distance r from the axis [m] there, ``contact_radius`` the
+radius a [m] of an equilibrium state.
+
 Source: Johnson, Kendall & Roberts (1971), doi:10.1098/rspa.1971.0141; Eq. 2.3 and 2.4.
 """
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._scales import contact_scales
 
-from .jkr_branches import (
-    contact_radius_at_depth,
-    contact_radius_at_force,
-    unstable_contact_radius_at_depth,
-    unstable_contact_radius_at_force,
-)
-from .jkr_detachment import (
-    Point,
-    instability,
-    pull_off,
-    pull_off_force,
-    work_to_instability,
-    work_to_pull_off,
-)
-from .jkr_surface import gap, pressure, surface_displacement
-
-__all__ = [
-    "Point",
-    "contact_radius_at_depth",
-    "contact_radius_at_force",
-    "depth",
-    "force",
-    "gap",
-    "instability",
-    "pressure",
-    "pull_off",
-    "pull_off_force",
-    "surface_displacement",
-    "unstable_contact_radius_at_depth",
-    "unstable_contact_radius_at_force",
-    "work_to_instability",
-    "work_to_pull_off",
-]
+from . import hertz
 
 _LENGTH = "a contact radius is a length"
+_SIGN = "a distance from the axis is not negative"
+_NO_DEPTH = "above that the contact is lost even on a rigid drive, see instability"
+_FAR = 1e30
+_NO_FORCE = "a stronger pull detaches, see pull_off_force"
+
+
+class Point(NamedTuple):
+    """A point of the equilibrium curve: contact radius [m], depth [m], force [N]."""
+
+    contact_radius: Number
+    depth: Number
+    force: Number
 
 
 def force(
@@ -107,3 +96,312 @@ def depth(
     )
     a = at_least(0, _LENGTH, contact_radius=contact_radius)
     return plain(a**2 / R - np.sqrt(2 * np.pi * a * w / E))
+
+
+def contact_radius_at_depth(
+    depth: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the contact radius [m] that a rigid drive holds at a depth [m].
+
+    The larger root of :math:`\hat a^2 - \sqrt{2 \hat a} = \hat\delta`, in closed form; the depth
+    must not lie below that of :func:`jkr.instability`.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{contact_radius_at_depth(0.0, **case) * 1e6:.1f} um"
+    '68.0 um'
+    """
+    length, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
+    d = at_least(-0.75 * height, _NO_DEPTH, depth=depth) / height
+    larger, _ = _roots_at_depth(d)
+    return plain(length * larger**2)
+
+
+def unstable_contact_radius_at_depth(
+    depth: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the smaller contact radius [m] in equilibrium at a depth [m]; nothing holds it.
+
+    It exists between the depth of :func:`jkr.instability` and zero, where it vanishes.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{unstable_contact_radius_at_depth(-1e-6, **case) * 1e6:.2f} um"
+    '3.25 um'
+    """
+    length, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
+    d = at_least(-0.75 * height, _NO_DEPTH, depth=depth) / height
+    if np.any(d > 0):
+        raise InputError(
+            f"depth must not be positive on the unstable branch, got {np.max(depth)} m; "
+            "use contact_radius_at_depth"
+        )
+    _, smaller = _roots_at_depth(d)
+    return plain(length * smaller**2)
+
+
+def contact_radius_at_force(
+    force: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the contact radius [m] that a dead load holds at a force [N].
+
+    The larger root of :math:`\frac43 \hat a^3 - \sqrt{8 \hat a^3} = \hat P`; the force must not
+    lie below minus :func:`jkr.pull_off_force`.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{contact_radius_at_force(0.0, **case) * 1e6:.1f} um"
+    '89.1 um'
+    """
+    length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
+    return plain(length * np.cbrt(_root_at_force(P) ** 2))
+
+
+def unstable_contact_radius_at_force(
+    force: npt.ArrayLike,
+    *,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the smaller contact radius [m] in equilibrium at a force [N].
+
+    It exists for tension up to :func:`jkr.pull_off_force`. A dead load does not hold it; a rigid
+    drive holds the part of it with a radius above that of :func:`jkr.instability`.
+
+    Examples
+    --------
+    >>> case = dict(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{unstable_contact_radius_at_force(-1e-4, **case) * 1e6:.1f} um"
+    '21.8 um'
+    """
+    length, _, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    P = at_least(-1.5 * load, _NO_FORCE, force=force) / load
+    if np.any(P > 0):
+        raise InputError(
+            f"force must not be positive on the unstable branch, got {np.max(force)} N; "
+            "use contact_radius_at_force"
+        )
+    # The product of the two roots is -3P/4: no cancellation for a small force.
+    return plain(length * np.cbrt((0.75 * P / _root_at_force(P)) ** 2))
+
+
+def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+    r"""Return the pull-off force [N], the positive number :math:`\frac32\pi R\Delta\gamma_0`.
+
+    It does not depend on the modulus and holds for load and depth control alike.
+
+    Examples
+    --------
+    >>> f"{pull_off_force(radius=1e-3, work_of_adhesion=0.05) * 1e3:.4f} mN"
+    '0.2356 mN'
+    """
+    R, w = positive(radius=radius, work_of_adhesion=work_of_adhesion)
+    return plain(1.5 * np.pi * R * w)
+
+
+def pull_off(
+    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> Point:
+    r"""Return the force minimum: :math:`\hat a^3 = 9/8, \hat\delta = -3^{1/3}/4, \hat P = -3/2`.
+
+    Examples
+    --------
+    >>> end = pull_off(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{end.contact_radius * 1e6:.1f} um, {end.depth * 1e6:.2f} um, {end.force * 1e3:.4f} mN"
+    '56.1 um, -1.05 um, -0.2356 mN'
+    """
+    length, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    a, d, P = 1.125 ** (1 / 3), -(3 ** (1 / 3)) / 4, -1.5
+    return Point(plain(a * length), plain(d * height), plain(P * load))
+
+
+def instability(
+    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> Point:
+    r"""Return the depth minimum: :math:`\hat a = 1/2, \hat\delta = -3/4, \hat P = -5/6`.
+
+    Examples
+    --------
+    >>> end = instability(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{end.contact_radius * 1e6:.1f} um, {end.depth * 1e6:.2f} um, {end.force * 1e3:.4f} mN"
+    '27.0 um, -2.18 um, -0.1309 mN'
+    """
+    length, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    return Point(plain(length / 2), plain(-0.75 * height), plain(-5 / 6 * load))
+
+
+def work_to_pull_off(
+    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> Number:
+    r"""Return the work [J] of the drive from zero force to the force minimum.
+
+    The integral of P over the depth along retraction,
+
+    .. math:: W = \left(\tfrac98\right)^{2/3} \left(\tfrac35 4^{2/3} - \tfrac25\right)
+              \pi R \Delta\gamma_0 (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}
+              \quad \text{(Eq. 46)}
+
+    Examples
+    --------
+    >>> W = work_to_pull_off(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{W * 1e12:.0f} pJ"
+    '550 pJ'
+    """
+    _, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    return plain(1.125 ** (2 / 3) * (0.6 * 4 ** (2 / 3) - 0.4) * load * height)
+
+
+def work_to_instability(
+    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+) -> Number:
+    r"""Return the work [J] of the drive from zero force to the depth minimum.
+
+    The integral of P over the depth along retraction,
+
+    .. math:: W = \left[ \tfrac35 \left(\tfrac92\right)^{2/3} + \tfrac1{10} \right]
+              \pi R \Delta\gamma_0 (\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}
+
+    Examples
+    --------
+    >>> W = work_to_instability(radius=1e-3, contact_modulus=1e6, work_of_adhesion=0.05)
+    >>> f"{W * 1e12:.0f} pJ"
+    '794 pJ'
+    """
+    _, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
+    return plain((0.6 * 4.5 ** (2 / 3) + 0.1) * load * height)
+
+
+def pressure(
+    position: npt.ArrayLike,
+    *,
+    contact_radius: npt.ArrayLike,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the pressure [Pa], positive in compression; zero outside the contact (Eq. 2.9).
+
+    .. math:: p(r) = \frac{2 E^*}{\pi R} \sqrt{a^2 - r^2}
+              - \sqrt{\frac{2 E^* a \Delta\gamma_0}{\pi (a^2 - r^2)}}
+
+    The pressure has no value at the edge itself, where the tension is infinite.
+
+    Examples
+    --------
+    >>> state = dict(contact_radius=1e-4, radius=1e-3, contact_modulus=1e6)
+    >>> f"{pressure(0.0, work_of_adhesion=0.05, **state) / 1e3:.1f} kPa"
+    '45.8 kPa'
+    """
+    E, w = positive(contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
+    compression = hertz.pressure(
+        position, contact_radius=contact_radius, radius=radius, contact_modulus=E
+    )
+    a, r = positive(contact_radius=contact_radius), np.asarray(position, dtype=float)
+    if np.any(r == a):
+        raise InputError("position must not be the contact edge, where the JKR tension is infinite")
+    inside = np.where(r < a, (a - r) * (a + r), np.inf)
+    return plain(compression - np.sqrt(2 * E * a * w / (np.pi * inside)))
+
+
+def surface_displacement(
+    position: npt.ArrayLike,
+    *,
+    contact_radius: npt.ArrayLike,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the displacement of the surface [m], positive into the solid.
+
+    Inside the contact :math:`u = \delta - r^2/2R`, outside the displacement of Hertz minus
+    :math:`\delta_1 \frac{2}{\pi} \arcsin(a/r)`.
+
+    Examples
+    --------
+    >>> state = dict(contact_radius=1e-4, radius=1e-3, contact_modulus=1e6)
+    >>> f"{surface_displacement(1.1e-4, work_of_adhesion=0.05, **state) * 1e6:.3f} um"
+    '0.256 um'
+    """
+    a, r, lift = _lift(position, contact_radius, contact_modulus, work_of_adhesion)
+    hertzian = hertz.surface_displacement(r, contact_radius=a, radius=radius)
+    return plain(hertzian - lift * 2 / np.pi * np.arcsin(a / np.maximum(r, a)))
+
+
+def gap(
+    position: npt.ArrayLike,
+    *,
+    contact_radius: npt.ArrayLike,
+    radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> Number:
+    r"""Return the gap [m] between sphere and surface; zero inside the contact.
+
+    The gap of Hertz plus :math:`\delta_1 \frac{2}{\pi} \arccos(a/r)`; next to the edge it opens
+    as a crack, with :math:`\sqrt{r - a}`, and all digits are kept.
+
+    Examples
+    --------
+    >>> state = dict(contact_radius=1e-4, radius=1e-3, contact_modulus=1e6)
+    >>> f"{gap(1.1e-4, work_of_adhesion=0.05, **state) * 1e6:.3f} um"
+    '1.911 um'
+    """
+    a, r, lift = _lift(position, contact_radius, contact_modulus, work_of_adhesion)
+    angle = np.arctan2(np.sqrt(np.maximum((r - a) * (r + a), 0)), a)
+    return plain(hertz.gap(r, contact_radius=a, radius=radius) + lift * 2 / np.pi * angle)
+
+
+def _roots_at_depth(d: npt.NDArray[np.float64]) -> tuple[Any, Any]:
+    r"""Return both roots s = sqrt(a) of :math:`s^4 - \sqrt2 s - d = 0`, d from -3/4.
+
+    Ferrari's solution; m is the positive root of the resolvent m^3 + d m - 1/4 = 0. Differences
+    of nearly equal numbers are written as quotients. At d = -3/4 round-off may leave a tiny
+    negative number under a root.
+    """
+    # beyond that the root grows with the fourth root of the depth, to round-off
+    far = np.maximum(d, _FAR) / _FAR
+    d = np.minimum(d, _FAR)
+    C = np.cbrt(1 / 8 + np.sqrt(np.maximum(1 / 64 + d**3 / 27, 0)))
+    m = 1 / (4 * (C**2 + d / 3 + (d / (3 * C)) ** 2))
+    t = np.sqrt(2 * m)
+    larger = (t + np.sqrt(np.maximum(2 * np.sqrt(2) / t - t**2, 0))) / 2
+    product = -d * np.sqrt(m) / (m**1.5 + 0.5)
+    return far**0.25 * larger, product / larger
+
+
+def _root_at_force(P: npt.NDArray[np.float64]) -> Any:
+    r"""Return the larger root c = a^(3/2) of :math:`\frac43 c^2 - \sqrt8 c - P = 0`."""
+    return 0.75 * (np.sqrt(2) + np.sqrt(np.maximum(2 + 4 * P / 3, 0)))
+
+
+def _lift(
+    position: npt.ArrayLike,
+    contact_radius: npt.ArrayLike,
+    contact_modulus: npt.ArrayLike,
+    work_of_adhesion: npt.ArrayLike,
+) -> tuple[Any, Any, Any]:
+    """Return contact radius [m], distance [m] and the lift of the flat punch [m]."""
+    a, E, w = positive(
+        contact_radius=contact_radius,
+        contact_modulus=contact_modulus,
+        work_of_adhesion=work_of_adhesion,
+    )
+    r = at_least(0, _SIGN, position=position)
+    return a, r, np.sqrt(2 * np.pi * a * w / E)

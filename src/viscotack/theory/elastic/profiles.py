@@ -18,7 +18,7 @@ Source: Sneddon (1965), doi:10.1016/0020-7225(65)90019-4, without adhesion; Magh
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -27,15 +27,9 @@ from scipy.special import gammaln
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, at_least, plain, positive
 
+from .jkr import Point
+
 _LENGTH = "a contact radius is a length"
-
-
-class Point(NamedTuple):
-    """A point of an equilibrium curve: contact radius [m], depth [m], force [N]."""
-
-    contact_radius: Number
-    depth: Number
-    force: Number
 
 
 def with_adhesion(

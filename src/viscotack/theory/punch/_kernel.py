@@ -22,6 +22,7 @@ from scipy.interpolate import make_interp_spline
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
+from viscotack.theory._roots import halved
 
 # kappa differs from 1 - exp(-2u) by u^2 exp(-2u): nothing is left at this u.
 _CUT = 22.0
@@ -100,11 +101,8 @@ def _decay(base: Base) -> float:
     if not isinstance(base, Bonded):
         return 2 * np.pi
     # q sin y = y
-    q, low, high = 3 - 4 * base.poisson_ratio, 1e-3, np.pi
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if q * np.sin(middle) > middle else (low, middle)
-    return (low + high) / 2
+    q = 3 - 4 * base.poisson_ratio
+    return float(halved(lambda y: q * np.sin(y) - y, 1e-3, np.pi))
 
 
 def _smooth_kernel(longest: float, base: Base) -> Any:

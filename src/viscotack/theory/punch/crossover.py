@@ -32,14 +32,13 @@ from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.renamed import earlier_names
 from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._roots import halved
 
 from ._kernel import curve
 
 __getattr__ = earlier_names(
     __name__, {"pull_off_depth": "viscotack.theory.punch.crossover.depth_at_pull_off"}
 )
-
-_HALVINGS = 64
 
 
 def stiffness(
@@ -208,12 +207,12 @@ def thickness(
         )
     state = curve(base)
     # the stress rises with a/b, at least as the thin-layer law of a frictionless base
-    low, high = np.full(wanted.shape, -60.0), np.log(wanted**2) + 10
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        below = state(np.exp(middle))[1] < wanted
-        low, high = np.where(below, middle, low), np.where(below, high, middle)
-    return plain(a * np.exp(-(low + high) / 2))
+    log_ratio = halved(
+        lambda x: wanted - state(np.exp(x))[1],
+        np.full(wanted.shape, -60.0),
+        np.log(wanted**2) + 10,
+    )
+    return plain(a * np.exp(-log_ratio))
 
 
 def _pad(thickness: npt.ArrayLike, half_width: npt.ArrayLike, **others: npt.ArrayLike) -> Any:

@@ -39,7 +39,6 @@ doi:10.1098/rspa.1971.0141.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -47,16 +46,15 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._roots import regula_falsi
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 
 # Depth at the largest tension, -3^(1/3)/4, and da/d(depth) there, 3^(1/3)/2, of JKR.
 _DEPTH, _SLOPE = np.cbrt(3) / 4, np.cbrt(3) / 2
-# Rounds to the root of ln t at most, a quarter of them halves of its bracket; round-off there, and
-# rounds in which the law settles.
-_ROUNDS, _ROUND_OFF = 150, 1e-14
-_SETTLED = 5
+# Round-off of the root of ln t, and rounds in which the law settles.
+_ROUND_OFF, _SETTLED = 1e-14, 5
 _TOLERANCE = 1e-12
 
 
@@ -234,7 +232,7 @@ def unlimited(
         asked, v, _ = edge(log_time)
         return asked - np.cbrt(crack(np.maximum(asked, 0.0) ** 1.5, v)) ** 2
 
-    best = _root(excess, low, high, noise=_ROUND_OFF * (k ** (-2 / 3) + np.abs(d) / height))
+    best = regula_falsi(excess, low, high, noise=_ROUND_OFF * (k ** (-2 / 3) + np.abs(d) / height))
     asked, v, compliance = edge(best)
     gamma = asked**1.5
     for _ in range(_SETTLED):
@@ -242,27 +240,3 @@ def unlimited(
         gamma = crack(gamma, v)
     a = length * np.cbrt(9 / 8 * gamma)
     return State(*(plain(x) for x in (1.5 * load * gamma, a, v, gamma, np.exp(best), compliance)))
-
-
-def _root(function: Callable[[Any], Any], low: Any, high: Any, *, noise: Any) -> Any:
-    """Return where a rising function of arrays is zero: regula falsi, with halves between."""
-    below, above = function(low), function(high)
-    x, before = low, np.zeros(np.shape(low))
-    for round_ in range(_ROUNDS):
-        span = above - below
-        x = (low + high) / 2
-        if round_ % 4 < 3:
-            x = np.where(span > 0, low - below * (high - low) / np.where(span > 0, span, 1.0), x)
-        found = function(x)
-        if np.all(np.abs(found) <= noise):
-            break
-        side = np.where(found < 0, -1.0, 1.0)
-        # an end that stays twice is given half of its weight (Illinois)
-        again = np.where(side == before, 0.5, 1.0)
-        below, above = (
-            np.where(side < 0, found, below * again),
-            np.where(side > 0, found, above * again),
-        )
-        low, high = np.where(side < 0, x, low), np.where(side > 0, x, high)
-        before = side
-    return x
