@@ -13,13 +13,12 @@ everything is explicit at a given A.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import dawsn
 
-Array = npt.NDArray[np.floating[Any]]
+from viscotack.arrays import Array
 
 # Step in ln omega: six nodes in a period of Q where it is last taken in full.
 _STEP, _FULL = 0.005, 200.0

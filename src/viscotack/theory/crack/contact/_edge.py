@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.theory.crack.steady import SteadyCrack
+from viscotack.theory.crack.steady import SteadyCrack, energy_of_odds
 
 from ._even import Even
 
@@ -32,15 +32,9 @@ class Edge:
         self.elastic, self._span = k == 1 and not grown, (0.0, 0.0)
         if self.elastic:
             return
+        ends = energy_of_odds(np.exp(np.array(_ODDS)), k, sign)
         if grown:
             ends = 1 + np.array([_GAINED, (1 - 1e-9) * (crack.largest - 1)])
-            first, last = np.log(np.asarray(crack.speed(ends)))
-            speed = np.exp(np.linspace(first, last, _ROWS))
-            self._gamma = Even(first, last, np.asarray(crack.amplification(speed)))
-            self._span = first, last
-            return
-        odds = np.exp(np.array(_ODDS))
-        ends = (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
         first, last = np.log(np.abs(np.asarray(crack.speed(ends))))
         speed = np.exp(np.linspace(first, last, _ROWS))
         self._gamma = Even(first, last, np.asarray(crack.amplification(sign * speed)))

@@ -1,6 +1,7 @@
 """The steady crack with its whole traction law: any law, any linear solid, opening and closing."""
 
 from . import comparison, cracks, neighbour
+from ._branch import energy_of_odds
 from .comparison import Comparison, best_strength_ratio, compared
 from .cracks import MESH_ERROR, Profile, SteadyCrack
 from .neighbour import NeighbourCrack
@@ -15,5 +16,6 @@ __all__ = [
     "compared",
     "comparison",
     "cracks",
+    "energy_of_odds",
     "neighbour",
 ]

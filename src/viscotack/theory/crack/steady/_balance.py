@@ -6,11 +6,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
+
+from viscotack.arrays import Array
 
 from ._mesh import Mesh
-
-Array = npt.NDArray[np.floating[Any]]
 
 _ITERATIONS = 30
 # Of the misfit of a gap [h0]: what counts as solved.

@@ -7,14 +7,15 @@ ln of the speed; the spline through every second one says how far it may be off.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 from threadpoolctl import ThreadpoolController
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 
@@ -22,10 +23,8 @@ from ._balance import Law, Solution, System, solved
 from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
 from ._mesh import Mesh
 
-Array = npt.NDArray[np.floating[Any]]
-
 STEP = np.log(10) / 4
-_SHORTEST_STEP = STEP / 64
+SHORTEST_STEP = STEP / 64
 # Of the longest mode at the first speed that is solved, over the length of the crack; and speeds
 # below it for which Gamma - 1 = s V + b V^2 gives the odds, with the s of the slowest crack.
 _SLOW, _SLOWER = 0.03, 12
@@ -37,10 +36,39 @@ _FINE = 16
 _STATED = 0.25
 
 
+def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
+    """Return Gamma of the odds (Gamma - 1)/(1/k - Gamma); closing, (1 - Gamma)/(Gamma - k)."""
+    limit = odds / modulus_ratio if sign > 0 else odds * modulus_ratio
+    return (1 + limit) / (1 + odds)
+
+
 @cache
 def pools() -> ThreadpoolController:
     """Return the threads of the libraries that are loaded; to look for them takes longer."""
     return ThreadpoolController()
+
+
+def walked(
+    system: Callable[[float, Solution], System], before: float, crack: Solution, aim: float
+) -> Solution | None:
+    """Return the crack at a place, from one at another, in steps that succeed; None if none do.
+
+    The balance at a place may depend on the crack before.
+    """
+    at, step = before, aim - before
+    while True:
+        towards = aim if abs(aim - at) <= abs(step) else at + step
+        # the matrices are small: more threads only wait for each other
+        with pools().limit(limits=1, user_api="blas"):
+            found = solved(system(towards, crack), crack.u)
+        if found is not None:
+            at, crack, step = towards, found, 1.5 * step
+            if at == aim:
+                return crack
+            continue
+        step /= 2
+        if abs(step) < SHORTEST_STEP:
+            return None
 
 
 class Branch:
@@ -63,23 +91,26 @@ class Branch:
     ) -> None:
         self._mesh, self._law, self._modes, self._sign = mesh, law, modes, sign
         self._elastic, self._slow = start, slow
+        # what infinite speed takes of a crack that opens, and leaves of one that closes
+        self._limit = 1 / modes.instantaneous if sign > 0 else modes.instantaneous
         self._first = float(np.log(_SLOW * mesh.width / max(modes.times)))
         self._log_speed: list[float] = []
         self._odds: list[float] = []
         self._cracks: list[Solution] = []
         self._splines: tuple[int, Any, Any] | None = None
 
-    def odds(self, log_speed: Array) -> Array:
-        """Return ln of the odds at ln of speeds: linear below the first, on with slope 1 above."""
+    def gamma(self, log_speed: Array) -> Array:
+        """Return amplifications at ln of speeds: linear below the first, as they end above."""
         self._reach(float(np.max(log_speed, initial=-np.inf)))
         fine, _ = self._curves()
         first, last = self._log_speed[0], self._log_speed[-1]
         inside = fine(np.clip(log_speed, first, last))
         beyond = np.minimum(log_speed - first, 0) + np.maximum(log_speed - last, 0)
-        return inside + beyond
+        return energy_of_odds(np.exp(inside + beyond), self._modes.instantaneous, self._sign)
 
-    def log_speed(self, odds: Array) -> Array:
-        """Return ln of the speeds of ln of the odds."""
+    def log_speed(self, gamma: Array) -> Array:
+        """Return ln of the speeds of amplifications."""
+        odds = np.log((gamma - 1) / (self._limit - gamma))
         highest = float(np.max(odds, initial=-np.inf))
         while not self._complete and (not self._odds or self._odds[-1] < highest):
             self._append()
@@ -145,23 +176,14 @@ class Branch:
 
     def _walk(self, before: float, crack: Solution, aim: float) -> Solution:
         """Return the crack at ln of a speed, from one at another, in steps that succeed."""
-        at, step = before, aim - before
-        while at != aim:
-            towards = aim if abs(aim - at) <= abs(step) else at + step
-            # the matrices are small: more threads only wait for each other
-            with pools().limit(limits=1, user_api="blas"):
-                found = solved(self._system(np.exp(towards)), crack.u)
-            if found is not None:
-                at, crack, step = towards, found, 1.5 * step
-                continue
-            step /= 2
-            if abs(step) < _SHORTEST_STEP:
-                speed = self._sign * np.exp(towards)
-                raise InputError(
-                    f"no steady crack was found at the speed {speed:.4g} E0* h0^2/(dg tau); "
-                    "ask a slower one, or simulate the contact"
-                )
-        return crack
+        found = walked(lambda x, _: self._system(np.exp(x)), before, crack, aim)
+        if found is None:
+            speed = self._sign * np.exp(aim)
+            raise InputError(
+                f"no steady crack was found at the speed {speed:.4g} E0* h0^2/(dg tau); "
+                "ask a slower one, or simulate the contact"
+            )
+        return found
 
     def _system(self, speed: float) -> System:
         weights, times = np.array(self._modes.weights), np.array(self._modes.times)
@@ -183,9 +205,7 @@ class Branch:
                 f"time of the solid, {max(self._modes.times):.3g} time units, is too long for its "
                 "weight; leave out modes that weigh next to nothing"
             )
-        k = self._modes.instantaneous
-        largest = 1 / k - 1 if self._sign > 0 else 1 - k
-        return float(np.log(gained / max(largest - gained, 1e-12)))
+        return float(np.log(gained / max(abs(self._limit - 1) - gained, 1e-12)))
 
     def _curves(self) -> tuple[Any, Any]:
         if self._splines is None or self._splines[0] != len(self._odds):

@@ -23,21 +23,17 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.interpolate import CubicSpline
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
-from ._branch import pools
+from ._branch import STEP, walked
 from ._memory import lengths_of, opening_matrix
 from ._mesh import Mesh
 
-Array = npt.NDArray[np.floating[Any]]
-
-STEP = np.log(10) / 4
-_SHORTEST_STEP = STEP / 64
 # Gained by the first crack that is solved, and by the last one; and how many there may be.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
 # What has been gained where there may be no crack any more: a shorter table will do.
@@ -201,22 +197,15 @@ class Grown:
         return float(np.exp(max(last + slope * (y - self._log_y[-1]), 0.0)))
 
     def _walk(self, before: float, crack: Solution, aim: float) -> tuple[Solution, float] | None:
-        """Return the crack at ln y, from one at another, and its work; in steps that succeed."""
-        at, step = before, aim - before
-        while True:
-            towards = aim if abs(aim - at) <= abs(step) else at + step
-            work = self._foreseen(crack, towards)
-            # the matrices are small: more threads only wait for each other
-            with pools().limit(limits=1, user_api="blas"):
-                found = solved(self._system(float(np.exp(towards)), work), crack.u)
-            if found is not None:
-                at, crack, step = towards, found, 1.5 * step
-                if at == aim:
-                    return crack, work
-                continue
-            step /= 2
-            if abs(step) < _SHORTEST_STEP:
-                return None
+        """Return the crack at ln y, from one at another, and its work; None if there is none."""
+        works = [1.0]
+
+        def system(y: float, crack: Solution) -> System:
+            works.append(self._foreseen(crack, y))
+            return self._system(float(np.exp(y)), works[-1])
+
+        found = walked(system, before, crack, aim)
+        return None if found is None else (found, works[-1])
 
     def _system(self, y: float, work: float) -> System:
         weights, times = np.array(self._modes.weights), np.array(self._modes.times)

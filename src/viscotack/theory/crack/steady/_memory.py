@@ -16,15 +16,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import wofz
 
-from ._mesh import Mesh
+from viscotack.arrays import Array
 
-Array = npt.NDArray[np.floating[Any]]
+from ._mesh import Mesh
 
 # A mode shorter than this part of the finest element has no memory, one longer than so many
 # reaches of the mesh has not begun to creep where there are tractions.

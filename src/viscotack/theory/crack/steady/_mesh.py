@@ -12,12 +12,11 @@ closed form, :math:`A \, \mathrm{Re} \sqrt z` with :math:`z = x + i b`, whose tr
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[np.floating[Any]]
+from viscotack.arrays import Array
 
 # Spacing at the crack over the length of the crack, growth of the spacing per node, and how far
 # from the crack, in its length, the growth itself begins to grow and by how much per decade.

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.traction import Dugdale, Exponential, Traction, effective_range
 
 from ._balance import Law, Solution, System, solved
-from ._mesh import Array, Mesh
+from ._mesh import Mesh
 
 # Dugdale's rise and fall [h0] down to which the crack is found: less is a kink to Newton's method.
 LEAST_RISE, LEAST_FALL = 0.02, 0.5

@@ -15,14 +15,13 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import minimize_scalar
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.theory._checks import positive
 from viscotack.theory.crack import greenwood, persson_brener
 from viscotack.traction.growing import check_of_gap_alone
 
 from .cracks import SteadyCrack
-
-Array = npt.NDArray[np.floating[Any]]
 
 # Of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
 THESIS_RATIO = np.pi / 9

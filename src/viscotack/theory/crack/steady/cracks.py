@@ -21,6 +21,7 @@ doi:10.1103/PhysRevA.40.366.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
@@ -28,6 +29,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory._checks import Number, plain
@@ -36,8 +38,6 @@ from viscotack.traction.growing import reduced
 
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
-
-Array = npt.NDArray[np.floating[Any]]
 
 # Half of the mesh over the length of the glassy zone.
 _REACH = 3e4
@@ -158,16 +158,8 @@ class SteadyCrack:
         """Return the energy over the work of adhesion at speeds [E0* h0^2/(dg tau)], any sign."""
         v = _finite("speed", speed)
         gamma = np.ones(v.shape)
-        opening = v > 0
-        if self._grown is not None:
-            gamma[opening] = self._grown.gamma(np.log(v[opening]))
-            opening = np.zeros_like(opening)
-        if self.modes.times:
-            for sign, moving in ((1, opening), (-1, v < 0)):
-                if np.any(moving):
-                    branch = self._branch(sign)
-                    odds = np.exp(branch.odds(np.log(np.abs(v[moving]))))
-                    gamma[moving] = self._of_odds(odds, sign)
+        for sign, moving, cracks in self._moving(v > 0, v < 0):
+            gamma[moving] = cracks.gamma(np.log(sign * v[moving]))
         return plain(gamma)
 
     def interface_work(self, speed: npt.ArrayLike) -> Number:
@@ -194,15 +186,8 @@ class SteadyCrack:
                 f"have, got {gamma[(gamma <= k) | (gamma >= most)].flat[0]:g}"
             )
         v = np.zeros(gamma.shape)
-        opening = gamma > 1
-        if self._grown is not None:
-            v[opening] = np.exp(self._grown.log_speed(gamma[opening]))
-            opening = np.zeros_like(opening)
-        for sign, moving in ((1, opening), (-1, gamma < 1)):
-            if np.any(moving):
-                of = gamma[moving]
-                ratio = (of - 1) / (1 / k - of) if sign > 0 else (1 - of) / (of - k)
-                v[moving] = sign * np.exp(self._branch(sign).log_speed(np.log(ratio)))
+        for sign, moving, cracks in self._moving(gamma > 1, gamma < 1):
+            v[moving] = sign * np.exp(cracks.log_speed(gamma[moving]))
         return plain(v)
 
     def error(self, speed: npt.ArrayLike) -> Number:
@@ -210,19 +195,14 @@ class SteadyCrack:
         v = _finite("speed", speed)
         if not self.modes.times and self._grown is None:
             return plain(np.zeros(v.shape))
-        of_odds = np.zeros(v.shape)
+        between = np.zeros(v.shape)
         self.amplification(v)
-        opening = v > 0
-        if self._grown is not None:
-            of_odds[opening] = self._grown.interpolation_error(np.log(v[opening]))
-            opening = np.zeros_like(opening)
-        for sign, moving in ((1, opening), (-1, v < 0)):
-            if np.any(moving):
-                log = np.log(np.abs(v[moving]))
+        for sign, moving, cracks in self._moving(v > 0, v < 0):
+            between[moving] = cracks.interpolation_error(np.log(sign * v[moving]))
+            if cracks is not self._grown:
                 # d ln Gamma/d ln odds is below a quarter of ln(1/k), and below 1
-                share = min(1.0, np.log(self.largest) / 4)
-                of_odds[moving] = share * self._branch(sign).interpolation_error(log)
-        return plain(MESH_ERROR + of_odds + self._softening)
+                between[moving] *= min(1.0, np.log(self.largest) / 4)
+        return plain(MESH_ERROR + between + self._softening)
 
     def at(self, speed: float) -> Profile:
         """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
@@ -291,9 +271,14 @@ class SteadyCrack:
     def _branch(self, sign: int) -> _branch.Branch:
         return _kept(_branch_of, self._reduced, self.modes, sign)
 
-    def _of_odds(self, odds: Array, sign: int) -> Array:
-        k = self.modes.instantaneous
-        return (1 + odds / k) / (1 + odds) if sign > 0 else (1 + odds * k) / (1 + odds)
+    def _moving(self, opening: Any, closing: Any) -> Iterator[tuple[int, Any, Any]]:
+        """Yield the sign and the places of cracks that open and close, and what knows them."""
+        for sign, moving in ((1, opening), (-1, closing)):
+            if np.any(moving):
+                if sign > 0 and self._grown is not None:
+                    yield sign, moving, self._grown
+                elif self.modes.times:
+                    yield sign, moving, self._branch(sign)
 
     def _grown_profile(self, speed: float, found: Solution, work: float) -> Profile:
         """Return a crack that opens with an interface that grows, solved in its own units."""

@@ -21,10 +21,12 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.materials import Modes
 
+from ._branch import energy_of_odds
 from .cracks import SteadyCrack, modes_of
 
 # ln of the odds (Gamma - 1)/(1/k - Gamma) between which both are compared, and how many.
 _ODDS = np.linspace(-14.0, 12.0, 400)
+_OF = np.exp(_ODDS)
 
 
 @dataclass(frozen=True)
@@ -67,20 +69,19 @@ class NeighbourCrack:
     def amplification(self, speed: npt.ArrayLike) -> Array:
         """Return the energy over the work of adhesion at opening speeds."""
         v = np.log(np.asarray(speed, dtype=float))
-        return _energy(np.interp(v, self._log_speeds, _ODDS), self.largest)
+        return energy_of_odds(
+            np.exp(np.interp(v, self._log_speeds, _ODDS)), self.modes.instantaneous
+        )
 
     @cached_property
     def _log_speeds(self) -> Array:
         known = self.known
-        first = np.log(np.asarray(known.speed(_energy(_ODDS, known.largest))))
+        energy = energy_of_odds(_OF, self.modes.instantaneous)
+        of_known = energy_of_odds(_OF, known.modes.instantaneous)
+        first = np.log(np.asarray(known.speed(of_known)))
         # V = x Gamma/t, with the same x at the same odds
-        change = np.log(_energy(_ODDS, self.largest) / _energy(_ODDS, known.largest))
+        change = np.log(energy / of_known)
         return np.maximum.accumulate(first + change - _passing(self.modes) + _passing(known.modes))
-
-
-def _energy(log_odds: Array, largest: float) -> Array:
-    odds = np.exp(log_odds)
-    return (1 + odds * largest) / (1 + odds)
 
 
 def _passing(modes: Modes) -> Array:
