@@ -29,6 +29,8 @@ UNITS = {
     "stress": " Pa",
     "pull_off_stress": " Pa",
 }
+# A table with a wider gap, in decades, leaves open what the solid does in between.
+WIDEST_GAP = 1.0
 # A limit computed by one formula and passed to another may miss it by the last digits.
 ROUND_OFF = 16 * np.finfo(float).eps
 
@@ -70,6 +72,22 @@ def ratio(modulus_ratio: npt.ArrayLike) -> Any:
             f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
         )
     return k
+
+
+def ascending(places: npt.NDArray[np.float64], name: str, unit: str, remedy: str) -> None:
+    """Refuse places of the rows of a table that do not ascend, or leave a gap of over a decade."""
+    for before, now in zip(places[:-1].tolist(), places[1:].tolist(), strict=True):
+        if now <= before:
+            raise InputError(
+                f"{name} must ascend, got {before:g} {unit} before {now:g} {unit}; {remedy}"
+            )
+    gaps = np.diff(np.log10(places))
+    i = int(np.argmax(gaps))
+    if gaps[i] > WIDEST_GAP * (1 + 1e-9):
+        raise InputError(
+            f"the table has a gap of {gaps[i]:.2g} decades between {places[i]:g} {unit} and "
+            f"{places[i + 1]:g} {unit}; at most {WIDEST_GAP:g} decade may lie between two rows"
+        )
 
 
 def plain(x: Any) -> Any:

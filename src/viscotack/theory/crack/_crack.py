@@ -75,77 +75,74 @@ class Passage(NamedTuple):
     log_odds: Array
 
 
-def passage(
-    log_time: npt.ArrayLike, material: Material, response: Response, *, factor: float
-) -> Passage:
-    """Return the cracks whose tip, Gamma l long, passes in exp(log_time) time units."""
-    y = np.asarray(log_time, dtype=float)
-    k = material.modulus_ratio
-    glassy, rubbery = _parts(y - np.log(factor), material, response)
-    log_gamma = -np.log(k + glassy)
-    with np.errstate(divide="ignore"):
-        odds = np.log(k) + np.log(rubbery) - np.log(glassy)
-    return Passage(log_gamma - y, log_gamma, odds)
+class Theory(NamedTuple):
+    """A law of the edge: the response of a mode, and s over the dimensionless speed."""
 
+    response: Response
+    factor: float
 
-def amplification_of_passage(
-    low: float, high: float, material: Material, response: Response, *, factor: float
-) -> Callable[[Array], Array]:
-    """Return Gamma as a function of the log_time of :func:`passage`, between two of them."""
-    start, grid = _grid(low - np.log(factor), high - np.log(factor))
-    glassy, _ = _parts(grid, material, response)
-    coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
-    return lambda y: np.exp(_evaluated(y - np.log(factor), start, coefficients))
+    def passage(self, log_time: npt.ArrayLike, *, material: Material) -> Passage:
+        """Return the cracks whose tip, Gamma l long, passes in exp(log_time) time units."""
+        y = np.asarray(log_time, dtype=float)
+        k = material.modulus_ratio
+        glassy, rubbery = _parts(y - np.log(self.factor), material, self.response)
+        log_gamma = -np.log(k + glassy)
+        with np.errstate(divide="ignore"):
+            odds = np.log(k) + np.log(rubbery) - np.log(glassy)
+        return Passage(log_gamma - y, log_gamma, odds)
 
-
-def amplification(
-    speed: npt.ArrayLike, material: Material, response: Response, *, factor: float
-) -> Number:
-    """Return Gamma at dimensionless speeds, not negative, with s = factor * speed."""
-    s = factor * at_least(0, "a crack that closes is another problem", speed=speed)
-    s = np.asarray(s)
-    moving = np.ravel(s[s > 0])
-    found = np.ones(s.shape)
-    if material.modulus_ratio < 1 and moving.size:
-        log = np.log(moving)
-        # Gamma lies between 1 and 1/k, and A between 1/s and 1/(k s)
-        low, high = -np.max(log), -np.min(log) - np.log(material.modulus_ratio)
-        start, grid = _grid(low, high)
-        glassy, _ = _parts(grid, material, response)
-        # from the smaller of the two parts, exact to round-off at both ends
+    def amplification_of_passage(
+        self, low: float, high: float, *, material: Material
+    ) -> Callable[[Array], Array]:
+        """Return Gamma as a function of the log_time of :func:`passage`, between two of them."""
+        start, grid = _grid(low - np.log(self.factor), high - np.log(self.factor))
+        glassy, _ = _parts(grid, material, self.response)
         coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
-        falling = _minus_position(coefficients, start)
-        found[s > 0] = _in_blocks(
-            lambda y: np.exp(_evaluated(_inverted(y, start, falling), start, coefficients)), log
-        )
-    return plain(found)
+        return lambda y: np.exp(_evaluated(y - np.log(self.factor), start, coefficients))
 
+    def amplification(self, speed: npt.ArrayLike, *, material: Material) -> Number:
+        """Return Gamma at dimensionless speeds, not negative, with s = factor * speed."""
+        s = self.factor * at_least(0, "a crack that closes is another problem", speed=speed)
+        s = np.asarray(s)
+        moving = np.ravel(s[s > 0])
+        found = np.ones(s.shape)
+        if material.modulus_ratio < 1 and moving.size:
+            log = np.log(moving)
+            # Gamma lies between 1 and 1/k, and A between 1/s and 1/(k s)
+            low, high = -np.max(log), -np.min(log) - np.log(material.modulus_ratio)
+            start, grid = _grid(low, high)
+            glassy, _ = _parts(grid, material, self.response)
+            # from the smaller of the two parts, exact to round-off at both ends
+            coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
+            falling = _minus_position(coefficients, start)
+            found[s > 0] = _in_blocks(
+                lambda y: np.exp(_evaluated(_inverted(y, start, falling), start, coefficients)), log
+            )
+        return plain(found)
 
-def speed(
-    amplification: npt.ArrayLike, material: Material, response: Response, *, factor: float
-) -> Number:
-    """Return the dimensionless speed at which Gamma is reached, 1 <= Gamma < 1/k."""
-    gamma = np.asarray(
-        at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification)
-    )
-    k = material.modulus_ratio
-    if np.any(gamma * k >= 1) and np.any(gamma > 1):
-        raise InputError(
-            f"amplification must stay below glassy over rubbery modulus {1 / k:.6g}, reached at "
-            f"infinite speed, got {np.max(gamma)}"
+    def speed(self, amplification: npt.ArrayLike, *, material: Material) -> Number:
+        """Return the dimensionless speed at which Gamma is reached, 1 <= Gamma < 1/k."""
+        gamma = np.asarray(
+            at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification)
         )
-    found = np.zeros(gamma.shape)
-    above = np.ravel(gamma[gamma > 1])
-    if above.size:
-        # the odds of the glassy part: steep enough in x at both ends
-        odds = np.log((1 / above - k) / (1 - 1 / above))
-        low, high = _bracket(np.min(odds), np.max(odds), material, response)
-        start, grid = _grid(low, high)
-        glassy, rubbery = _parts(grid, material, response)
-        coefficients = -np.log(glassy / rubbery) @ _TO_COEFFICIENTS.T
-        x = _in_blocks(lambda y: _inverted(y, start, coefficients), -odds)
-        found[gamma > 1] = above * np.exp(-x) / factor
-    return plain(found)
+        k = material.modulus_ratio
+        if np.any(gamma * k >= 1) and np.any(gamma > 1):
+            raise InputError(
+                f"amplification must stay below glassy over rubbery modulus {1 / k:.6g}, reached "
+                f"at infinite speed, got {np.max(gamma)}"
+            )
+        found = np.zeros(gamma.shape)
+        above = np.ravel(gamma[gamma > 1])
+        if above.size:
+            # the odds of the glassy part: steep enough in x at both ends
+            odds = np.log((1 / above - k) / (1 - 1 / above))
+            low, high = _bracket(np.min(odds), np.max(odds), material, self.response)
+            start, grid = _grid(low, high)
+            glassy, rubbery = _parts(grid, material, self.response)
+            coefficients = -np.log(glassy / rubbery) @ _TO_COEFFICIENTS.T
+            x = _in_blocks(lambda y: _inverted(y, start, coefficients), -odds)
+            found[gamma > 1] = above * np.exp(-x) / self.factor
+        return plain(found)
 
 
 def _parts(x: Array, material: Material, response: Response) -> tuple[Array, Array]:

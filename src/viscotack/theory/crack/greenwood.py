@@ -20,7 +20,6 @@ Maghami, PhD thesis (2025), chapter 3, published as doi:10.1016/j.engfracmech.20
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -46,7 +45,7 @@ def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
     >>> f"{amplification(1.0, material=solid):.3f}"
     '2.056'
     """
-    return _crack.amplification(speed, material, _response, factor=1.0)
+    return _theory.amplification(speed, material=material)
 
 
 def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
@@ -63,19 +62,7 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
     >>> f"{speed(2.0, material=solid):.3f}"
     '0.918'
     """
-    return _crack.speed(amplification, material, _response, factor=1.0)
-
-
-def passage(log_time: npt.ArrayLike, *, material: _crack.Material) -> _crack.Passage:
-    """Return the cracks whose tip passes in exp(log_time) time units, as their logarithms."""
-    return _crack.passage(log_time, material, _response, factor=1.0)
-
-
-def amplification_of_passage(
-    low: float, high: float, *, material: _crack.Material
-) -> Callable[[Any], Any]:
-    """Return Gamma as a function of that log_time, fast, between two of them."""
-    return _crack.amplification_of_passage(low, high, material, _response, factor=1.0)
+    return _theory.speed(amplification, material=material)
 
 
 def cohesive_zone_length(
@@ -171,3 +158,8 @@ def _response(alpha: Any) -> tuple[Any, Any]:
     rest[large] = 2 / a * ((np.log(4 * a) + _EULER) / 4 - tail)
     done[~small] = 1 - rest[~small]
     return done, rest
+
+
+_theory = _crack.Theory(_response, factor=1.0)
+# for a law that is evaluated very often, see CrackLaw
+passage, amplification_of_passage = _theory.passage, _theory.amplification_of_passage

@@ -9,9 +9,9 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.files.text import read_rows
+from viscotack.theory._checks import WIDEST_GAP
 from viscotack.units import parse
 
-from .tabulated import WIDEST_GAP
 from .tabulated_modulus import TabulatedModulus
 
 _ANGULAR, _TURNS = "angular_frequency", "frequency"

@@ -19,7 +19,6 @@ thesis (2025), chapter 4, published as doi:10.1016/j.jmps.2024.105844.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -46,7 +45,7 @@ def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
     >>> f"{amplification(1.0, material=rubber):.3f}"
     '1.677'
     """
-    return _crack.amplification(speed, material, _response, factor=2 * np.pi)
+    return _theory.amplification(speed, material=material)
 
 
 def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
@@ -63,19 +62,7 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
     >>> f"{speed(2.0, material=solid):.3f}"
     '0.512'
     """
-    return _crack.speed(amplification, material, _response, factor=2 * np.pi)
-
-
-def passage(log_time: npt.ArrayLike, *, material: _crack.Material) -> _crack.Passage:
-    """Return the cracks whose tip passes in exp(log_time) time units, as their logarithms."""
-    return _crack.passage(log_time, material, _response, factor=2 * np.pi)
-
-
-def amplification_of_passage(
-    low: float, high: float, *, material: _crack.Material
-) -> Callable[[Any], Any]:
-    """Return Gamma as a function of that log_time, fast, between two of them."""
-    return _crack.amplification_of_passage(low, high, material, _response, factor=2 * np.pi)
+    return _theory.speed(amplification, material=material)
 
 
 def crack_tip_length(
@@ -128,3 +115,8 @@ def _response(q: Any) -> tuple[Any, Any]:
     """Return 1 - sqrt(1 + q^2) + q and its complement, q = 1/b, without cancellation."""
     root = np.sqrt(1 + q**2)
     return 2 * q / (1 + q + root), 1 / (root + q)
+
+
+_theory = _crack.Theory(_response, factor=2 * np.pi)
+# for a law that is evaluated very often, see CrackLaw
+passage, amplification_of_passage = _theory.passage, _theory.amplification_of_passage

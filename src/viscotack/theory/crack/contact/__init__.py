@@ -5,8 +5,7 @@ material; :func:`viscotack.crack_contact` takes a problem in any units.
 """
 
 from . import growing, history, recession
-from ._profile import Profile, profile_of
-from ._start import radius_at_depth, radius_at_force
+from ._profile import Profile, profile_of, radius_at_depth, radius_at_force
 from .growing import GrowingCracks, GrowingEdges, NeighbourEdges
 from .history import Contact, Curve, Drive
 from .recession import Curves, recede

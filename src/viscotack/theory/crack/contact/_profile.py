@@ -17,7 +17,9 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.special import gammaln
 
+from viscotack.errors import InputError
 from viscotack.theory.elastic import indenter
+from viscotack.theory.elastic.relaxed import largest_radius
 
 # Radii between which a shape of the user's is tabulated [beta], and rows a decade.
 _RADII, _ROWS = (1e-6, 1e4), 60
@@ -71,3 +73,22 @@ class Profile:
 def profile_of(shape: Any) -> Profile:
     """Return the profile of a reduced shape, kept."""
     return Profile(shape)
+
+
+def radius_at_depth(profile: Profile, depth: float) -> float:
+    """Return the radius of the larger, stable relaxed contact at a depth [beta^2/R]."""
+    return _found(largest_radius(profile.relaxed_depth, depth), "depth")
+
+
+def radius_at_force(profile: Profile, force: float) -> float:
+    """Return the radius of the larger, stable relaxed contact under a force [R dg]."""
+    return _found(largest_radius(profile.relaxed_force, force), "force")
+
+
+def _found(radius: float | None, name: str) -> float:
+    if radius is None:
+        raise InputError(
+            f"there is no relaxed contact at this {name}: forces of short range let go of "
+            "the contact there; start deeper"
+        )
+    return radius

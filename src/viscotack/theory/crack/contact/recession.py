@@ -20,8 +20,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.theory.crack.steady import SteadyCrack
 
-from ._edge import Edge
-from ._even import Even
+from ._edge import Edge, Even
 from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
 from .growing import GrowingEdges, NeighbourEdges
