@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
+# What a formula takes and what it returns: a number or an array of them.
+Values = npt.ArrayLike
 Number = float | npt.NDArray[np.float64]
 
 UNITS = {
@@ -35,7 +37,7 @@ WIDEST_GAP = 1.0
 ROUND_OFF = 16 * np.finfo(float).eps
 
 
-def positive(**quantities: npt.ArrayLike) -> Any:
+def positive(**quantities: Values) -> Any:
     """Return the quantities as float arrays, all positive and finite; one alone is not a list."""
     found = []
     for name, value in quantities.items():
@@ -49,7 +51,7 @@ def positive(**quantities: npt.ArrayLike) -> Any:
     return found[0] if len(found) == 1 else found
 
 
-def at_least(lower: npt.ArrayLike, hint: str, **quantity: npt.ArrayLike) -> Any:
+def at_least(lower: Values, hint: str, **quantity: Values) -> Any:
     """Return the quantity as a finite float array that is nowhere below the lower limit."""
     ((name, value),) = quantity.items()
     x, low = np.asarray(value, dtype=float), np.asarray(lower, dtype=float)
@@ -64,7 +66,7 @@ def at_least(lower: npt.ArrayLike, hint: str, **quantity: npt.ArrayLike) -> Any:
     return np.maximum(x, low)
 
 
-def ratio(modulus_ratio: npt.ArrayLike) -> Any:
+def ratio(modulus_ratio: Values) -> Any:
     """Return the modulus ratio as a float array in (0, 1]."""
     k = positive(modulus_ratio=modulus_ratio)
     if np.any(k > 1):

@@ -5,13 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ._checks import positive
+from ._checks import Values, positive
 
 
 def contact_scales(
-    radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+    radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> tuple[Any, Any, Any]:
     r"""Return the scales of contact radius [m], depth [m] and force [N].
 

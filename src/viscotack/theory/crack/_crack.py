@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain
+from viscotack.theory._checks import Number, Values, at_least, plain
 
 Array = npt.NDArray[np.floating[Any]]
 # psi and 1 - psi, each with all of its digits
@@ -81,7 +81,7 @@ class Theory(NamedTuple):
     response: Response
     factor: float
 
-    def passage(self, log_time: npt.ArrayLike, *, material: Material) -> Passage:
+    def passage(self, log_time: Values, *, material: Material) -> Passage:
         """Return the cracks whose tip, Gamma l long, passes in exp(log_time) time units."""
         y = np.asarray(log_time, dtype=float)
         k = material.modulus_ratio
@@ -100,7 +100,7 @@ class Theory(NamedTuple):
         coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
         return lambda y: np.exp(_evaluated(y - np.log(self.factor), start, coefficients))
 
-    def amplification(self, speed: npt.ArrayLike, *, material: Material) -> Number:
+    def amplification(self, speed: Values, *, material: Material) -> Number:
         """Return Gamma at dimensionless speeds, not negative, with s = factor * speed."""
         s = self.factor * at_least(0, "a crack that closes is another problem", speed=speed)
         s = np.asarray(s)
@@ -120,7 +120,7 @@ class Theory(NamedTuple):
             )
         return plain(found)
 
-    def speed(self, amplification: npt.ArrayLike, *, material: Material) -> Number:
+    def speed(self, amplification: Values, *, material: Material) -> Number:
         """Return the dimensionless speed at which Gamma is reached, 1 <= Gamma < 1/k."""
         gamma = np.asarray(
             at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification)

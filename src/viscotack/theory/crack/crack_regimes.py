@@ -15,10 +15,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain, positive, ratio
+from viscotack.theory._checks import Number, Values, at_least, plain, positive, ratio
 
 from . import _crack, persson_brener
 
@@ -33,9 +32,7 @@ class PowerLaw(NamedTuple):
     speed: float
 
 
-def slow_amplification(
-    speed: npt.ArrayLike, *, modulus_ratio: npt.ArrayLike, exponent: npt.ArrayLike
-) -> Number:
+def slow_amplification(speed: Values, *, modulus_ratio: Values, exponent: Values) -> Number:
     r"""Return the amplification of a slow crack in a retardation power law, linear in speed.
 
     .. math:: \Gamma \to 1 + \pi n (1 - k) \hat v
@@ -52,7 +49,7 @@ def slow_amplification(
     return plain(1 + np.pi * n * (1 - k) * v)
 
 
-def intermediate_exponent(exponent: npt.ArrayLike) -> Number:
+def intermediate_exponent(exponent: Values) -> Number:
     r"""Return the exponent of speed between slow and glassy in the limit of a tiny modulus ratio.
 
     .. math:: m_2 = \frac{n}{1 + n} \; (n < 1), \quad m_2 = \tfrac12 \; (n \ge 1)
@@ -69,7 +66,7 @@ def intermediate_exponent(exponent: npt.ArrayLike) -> Number:
     return plain(np.minimum(n / (1 + n), 0.5))
 
 
-def local_exponent(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
+def local_exponent(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return :math:`d \ln \Gamma / d \ln \hat v` at positive dimensionless speeds.
 
     Examples

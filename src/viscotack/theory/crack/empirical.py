@@ -11,20 +11,17 @@ package); Williams, Landel & Ferry (1955), doi:10.1021/ja01619a008.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.materials.shift import UNIVERSAL, wlf_decades
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 _OPENS = "a crack that closes is another problem"
 # Fig. 4.10b, a silicone on a glass lens
 ZONE_SPEED, ZONE_EXPONENT = 1e-2, 0.5
 
 
-def gent_schultz(
-    speed: npt.ArrayLike, *, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike
-) -> Number:
+def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) -> Number:
     r"""Return effective over intrinsic surface energy at a crack speed [m/s] (Eq. 2.19, 4.28).
 
     .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = 1 + \left( \frac{v}{v_0} \right)^\xi
@@ -42,7 +39,7 @@ def gent_schultz(
 
 
 def gent_schultz_speed(
-    amplification: npt.ArrayLike, *, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike
+    amplification: Values, *, reference_speed: Values, exponent: Values
 ) -> Number:
     """Return the crack speed [m/s] of an amplification that is at least 1.
 
@@ -56,9 +53,7 @@ def gent_schultz_speed(
     return plain(v0 * (gamma - 1) ** (1 / xi))
 
 
-def gent_schultz_reference_speed(
-    *, coefficient: npt.ArrayLike, shift: npt.ArrayLike, exponent: npt.ArrayLike
-) -> Number:
+def gent_schultz_reference_speed(*, coefficient: Values, shift: Values, exponent: Values) -> Number:
     r"""Return the reference speed [m/s] from Gent and Schultz's own constants.
 
     .. math:: v_{ref} = k_{GS}^{-1/n} / a_{GS}, \quad
@@ -86,10 +81,7 @@ def gent_schultz_reference_speed(
 
 
 def process_zone_correction(
-    speed: npt.ArrayLike,
-    *,
-    reference_speed: npt.ArrayLike = ZONE_SPEED,
-    exponent: npt.ArrayLike = ZONE_EXPONENT,
+    speed: Values, *, reference_speed: Values = ZONE_SPEED, exponent: Values = ZONE_EXPONENT
 ) -> Number:
     r"""Return measured over linear-theory surface energy at a crack speed [m/s] (Fig. 4.10b).
 
@@ -109,7 +101,7 @@ def process_zone_correction(
     return plain(1 + (v / v1) ** m)
 
 
-def wlf_shift(temperature: npt.ArrayLike, *, glass_transition: npt.ArrayLike) -> Number:
+def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:
     r"""Return the factor of times a_T at a temperature [K] over that at the glass transition [K].
 
     .. math:: \log_{10} a_T = \frac{-17.44 (T - T_g)}{51.6 + T - T_g} \quad \text{(Eq. 4.25)}

@@ -23,15 +23,14 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import dawsn
 
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 from . import _crack
 
 
-def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
+def amplification(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
 
     To 1e-12 or better; 1e5 speeds take a fraction of a second.
@@ -48,7 +47,7 @@ def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
     return _theory.amplification(speed, material=material)
 
 
-def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
+def speed(amplification: Values, *, material: _crack.Material) -> Number:
     r"""Return the dimensionless speed at which an amplification is reached.
 
     The amplification must be at least 1 and below glassy over rubbery modulus.
@@ -66,10 +65,7 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
 
 
 def cohesive_zone_length(
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the length l [m] of the cohesive zone of a slow crack against a rigid body.
 
@@ -101,7 +97,7 @@ def cohesive_zone_length(
     return plain(np.pi * E * w / (4 * s**2))
 
 
-def zone_response(ratio: npt.ArrayLike) -> Number:
+def zone_response(ratio: Values) -> Number:
     r"""Return g, the part of a mode's creep that the zone feels, at l Gamma / (v tau).
 
     .. math:: g(\alpha) = \frac\alpha2 \int_0^1 H(\xi) e^{-\alpha (1 - \xi)} d\xi

@@ -13,11 +13,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.materials import Modes
-from viscotack.theory._checks import Number, plain, positive, ratio
+from viscotack.theory._checks import Number, Values, plain, positive, ratio
 
 from . import greenwood, persson_brener
 from ._crack import Material, Passage
@@ -73,17 +72,17 @@ class CrackLaw:
         """Return the speed [m/s] of a dimensionless speed of 1, l over the time of the solid."""
         return self.tip_length / self.material.time_unit
 
-    def amplification(self, speed: npt.ArrayLike) -> Number:
+    def amplification(self, speed: Values) -> Number:
         """Return effective over rubbery surface energy at speeds [m/s], not negative."""
         v = np.asarray(speed, dtype=float) / self.speed_unit
         return THEORIES[self.theory].amplification(v, material=self.material)
 
-    def speed(self, amplification: npt.ArrayLike) -> Number:
+    def speed(self, amplification: Values) -> Number:
         """Return the speed [m/s] of an amplification, at least 1 and below ``largest``."""
         v = THEORIES[self.theory].speed(amplification, material=self.material)
         return plain(np.asarray(v) * self.speed_unit)
 
-    def passage(self, log_time: npt.ArrayLike) -> Passage:
+    def passage(self, log_time: Values) -> Passage:
         r"""Return the cracks whose tip passes in given times, from ln of them, with no equation.
 
         Each time is that in which a tip as long as :math:`\Gamma l` passes, in time units of the

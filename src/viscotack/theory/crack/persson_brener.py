@@ -22,14 +22,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 from . import _crack
 
 
-def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
+def amplification(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
 
     To 1e-12 or better where modes hold the creep to 1e-14 k, as those of power laws do; of a
@@ -48,7 +47,7 @@ def amplification(speed: npt.ArrayLike, *, material: _crack.Material) -> Number:
     return _theory.amplification(speed, material=material)
 
 
-def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
+def speed(amplification: Values, *, material: _crack.Material) -> Number:
     r"""Return the dimensionless speed at which an amplification is reached.
 
     The amplification must be at least 1 and below glassy over rubbery modulus.
@@ -66,11 +65,7 @@ def speed(amplification: npt.ArrayLike, *, material: _crack.Material) -> Number:
 
 
 def crack_tip_length(
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
-    strength_ratio: npt.ArrayLike,
+    *, contact_modulus: Values, work_of_adhesion: Values, strength: Values, strength_ratio: Values
 ) -> Number:
     r"""Return the length l0 [m] at which the slow crack's stress is the critical one.
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.materials import Modes
 from viscotack.theory._checks import WIDEST_GAP as WIDEST_GAP
-from viscotack.theory._checks import ascending
+from viscotack.theory._checks import Values, ascending
 
 _FEWEST = 4
 _STEP = 0.02
@@ -102,7 +102,7 @@ class TabulatedSpectrum:
         """Unit of time of dimensionless speeds [s]: one second."""
         return 1.0
 
-    def creep(self, time: npt.ArrayLike) -> float | npt.NDArray[np.float64]:
+    def creep(self, time: Values) -> float | npt.NDArray[np.float64]:
         """Return the creep compliance [1/Pa] at times [s]."""
         found = np.asarray(
             self.retardation_modes(shortest=1.0, longest=1.0, tolerance=0.1).creep(time)

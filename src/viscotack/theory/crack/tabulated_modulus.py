@@ -43,7 +43,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, ascending, plain, positive
+from viscotack.theory._checks import Number, Values, ascending, plain, positive
 
 from . import _loss_integral as integral
 from . import _zone_integral as zone
@@ -132,7 +132,7 @@ class TabulatedModulus:
             )
 
 
-def amplification(speed: npt.ArrayLike, *, modulus: TabulatedModulus) -> Interval:
+def amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
     """Return bounds of effective over rubbery surface energy at speeds v/l0 [1/s].
 
     They hold what the solid may do below the table, and neither the scatter of the measurement
@@ -178,7 +178,7 @@ def speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
     return float(first / (2 * np.pi)), float(last / (2 * np.pi))
 
 
-def greenwood_amplification(speed: npt.ArrayLike, *, modulus: TabulatedModulus) -> Interval:
+def greenwood_amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
     """Return bounds of effective over rubbery surface energy by Greenwood, at speeds v/l [1/s].
 
     They hold what the solid may do below and above the table, and neither the scatter of the

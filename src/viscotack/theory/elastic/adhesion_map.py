@@ -19,10 +19,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import halved
 
 from . import _maugis_equations as equations
@@ -36,7 +35,7 @@ _LOG_EXCESS = (-45.0, 30.0)
 _GAP = (0.75 * np.pi) ** (-2 / 3)
 
 
-def hertz_load(tabor: npt.ArrayLike) -> Number:
+def hertz_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which adhesion adds less than 5 %.
 
     From 40 (DMT) to 2520 (JKR).
@@ -55,7 +54,7 @@ def hertz_load(tabor: npt.ArrayLike) -> Number:
     return plain(_state(_zero(excess_of_tension, lam), lam)[1])
 
 
-def jkr_load(tabor: npt.ArrayLike) -> Number:
+def jkr_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which JKR holds.
 
     The adhesive lift is there 20 h0. Minus the pull-off force where it is larger along all of the
@@ -69,7 +68,7 @@ def jkr_load(tabor: npt.ArrayLike) -> Number:
     return _load_at_lift(tabor, LARGE)
 
 
-def dmt_load(tabor: npt.ArrayLike) -> Number:
+def dmt_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which DMT holds.
 
     The adhesive lift is there h0/20. Minus the pull-off force where it is larger along all of the
@@ -84,7 +83,7 @@ def dmt_load(tabor: npt.ArrayLike) -> Number:
     return _load_at_lift(tabor, SMALL)
 
 
-def rigid_load(tabor: npt.ArrayLike) -> Number:
+def rigid_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which the sphere is as if rigid.
 
     .. math:: \frac{P}{\pi R \Delta\gamma_0} = \frac{4}{3 \pi} (0.05/\mu)^{3/2} - 2
@@ -130,7 +129,7 @@ def regime(
     return "jkr" if load >= jkr_load(mu) else "maugis"
 
 
-def _parameter(tabor: npt.ArrayLike) -> Any:
+def _parameter(tabor: Values) -> Any:
     mu = positive(tabor=tabor)
     low, high = _RANGE
     if np.any((mu < low) | (mu > high)):
@@ -149,7 +148,7 @@ def _state(x: Any, lam: Any) -> tuple[Any, Any, Any]:
     return a, P, 4 / 3 * lam * a * equations.angle(np.exp(x))[1]
 
 
-def _load_at_lift(tabor: npt.ArrayLike, lift: float) -> Any:
+def _load_at_lift(tabor: Values, lift: float) -> Any:
     lam = _parameter(tabor)
     unit = _GAP / np.asarray(tabor, dtype=float)
     end = _zero(lambda x: equations.force_slope(np.exp(x), lam), lam)

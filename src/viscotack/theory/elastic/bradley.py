@@ -13,18 +13,13 @@ traction of Eq. 2.1, that of Greenwood (1997), doi:10.1098/rspa.1997.0070.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 
 def force(
-    depth: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    depth: Values, *, radius: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the force [N], positive in compression, at a depth [m] below h0.
 
@@ -52,7 +47,7 @@ def force(
     return plain(-2 * np.pi * R * w * (4 * x2 - x2**4) / 3)
 
 
-def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N], the positive number :math:`2 \pi R \Delta\gamma_0`.
 
     It is reached at zero depth and depends on nothing but the surface energy.
@@ -67,7 +62,7 @@ def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) ->
 
 
 def work_to_pull_off(
-    *, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike, equilibrium_gap: npt.ArrayLike
+    *, radius: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the work [J] from zero force, at h = 2^(-1/3) h0, to the force minimum at h0.
 

@@ -13,19 +13,14 @@ Maugis (1992), doi:10.1016/0021-9797(92)90285-T; Eq. 2.12 and 2.13.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 from . import hertz
 
 
 def force(
-    contact_radius: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the force [N], positive in compression, at a contact radius [m] (Eq. 2.12).
 
@@ -41,7 +36,7 @@ def force(
     return hertz.force(contact_radius, radius=radius, contact_modulus=contact_modulus) - attraction
 
 
-def depth(contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+def depth(contact_radius: Values, *, radius: Values) -> Number:
     r"""Return the depth [m] at a contact radius [m], :math:`a^2/R` as for Hertz (Eq. 2.13).
 
     Examples
@@ -52,7 +47,7 @@ def depth(contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
     return hertz.depth(contact_radius, radius=radius)
 
 
-def contact_radius_at_depth(depth: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
     r"""Return the contact radius [m] at a depth [m] that is not negative, :math:`\sqrt{R\delta}`.
 
     Examples
@@ -64,11 +59,7 @@ def contact_radius_at_depth(depth: npt.ArrayLike, *, radius: npt.ArrayLike) -> N
 
 
 def contact_radius_at_force(
-    force: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] under a force [N] not below minus the pull-off force.
 
@@ -86,7 +77,7 @@ def contact_radius_at_force(
     return hertz.contact_radius_at_force(load, radius=radius, contact_modulus=contact_modulus)
 
 
-def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N], the positive number :math:`2 \pi R \Delta\gamma_0`.
 
     It is reached at zero contact radius and zero depth.
@@ -101,7 +92,7 @@ def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) ->
 
 
 def work_to_pull_off(
-    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the work [J] from zero force to pull-off.
 

@@ -11,17 +11,14 @@ Source: Hertz (1882), doi:10.1515/crll.1882.92.156.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import betainc, spherical_jn
 
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 _SIGN = "a length from the axis is not negative"
 
 
-def force(
-    contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike
-) -> Number:
+def force(contact_radius: Values, *, radius: Values, contact_modulus: Values) -> Number:
     r"""Return the force [N] at a contact radius [m].
 
     .. math:: P = \frac{4 E^* a^3}{3 R}
@@ -36,7 +33,7 @@ def force(
     return plain(4 * E * a**3 / (3 * R))
 
 
-def depth(contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+def depth(contact_radius: Values, *, radius: Values) -> Number:
     r"""Return the depth [m] at a contact radius [m], :math:`\delta = a^2 / R`.
 
     Examples
@@ -49,7 +46,7 @@ def depth(contact_radius: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
     return plain(a**2 / R)
 
 
-def contact_radius_at_depth(depth: npt.ArrayLike, *, radius: npt.ArrayLike) -> Number:
+def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
     r"""Return the contact radius [m] at a depth [m] that is not negative, :math:`\sqrt{R \delta}`.
 
     Examples
@@ -62,9 +59,7 @@ def contact_radius_at_depth(depth: npt.ArrayLike, *, radius: npt.ArrayLike) -> N
     return plain(np.sqrt(R * d))
 
 
-def contact_radius_at_force(
-    force: npt.ArrayLike, *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike
-) -> Number:
+def contact_radius_at_force(force: Values, *, radius: Values, contact_modulus: Values) -> Number:
     r"""Return the contact radius [m] under a force [N] that is not negative.
 
     .. math:: a = \left( \frac{3 P R}{4 E^*} \right)^{1/3}
@@ -80,11 +75,7 @@ def contact_radius_at_force(
 
 
 def pressure(
-    position: npt.ArrayLike,
-    *,
-    contact_radius: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
+    position: Values, *, contact_radius: Values, radius: Values, contact_modulus: Values
 ) -> Number:
     r"""Return the pressure [Pa] at a distance ``position`` from the axis [m]; zero outside.
 
@@ -101,9 +92,7 @@ def pressure(
     return plain(2 * E / (np.pi * R) * np.sqrt(np.maximum((a - r) * (a + r), 0)))
 
 
-def surface_displacement(
-    position: npt.ArrayLike, *, contact_radius: npt.ArrayLike, radius: npt.ArrayLike
-) -> Number:
+def surface_displacement(position: Values, *, contact_radius: Values, radius: Values) -> Number:
     r"""Return the displacement of the surface [m], positive into the solid.
 
     Inside the contact :math:`u = a^2/R - r^2/2R`, outside
@@ -127,7 +116,7 @@ def surface_displacement(
     return plain(np.where(r <= a, (2 * a**2 - r**2) / (2 * R), outside / (np.pi * R)))
 
 
-def gap(position: npt.ArrayLike, *, contact_radius: npt.ArrayLike, radius: npt.ArrayLike) -> Number:
+def gap(position: Values, *, contact_radius: Values, radius: Values) -> Number:
     r"""Return the gap [m] between sphere and surface; zero inside the contact.
 
     With :math:`\varphi = \arccos(a/r)` outside the contact

@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 # Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
@@ -29,18 +29,18 @@ _ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
 class Flank(Protocol):
     """A profile that says how steep it is."""
 
-    def gap(self, position: npt.ArrayLike) -> Array: ...  # noqa: D102
-    def flank(self, position: npt.ArrayLike) -> Array: ...  # noqa: D102
+    def gap(self, position: Values) -> Array: ...  # noqa: D102
+    def flank(self, position: Values) -> Array: ...  # noqa: D102
 
 
-def bare_depth(contact_radius: npt.ArrayLike, *, shape: Flank) -> Number:
+def bare_depth(contact_radius: Values, *, shape: Flank) -> Number:
     """Return the depth [m] at which a contact has this radius [m] without adhesion."""
     a = positive(contact_radius=contact_radius)
     return plain(a * _mean(shape, a, np.ones_like(_ANGLE)))
 
 
 def depth(
-    contact_radius: npt.ArrayLike, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+    contact_radius: Values, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
 ) -> Number:
     """Return the depth [m] of a contact of this radius [m], with adhesion.
 
@@ -60,7 +60,7 @@ def depth(
 
 
 def force(
-    contact_radius: npt.ArrayLike, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+    contact_radius: Values, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
 ) -> Number:
     """Return the force [N] of a contact of this radius [m], positive in compression."""
     a, E = positive(contact_radius=contact_radius), contact_modulus
@@ -69,7 +69,7 @@ def force(
 
 
 def gap(
-    position: npt.ArrayLike,
+    position: Values,
     *,
     contact_radius: float,
     shape: Flank,

@@ -30,7 +30,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory._scales import contact_scales
 
 from . import hertz
@@ -51,11 +51,7 @@ class Point(NamedTuple):
 
 
 def force(
-    contact_radius: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the force [N], positive in compression, at a contact radius [m] (Eq. 2.3).
 
@@ -75,11 +71,7 @@ def force(
 
 
 def depth(
-    contact_radius: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the depth [m], positive into the solid, at a contact radius [m] (Eq. 2.4).
 
@@ -99,11 +91,7 @@ def depth(
 
 
 def contact_radius_at_depth(
-    depth: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    depth: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] that a rigid drive holds at a depth [m].
 
@@ -123,11 +111,7 @@ def contact_radius_at_depth(
 
 
 def unstable_contact_radius_at_depth(
-    depth: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    depth: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the smaller contact radius [m] in equilibrium at a depth [m]; nothing holds it.
 
@@ -151,11 +135,7 @@ def unstable_contact_radius_at_depth(
 
 
 def contact_radius_at_force(
-    force: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] that a dead load holds at a force [N].
 
@@ -174,11 +154,7 @@ def contact_radius_at_force(
 
 
 def unstable_contact_radius_at_force(
-    force: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the smaller contact radius [m] in equilibrium at a force [N].
 
@@ -202,7 +178,7 @@ def unstable_contact_radius_at_force(
     return plain(length * np.cbrt((0.75 * P / _root_at_force(P)) ** 2))
 
 
-def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) -> Number:
+def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N], the positive number :math:`\frac32\pi R\Delta\gamma_0`.
 
     It does not depend on the modulus and holds for load and depth control alike.
@@ -216,9 +192,7 @@ def pull_off_force(*, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike) ->
     return plain(1.5 * np.pi * R * w)
 
 
-def pull_off(
-    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
-) -> Point:
+def pull_off(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the force minimum: :math:`\hat a^3 = 9/8, \hat\delta = -3^{1/3}/4, \hat P = -3/2`.
 
     Examples
@@ -232,9 +206,7 @@ def pull_off(
     return Point(plain(a * length), plain(d * height), plain(P * load))
 
 
-def instability(
-    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
-) -> Point:
+def instability(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the depth minimum: :math:`\hat a = 1/2, \hat\delta = -3/4, \hat P = -5/6`.
 
     Examples
@@ -248,7 +220,7 @@ def instability(
 
 
 def work_to_pull_off(
-    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the work [J] of the drive from zero force to the force minimum.
 
@@ -269,7 +241,7 @@ def work_to_pull_off(
 
 
 def work_to_instability(
-    *, radius: npt.ArrayLike, contact_modulus: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the work [J] of the drive from zero force to the depth minimum.
 
@@ -289,12 +261,12 @@ def work_to_instability(
 
 
 def pressure(
-    position: npt.ArrayLike,
+    position: Values,
     *,
-    contact_radius: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return the pressure [Pa], positive in compression; zero outside the contact (Eq. 2.9).
 
@@ -321,12 +293,12 @@ def pressure(
 
 
 def surface_displacement(
-    position: npt.ArrayLike,
+    position: Values,
     *,
-    contact_radius: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return the displacement of the surface [m], positive into the solid.
 
@@ -345,12 +317,12 @@ def surface_displacement(
 
 
 def gap(
-    position: npt.ArrayLike,
+    position: Values,
     *,
-    contact_radius: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return the gap [m] between sphere and surface; zero inside the contact.
 
@@ -392,10 +364,7 @@ def _root_at_force(P: npt.NDArray[np.float64]) -> Any:
 
 
 def _lift(
-    position: npt.ArrayLike,
-    contact_radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    position: Values, contact_radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> tuple[Any, Any, Any]:
     """Return contact radius [m], distance [m] and the lift of the flat punch [m]."""
     a, E, w = positive(

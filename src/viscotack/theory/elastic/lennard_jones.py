@@ -22,10 +22,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 from ._lennard_jones_table import ROWS
 
@@ -53,7 +52,7 @@ _FORCE_SERIES = _coefficients(np.log((4 / 3 - _FORCE) / (_FORCE - 1)))
 _WORK_SERIES = _coefficients(np.log(_WORK))
 
 
-def pull_off_ratio(tabor: npt.ArrayLike) -> Number:
+def pull_off_ratio(tabor: Values) -> Number:
     r"""Return the pull-off force over that of JKR, f(mu), between 4/3 and 1.
 
     Examples
@@ -70,7 +69,7 @@ def pull_off_ratio(tabor: npt.ArrayLike) -> Number:
     return plain(np.where(mu < _LOWEST, rigid, np.where(mu > _HIGHEST, _soft(high), inside)))
 
 
-def work_ratio(tabor: npt.ArrayLike) -> Number:
+def work_ratio(tabor: Values) -> Number:
     r"""Return the work from zero force to pull-off [1.5 pi R w h0].
 
     From Bradley's 0.2056 for a rigid sphere to JKR's :math:`0.8018 \pi^{2/3} \mu`.
@@ -91,11 +90,7 @@ def work_ratio(tabor: npt.ArrayLike) -> Number:
 
 
 def pull_off_force(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the pull-off force [N], a positive number, :math:`\tfrac32 \pi R w f(\mu)`.
 
@@ -110,11 +105,7 @@ def pull_off_force(
 
 
 def work_to_pull_off(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the work [J] of the drive from zero force to the force minimum.
 
@@ -129,11 +120,7 @@ def work_to_pull_off(
 
 
 def tabor_number(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return :math:`\mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3}` (Eq. 2.2 as in Eq. 31).
 

@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import ROUND_OFF, Number, at_least, plain, positive
+from viscotack.theory._checks import ROUND_OFF, Number, Values, at_least, plain, positive
 from viscotack.theory._roots import halved
 from viscotack.theory._scales import contact_scales
 
@@ -45,12 +45,12 @@ class Point(NamedTuple):
 
 
 def curve(
-    ratio: npt.ArrayLike,
+    ratio: Values,
     *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
+    strength: Values,
 ) -> Point:
     r"""Return the equilibrium state where the cohesive radius is ``ratio`` > 1 contact radii.
 
@@ -92,11 +92,7 @@ def curve(
 
 
 def touching_radius(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the cohesive radius [m] of the state in which the sphere touches at one point.
 
@@ -122,12 +118,12 @@ def touching_radius(
 
 
 def curve_without_contact(
-    cohesive_radius: npt.ArrayLike,
+    cohesive_radius: Values,
     *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
+    strength: Values,
 ) -> Point:
     r"""Return the equilibrium state that attracts over a cohesive radius [m] but does not touch.
 
@@ -164,13 +160,13 @@ def curve_without_contact(
 
 
 def pressure(
-    position: npt.ArrayLike,
+    position: Values,
     *,
-    contact_radius: npt.ArrayLike,
-    cohesive_radius: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    contact_radius: Values,
+    cohesive_radius: Values,
+    radius: Values,
+    contact_modulus: Values,
+    strength: Values,
 ) -> Number:
     r"""Return the pressure [Pa] at a distance [m] from the axis, positive in compression.
 
@@ -198,11 +194,7 @@ def pressure(
 
 
 def maugis_parameter(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return :math:`\lambda = \sigma_0 (9 R / 2 \pi \Delta\gamma_0 E^{*2})^{1/3}`.
 
@@ -221,7 +213,7 @@ def maugis_parameter(
     return plain(s * np.cbrt(9 * R / (2 * np.pi * w * E**2)))
 
 
-def parameter_from_tabor(tabor: npt.ArrayLike) -> Number:
+def parameter_from_tabor(tabor: Values) -> Number:
     r"""Return the Maugis parameter of a Lennard-Jones contact with a Tabor number.
 
     Peak tension and work of adhesion are those of the 3-9 traction (Eq. 2.1),
@@ -240,11 +232,7 @@ def parameter_from_tabor(tabor: npt.ArrayLike) -> Number:
 
 
 def pull_off_force(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the pull-off force [N], a positive number between 3/2 and 2 :math:`\pi R w`.
 
@@ -264,11 +252,7 @@ def pull_off_force(
 
 
 def pull_off(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Point:
     r"""Return the force minimum, for a Maugis parameter from 1e-6 to 1e6.
 
@@ -292,11 +276,7 @@ def pull_off(
 
 
 def work_to_pull_off(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the work [J] of the drive from zero force to the force minimum.
 
@@ -326,10 +306,7 @@ def work_to_pull_off(
 
 
 def _parameter_in_range(
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> npt.NDArray[np.float64]:
     lam = np.asarray(
         maugis_parameter(

@@ -21,11 +21,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.special import gammaln
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
 from .jkr import Point
 
@@ -33,13 +32,13 @@ _LENGTH = "a contact radius is a length"
 
 
 def with_adhesion(
-    depth: npt.ArrayLike,
-    force: npt.ArrayLike,
+    depth: Values,
+    force: Values,
     *,
-    stiffness: npt.ArrayLike,
-    stiffness_slope: npt.ArrayLike,
-    area_slope: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    stiffness: Values,
+    stiffness_slope: Values,
+    area_slope: Values,
+    work_of_adhesion: Values,
 ) -> tuple[Number, Number]:
     r"""Return depth [m] and force [N] with adhesion, from an adhesionless state (Eq. 2.10, 2.11).
 
@@ -83,9 +82,7 @@ def with_adhesion(
     return plain(np.asarray(depth) - lift), plain(np.asarray(force) - S * lift)
 
 
-def punch_force(
-    depth: npt.ArrayLike, *, contact_radius: npt.ArrayLike, contact_modulus: npt.ArrayLike
-) -> Number:
+def punch_force(depth: Values, *, contact_radius: Values, contact_modulus: Values) -> Number:
     r"""Return the force [N] of a flat circular punch, :math:`P = 2 E^* a \delta`.
 
     In tension until :func:`punch_pull_off`.
@@ -100,11 +97,7 @@ def punch_force(
 
 
 def punch_pressure(
-    position: npt.ArrayLike,
-    *,
-    depth: npt.ArrayLike,
-    contact_radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
+    position: Values, *, depth: Values, contact_radius: Values, contact_modulus: Values
 ) -> Number:
     r"""Return the pressure [Pa] under a flat punch at a distance [m] from the axis; zero outside.
 
@@ -125,10 +118,7 @@ def punch_pressure(
 
 
 def punch_pull_off(
-    *,
-    contact_radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    *, contact_radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Point:
     r"""Return where a flat punch comes off, all at once, under load and depth control alike.
 
@@ -154,12 +144,12 @@ def punch_pull_off(
 
 
 def depth(
-    contact_radius: npt.ArrayLike,
+    contact_radius: Values,
     *,
-    exponent: npt.ArrayLike,
-    coefficient: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    exponent: Values,
+    coefficient: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return the depth [m] of a profile at a contact radius [m].
 
@@ -178,12 +168,12 @@ def depth(
 
 
 def force(
-    contact_radius: npt.ArrayLike,
+    contact_radius: Values,
     *,
-    exponent: npt.ArrayLike,
-    coefficient: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    exponent: Values,
+    coefficient: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return the force [N] of a profile at a contact radius [m], positive in compression.
 
@@ -203,11 +193,7 @@ def force(
 
 
 def pull_off(
-    *,
-    exponent: npt.ArrayLike,
-    coefficient: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    *, exponent: Values, coefficient: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Point:
     r"""Return the force minimum of a profile, where a dead load detaches.
 
@@ -228,11 +214,7 @@ def pull_off(
 
 
 def instability(
-    *,
-    exponent: npt.ArrayLike,
-    coefficient: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    *, exponent: Values, coefficient: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Point:
     r"""Return the depth minimum of a profile, where a rigid drive detaches.
 

@@ -16,19 +16,18 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory._scales import contact_scales
 
 
 def contact_radius(
-    force: npt.ArrayLike,
+    force: Values,
     *,
-    contact_radius_without_load: npt.ArrayLike,
-    pull_off_force: npt.ArrayLike,
-    transition: npt.ArrayLike,
+    contact_radius_without_load: Values,
+    pull_off_force: Values,
+    transition: Values,
 ) -> Number:
     r"""Return the contact radius [m] under a force [N], positive in compression.
 
@@ -47,7 +46,7 @@ def contact_radius(
     return plain(a0 * np.cbrt(((alpha + root) / (1 + alpha)) ** 2))
 
 
-def maugis_parameter(transition: npt.ArrayLike) -> Number:
+def maugis_parameter(transition: Values) -> Number:
     r"""Return the Maugis parameter, :math:`\lambda = -0.924 \ln(1 - 1.02 \alpha)`.
 
     The transition number must be below 1/1.02, where lambda is infinite.
@@ -66,7 +65,7 @@ def maugis_parameter(transition: npt.ArrayLike) -> Number:
     return plain(-0.924 * np.log1p(-1.02 * alpha))
 
 
-def transition(maugis_parameter: npt.ArrayLike) -> Number:
+def transition(maugis_parameter: Values) -> Number:
     r"""Return the transition number of a Maugis parameter, inverse of :func:`maugis_parameter`.
 
     Never above 1/1.02; the fit leaves out the last 2 % before JKR.
@@ -80,9 +79,7 @@ def transition(maugis_parameter: npt.ArrayLike) -> Number:
     return plain(-np.expm1(-lam / 0.924) / 1.02)
 
 
-def pull_off_force(
-    maugis_parameter: npt.ArrayLike, *, radius: npt.ArrayLike, work_of_adhesion: npt.ArrayLike
-) -> Number:
+def pull_off_force(maugis_parameter: Values, *, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N] by the fit to Maugis-Dugdale, within 2 %.
 
     .. math:: \frac{P_{po}}{\pi R \Delta\gamma_0} = \frac74
@@ -100,11 +97,7 @@ def pull_off_force(
 
 
 def contact_radius_without_load(
-    maugis_parameter: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    maugis_parameter: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] without load by the fit to Maugis-Dugdale, within 2 %.
 

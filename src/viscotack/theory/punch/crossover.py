@@ -26,12 +26,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base
 from viscotack.renamed import earlier_names
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import halved
 
 from ._kernel import curve
@@ -42,11 +41,7 @@ __getattr__ = earlier_names(
 
 
 def stiffness(
-    thickness: npt.ArrayLike,
-    *,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    base: Base,
+    thickness: Values, *, half_width: Values, contact_modulus: Values, base: Base
 ) -> Number:
     r"""Return force per length over depth, :math:`E^* S` [Pa].
 
@@ -63,12 +58,7 @@ def stiffness(
 
 
 def energy_release_rate(
-    depth: npt.ArrayLike,
-    *,
-    thickness: npt.ArrayLike,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    base: Base,
+    depth: Values, *, thickness: Values, half_width: Values, contact_modulus: Values, base: Base
 ) -> Number:
     r"""Return the energy [J/m^2] that the receding edges release, :math:`E^* \delta^2 S'(a)/4`.
 
@@ -88,11 +78,11 @@ def energy_release_rate(
 
 
 def pull_off_stress(
-    thickness: npt.ArrayLike,
+    thickness: Values,
     *,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    half_width: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
     base: Base,
 ) -> Number:
     """Return the mean pull-off stress [Pa] of an elastic layer of any thickness.
@@ -121,11 +111,11 @@ def pull_off_stress(
 
 
 def depth_at_pull_off(
-    thickness: npt.ArrayLike,
+    thickness: Values,
     *,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    half_width: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
     base: Base,
 ) -> Number:
     r"""Return the depth [m] of pull-off, negative, :math:`-\sqrt{4 \Delta\gamma_0/(E^* S')}`.
@@ -148,11 +138,7 @@ def depth_at_pull_off(
 
 
 def work_of_separation(
-    thickness: npt.ArrayLike,
-    *,
-    half_width: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    base: Base,
+    thickness: Values, *, half_width: Values, work_of_adhesion: Values, base: Base
 ) -> Number:
     r"""Return the work [J/m^2] of a rigid machine per area of the punch.
 
@@ -175,11 +161,11 @@ def work_of_separation(
 
 
 def thickness(
-    stress: npt.ArrayLike,
+    stress: Values,
     *,
-    half_width: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    half_width: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
     base: Base,
 ) -> Number:
     """Return the thickness [m] of the elastic layer with a wanted pull-off stress [Pa].
@@ -215,7 +201,7 @@ def thickness(
     return plain(a * np.exp(-log_ratio))
 
 
-def _pad(thickness: npt.ArrayLike, half_width: npt.ArrayLike, **others: npt.ArrayLike) -> Any:
+def _pad(thickness: Values, half_width: Values, **others: Values) -> Any:
     """Return a/b, a and the others, checked."""
     b, a, *rest = positive(thickness=thickness, half_width=half_width, **others)
     return a / b, a, *rest

@@ -12,22 +12,21 @@ import warnings
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 from ._kernel import curve
 
 
 def surface_energy(
-    pull_off_stress: npt.ArrayLike,
+    pull_off_stress: Values,
     *,
-    thickness: npt.ArrayLike,
-    half_width: npt.ArrayLike,
-    ligament: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
+    thickness: Values,
+    half_width: Values,
+    ligament: Values,
+    contact_modulus: Values,
     base: Base,
 ) -> Number:
     r"""Return the surface energy [J/m^2] that a measured pull-off stress stands for.
@@ -63,12 +62,12 @@ def surface_energy(
 
 
 def thin_layer_surface_energy(
-    pull_off_stress: npt.ArrayLike,
+    pull_off_stress: Values,
     *,
-    thickness: npt.ArrayLike,
-    half_width: npt.ArrayLike,
-    ligament: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
+    thickness: Values,
+    half_width: Values,
+    ligament: Values,
+    contact_modulus: Values,
     base: Base,
 ) -> Number:
     r"""Return the surface energy [J/m^2] of a measured pull-off stress, for a thin layer.
@@ -100,7 +99,7 @@ def thin_layer_surface_energy(
     return plain(on_ligament**2 * b * base.foundation / (2 * E))
 
 
-def work_of_separation(depth: npt.ArrayLike, stress: npt.ArrayLike) -> float:
+def work_of_separation(depth: Values, stress: Values) -> float:
     r"""Return the work [J/m^2] that separates the punch, per area, of a retraction curve.
 
     .. math:: w_{sep} = \int_{-\infty}^{\delta_P} \bar\sigma \, d\delta
@@ -148,11 +147,11 @@ def work_of_separation(depth: npt.ArrayLike, stress: npt.ArrayLike) -> float:
 
 
 def _checked(
-    pull_off_stress: npt.ArrayLike,
-    thickness: npt.ArrayLike,
-    half_width: npt.ArrayLike,
-    ligament: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
+    pull_off_stress: Values,
+    thickness: Values,
+    half_width: Values,
+    ligament: Values,
+    contact_modulus: Values,
 ) -> Any:
     """Return the mean stress on the ligament, b, a, the ligament and E*."""
     s, b, a, c, E = positive(

@@ -15,11 +15,10 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import brentq
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.crack import CrackLaw
 
 from . import rate, unloading
@@ -31,9 +30,7 @@ _HALF_PLANE, _THICKEST = 100.0, 5.0
 _TOLERANCE = 1e-12
 
 
-def pull_off_stress(
-    thickness: npt.ArrayLike, pad: Pad, law: CrackLaw, *, crack_speed: npt.ArrayLike
-) -> Number:
+def pull_off_stress(thickness: Values, pad: Pad, law: CrackLaw, *, crack_speed: Values) -> Number:
     r"""Return the mean stress [Pa] at which edges move at a crack speed [m/s], contact still whole.
 
     .. math:: \bar\sigma = \bar\sigma_{el} \sqrt{\Gamma(v)}, \quad
@@ -65,7 +62,7 @@ def pull_off_stress(
 
 
 def thickness_at_crack_speed(
-    stress: npt.ArrayLike, pad: Pad, law: CrackLaw, *, crack_speed: float
+    stress: Values, pad: Pad, law: CrackLaw, *, crack_speed: float
 ) -> Number:
     """Return the thickness [m] with a wanted pull-off stress [Pa] at a crack speed [m/s].
 
@@ -92,7 +89,7 @@ def thickness_at_crack_speed(
     )
 
 
-def thickness_at_speed(stress: npt.ArrayLike, pad: Pad, law: CrackLaw, *, speed: float) -> Number:
+def thickness_at_speed(stress: Values, pad: Pad, law: CrackLaw, *, speed: float) -> Number:
     """Return the thickness [m] with a wanted pull-off stress [Pa] at a retraction speed [m/s].
 
     The inverse of :func:`viscotack.theory.punch.unloading.pull_off`, for a wanted stress
@@ -118,9 +115,7 @@ def thickness_at_speed(stress: npt.ArrayLike, pad: Pad, law: CrackLaw, *, speed:
     )
 
 
-def _thickness(
-    wanted: npt.ArrayLike, pad: Pad, stress: Callable[[float], Any], thickest: float
-) -> Number:
+def _thickness(wanted: Values, pad: Pad, stress: Callable[[float], Any], thickest: float) -> Number:
     """Return where a stress that falls with the thickness takes the wanted values."""
     sigma, s0, a = positive(stress=wanted), pad.strength, pad.half_width
     if np.any(sigma >= s0):

@@ -14,12 +14,11 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
 from viscotack.renamed import earlier_names
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 
 __getattr__ = earlier_names(
     __name__,
@@ -31,10 +30,7 @@ _THIN_POISSON = 0.45
 
 
 def fracture_length(
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    strength: npt.ArrayLike,
+    *, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
     r"""Return the half width a0 [m] below which a punch on a half-plane comes off at its strength.
 
@@ -55,10 +51,7 @@ def fracture_length(
 
 
 def half_plane_pull_off_stress(
-    half_width: npt.ArrayLike,
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    half_width: Values, *, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the mean stress [Pa] that pulls a punch off a half-plane.
 
@@ -79,11 +72,7 @@ def half_plane_pull_off_stress(
 
 
 def thin_layer_pull_off_stress(
-    thickness: npt.ArrayLike,
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    base: Base,
+    thickness: Values, *, contact_modulus: Values, work_of_adhesion: Values, base: Base
 ) -> Number:
     r"""Return the mean stress [Pa] that pulls a wide punch off a thin layer.
 
@@ -109,11 +98,7 @@ def thin_layer_pull_off_stress(
 
 
 def thin_layer_depth_at_pull_off(
-    thickness: npt.ArrayLike,
-    *,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    base: Base,
+    thickness: Values, *, contact_modulus: Values, work_of_adhesion: Values, base: Base
 ) -> Number:
     r"""Return the depth [m] at which a wide punch comes off a thin layer, negative.
 

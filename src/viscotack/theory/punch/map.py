@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import positive
+from viscotack.theory._checks import Values, positive
 from viscotack.theory.crack import CrackLaw
 
 from . import rate, regimes, unloading
@@ -48,9 +48,7 @@ class RegimeMap(NamedTuple):
     boundaries: regimes.Thicknesses
 
 
-def regime_map(
-    thickness: npt.ArrayLike, speed: npt.ArrayLike, pad: Pad, law: CrackLaw
-) -> RegimeMap:
+def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> RegimeMap:
     """Return how a pad comes off, over lists of thicknesses [m] and retraction speeds [m/s].
 
     Cohesive where the crack at pull-off is so fast that on a half-space it would take more than

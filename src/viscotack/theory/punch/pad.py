@@ -10,11 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy.typing as npt
-
 from viscotack.errors import InputError
 from viscotack.geometry import Base
-from viscotack.theory._checks import Number, positive
+from viscotack.theory._checks import Number, Values, positive
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.crack.law import Material
 
@@ -74,15 +72,15 @@ class Pad:
             )
         )
 
-    def elastic_stress(self, thickness: npt.ArrayLike) -> Number:
+    def elastic_stress(self, thickness: Values) -> Number:
         """Return the exact mean pull-off stress [Pa] at thicknesses [m], not capped by strength."""
         return crossover.pull_off_stress(thickness, **self._elastic())
 
-    def elastic_depth(self, thickness: npt.ArrayLike) -> Number:
+    def elastic_depth(self, thickness: Values) -> Number:
         """Return the exact depth of pull-off [m] at thicknesses [m], negative."""
         return crossover.depth_at_pull_off(thickness, **self._elastic())
 
-    def elastic_thickness(self, stress: npt.ArrayLike) -> Number:
+    def elastic_thickness(self, stress: Values) -> Number:
         """Return the thickness [m] of the exact elastic layer with a pull-off stress [Pa]."""
         return crossover.thickness(stress, **self._elastic())
 

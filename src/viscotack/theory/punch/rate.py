@@ -21,17 +21,16 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory.crack import CrackLaw
 
 from .pad import Pad
 from .regimes import regime_thicknesses
 
 
-def largest_amplification(thickness: npt.ArrayLike, pad: Pad) -> Number:
+def largest_amplification(thickness: Values, pad: Pad) -> Number:
     r"""Return the effective over the rubbery surface energy that the size of the pad allows.
 
     .. math:: \Gamma_{max} = \frac{\min(b, b_1)}{b_0}
@@ -55,7 +54,7 @@ def largest_amplification(thickness: npt.ArrayLike, pad: Pad) -> Number:
     return plain(np.minimum(b, b1) / b0)
 
 
-def amplification(crack_speed: npt.ArrayLike, law: CrackLaw, *, largest: npt.ArrayLike) -> Number:
+def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Number:
     r"""Return effective over rubbery surface energy at a crack speed, corrected for finite size.
 
     Parameters
@@ -98,7 +97,7 @@ def amplification(crack_speed: npt.ArrayLike, law: CrackLaw, *, largest: npt.Arr
     return plain(found)
 
 
-def crack_speed(amplification: npt.ArrayLike, law: CrackLaw, *, largest: npt.ArrayLike) -> Number:
+def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Number:
     """Return the crack speed [m/s] at which an amplification is reached.
 
     Parameters as :func:`amplification`, which must be at least 1 and below both ``largest`` and
@@ -135,7 +134,7 @@ def crack_speed(amplification: npt.ArrayLike, law: CrackLaw, *, largest: npt.Arr
     return plain(found)
 
 
-def _positive_limit(largest: npt.ArrayLike) -> Any:
+def _positive_limit(largest: Values) -> Any:
     limit = np.asarray(largest, dtype=float)
     if not np.all(limit > 0):
         raise InputError(f"largest must be a positive amplification, got {np.min(limit)}")

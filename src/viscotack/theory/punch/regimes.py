@@ -29,9 +29,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, plain, positive, ratio
+from viscotack.theory._checks import Number, Values, plain, positive, ratio
 
 from .laws import half_plane_pull_off_stress, stiffening, thin_layer_pull_off_stress
 from .pad import Pad
@@ -54,7 +53,7 @@ class Limits(NamedTuple):
     fast: Number
 
 
-def regime_thicknesses(pad: Pad, *, modulus_ratio: npt.ArrayLike) -> Thicknesses:
+def regime_thicknesses(pad: Pad, *, modulus_ratio: Values) -> Thicknesses:
     r"""Return the thicknesses [m] at which the regimes meet.
 
     .. math:: b_0 = \frac{2 \zeta E_0^* \Delta\gamma_0}{\sigma_0^2} = \frac4\pi \zeta a_0, \quad
@@ -80,7 +79,7 @@ def regime_thicknesses(pad: Pad, *, modulus_ratio: npt.ArrayLike) -> Thicknesses
     return Thicknesses(plain(unit * a0), plain(unit * a0 / k), plain(unit * a))
 
 
-def pull_off_stress(thickness: npt.ArrayLike, pad: Pad) -> Number:
+def pull_off_stress(thickness: Values, pad: Pad) -> Number:
     """Return the mean pull-off stress [Pa] by the regime the layer is in (Eq. 3.12).
 
     Examples
@@ -97,7 +96,7 @@ def pull_off_stress(thickness: npt.ArrayLike, pad: Pad) -> Number:
     return _envelope(thickness, pad.contact_modulus, pad)
 
 
-def limits(thickness: npt.ArrayLike, pad: Pad, *, modulus_ratio: npt.ArrayLike) -> Limits:
+def limits(thickness: Values, pad: Pad, *, modulus_ratio: Values) -> Limits:
     """Return the pull-off stress [Pa] of the slowest and the fastest retraction (Eq. 3.6, 3.15).
 
     With the rubbery contact modulus of the pad, and with that over ``modulus_ratio``. The strength
@@ -118,7 +117,7 @@ def limits(thickness: npt.ArrayLike, pad: Pad, *, modulus_ratio: npt.ArrayLike) 
     return Limits(_envelope(thickness, E, pad), _envelope(thickness, E / k, pad))
 
 
-def regime(thickness: npt.ArrayLike, pad: Pad) -> Any:
+def regime(thickness: Values, pad: Pad) -> Any:
     """Return which of ``REGIMES`` an elastic layer is in: a word, or an array of words.
 
     Examples
@@ -137,7 +136,7 @@ def regime(thickness: npt.ArrayLike, pad: Pad) -> Any:
     return np.array(REGIMES)[np.where(cohesive, 0, np.where(b <= b1, 1, 2))]
 
 
-def _envelope(thickness: npt.ArrayLike, contact_modulus: npt.ArrayLike, pad: Pad) -> Number:
+def _envelope(thickness: Values, contact_modulus: Values, pad: Pad) -> Number:
     """Return the pull-off stress of a pad with another contact modulus."""
     case: dict[str, Any] = dict(
         contact_modulus=contact_modulus, work_of_adhesion=pad.work_of_adhesion

@@ -34,9 +34,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.crack import CrackLaw
 
 from . import crossover, rate
@@ -75,7 +74,7 @@ class PullOff(NamedTuple):
     amplification: Number
 
 
-def pull_off(speed: npt.ArrayLike, pad: Pad, law: CrackLaw, *, thickness: npt.ArrayLike) -> PullOff:
+def pull_off(speed: Values, pad: Pad, law: CrackLaw, *, thickness: Values) -> PullOff:
     """Return the state at pull-off from retraction speeds [m/s] and thicknesses [m], broadcast.
 
     By trapezoids over a fine grid of crack speeds: the stress to 1e-5 or better. Every different

@@ -19,9 +19,8 @@ superposition in place of Eq. 43.
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, at_least, plain, ratio
+from viscotack.theory._checks import Number, Values, at_least, plain, ratio
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.elastic import jkr, lennard_jones
 
@@ -30,11 +29,7 @@ _THRESHOLD_COEFFICIENT, _THRESHOLD_EXPONENT = 0.3, 2.7
 
 
 def rubbery_force(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the pull-off force [N] of the slowest retraction, :math:`f(\mu)` times that of JKR.
 
@@ -56,11 +51,11 @@ def rubbery_force(
 
 def glassy_force(
     *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
-    modulus_ratio: npt.ArrayLike,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
+    equilibrium_gap: Values,
+    modulus_ratio: Values,
 ) -> Number:
     r"""Return the pull-off force [N] of the fastest retraction from a large relaxed contact.
 
@@ -87,12 +82,12 @@ def glassy_force(
 
 
 def glassy_force_at_radius(
-    contact_radius: npt.ArrayLike,
+    contact_radius: Values,
     *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    modulus_ratio: npt.ArrayLike,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
+    modulus_ratio: Values,
 ) -> Number:
     r"""Return the fast limit of the pull-off force [N] from a relaxed contact radius [m].
 
@@ -116,11 +111,7 @@ def glassy_force_at_radius(
 
 
 def rubbery_work(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
     r"""Return the work to pull-off [J] of the slowest retraction, of the Lennard-Jones traction.
 
@@ -145,11 +136,11 @@ def rubbery_work(
 
 def glassy_work(
     *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    equilibrium_gap: npt.ArrayLike,
-    modulus_ratio: npt.ArrayLike,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
+    equilibrium_gap: Values,
+    modulus_ratio: Values,
 ) -> Number:
     r"""Return the work to pull-off [J] of the fastest retraction from a large relaxed contact.
 
@@ -175,11 +166,7 @@ def glassy_work(
 
 
 def glassy_work_estimate(
-    contact_radius: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the glassy estimate of the work [J] from the radius at pull-off [m] (Eq. 43).
 
@@ -201,11 +188,7 @@ def glassy_work_estimate(
 
 
 def smallest_full_radius(
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
-    modulus_ratio: npt.ArrayLike,
+    *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, modulus_ratio: Values
 ) -> Number:
     r"""Return the relaxed contact radius [m] below which no rate reaches the full glassy force.
 
@@ -226,11 +209,7 @@ def smallest_full_radius(
 
 
 def threshold_contact_radius(
-    force: npt.ArrayLike,
-    *,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] from which a pull-off force [N] no longer grows with preload.
 

@@ -42,10 +42,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.errors import InputError
-from viscotack.theory._checks import Number, plain, positive
+from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory._roots import regula_falsi
 from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
@@ -86,7 +85,7 @@ class State(NamedTuple):
 
 
 def at_pull_off(
-    speed: npt.ArrayLike,
+    speed: Values,
     law: CrackLaw,
     *,
     depth: float,
@@ -156,10 +155,10 @@ def at_pull_off(
 
 
 def unlimited(
-    speed: npt.ArrayLike,
+    speed: Values,
     law: CrackLaw,
     *,
-    depth: npt.ArrayLike,
+    depth: Values,
     radius: float,
     contact_modulus: float,
     work_of_adhesion: float,

@@ -28,9 +28,8 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.theory._checks import Number, at_least, plain, positive
+from viscotack.theory._checks import Number, Values, at_least, plain, positive
 from viscotack.theory._scales import contact_scales
 
 COEFFICIENT, EXPONENT = 2.887, 1.171
@@ -39,7 +38,7 @@ FITTED_TABOR = 3.24
 _NEAR = 1.25
 
 
-def crack_speed(rate: npt.ArrayLike, *, tabor: npt.ArrayLike) -> Number:
+def crack_speed(rate: Values, *, tabor: Values) -> Number:
     r"""Return the dimensionless crack speed at pull-off from a dimensionless rate (Eq. 4.24).
 
     Parameters
@@ -69,9 +68,7 @@ def crack_speed(rate: npt.ArrayLike, *, tabor: npt.ArrayLike) -> Number:
     return plain(COEFFICIENT * r**EXPONENT)
 
 
-def rate_in_tip_lengths(
-    speed: npt.ArrayLike, *, time_unit: npt.ArrayLike, tip_length: npt.ArrayLike
-) -> Number:
+def rate_in_tip_lengths(speed: Values, *, time_unit: Values, tip_length: Values) -> Number:
     r"""Return :math:`r \tau_0 / l_0`, the rate of Eq. 4.24 as printed, of a speed [m/s].
 
     ``time_unit`` [s] and ``tip_length`` [m] of
@@ -90,7 +87,7 @@ def rate_in_tip_lengths(
     return plain(r * t / l0)
 
 
-def rate_as_published(rate: npt.ArrayLike) -> Number:
+def rate_as_published(rate: Values) -> Number:
     r"""Return :math:`\hat r_u / (3.24 \pi^{2/3})` of a rate :math:`\hat r_u = r \tau_0/h_0`.
 
     What the authors' published tables and models hold, at every Tabor number.
@@ -105,12 +102,12 @@ def rate_as_published(rate: npt.ArrayLike) -> Number:
 
 
 def rate_in_contact_heights(
-    speed: npt.ArrayLike,
+    speed: Values,
     *,
-    time_unit: npt.ArrayLike,
-    radius: npt.ArrayLike,
-    contact_modulus: npt.ArrayLike,
-    work_of_adhesion: npt.ArrayLike,
+    time_unit: Values,
+    radius: Values,
+    contact_modulus: Values,
+    work_of_adhesion: Values,
 ) -> Number:
     r"""Return :math:`r \tau_0 / (\pi^2 \Delta\gamma_0^2 R / E_0^{*2})^{1/3}` of a speed [m/s].
 

@@ -23,6 +23,7 @@ from scipy.interpolate import NdBSpline, make_interp_spline
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
+from viscotack.theory._checks import Values
 from viscotack.theory.crack.steady import NeighbourCrack, SteadyCrack
 from viscotack.traction import GentSchultz, LennardJones, Traction
 from viscotack.traction.growing import power_growth
@@ -103,7 +104,7 @@ class GrowingCracks:
         self._at_rest = np.maximum(gained, _NOTHING), np.ones(_ROWS)
         self.modes: Modes = self.at_rest.modes
 
-    def edges(self, reference_speed: npt.ArrayLike, exponent: npt.ArrayLike) -> GrowingEdges:
+    def edges(self, reference_speed: Values, exponent: Values) -> GrowingEdges:
         """Return the edges of cases, each with its reference speed and exponent.
 
         An infinite reference speed is an interface that does not grow.

@@ -12,12 +12,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import minimize_scalar
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.theory._checks import positive
+from viscotack.theory._checks import Values, positive
 from viscotack.theory.crack import greenwood, persson_brener
 from viscotack.traction.growing import check_of_gap_alone
 
@@ -57,7 +56,7 @@ class Comparison(NamedTuple):
 
 
 def compared(
-    crack: SteadyCrack, speed: npt.ArrayLike, *, strength_ratio: float = THESIS_RATIO
+    crack: SteadyCrack, speed: Values, *, strength_ratio: float = THESIS_RATIO
 ) -> Comparison:
     """Return what the theories say of a crack that opens at speeds [E0* h0^2/(dg tau)].
 

@@ -27,12 +27,11 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials import Modes
-from viscotack.theory._checks import Number, plain
+from viscotack.theory._checks import Number, Values, plain
 from viscotack.traction import Dugdale, Traction, effective_range, grows
 from viscotack.traction.growing import reduced
 
@@ -154,7 +153,7 @@ class SteadyCrack:
         """
         return 1 / self.modes.instantaneous if self._grown is None else self._grown.largest
 
-    def amplification(self, speed: npt.ArrayLike) -> Number:
+    def amplification(self, speed: Values) -> Number:
         """Return the energy over the work of adhesion at speeds [E0* h0^2/(dg tau)], any sign."""
         v = _finite("speed", speed)
         gamma = np.ones(v.shape)
@@ -162,7 +161,7 @@ class SteadyCrack:
             gamma[moving] = cracks.gamma(np.log(sign * v[moving]))
         return plain(gamma)
 
-    def interface_work(self, speed: npt.ArrayLike) -> Number:
+    def interface_work(self, speed: Values) -> Number:
         """Return what the interface takes of the energy at speeds [works of adhesion].
 
         1 for a law of the gap alone; else more by the heat in the interface of a crack that opens.
@@ -173,7 +172,7 @@ class SteadyCrack:
             work[v > 0] = self._grown.work(np.log(v[v > 0]))
         return plain(work)
 
-    def speed(self, amplification: npt.ArrayLike) -> Number:
+    def speed(self, amplification: Values) -> Number:
         """Return speeds [E0* h0^2/(dg tau)]: opening above an amplification of 1, else closing.
 
         The amplification must lie between k and 1/k.
@@ -190,7 +189,7 @@ class SteadyCrack:
             v[moving] = sign * np.exp(cracks.log_speed(gamma[moving]))
         return plain(v)
 
-    def error(self, speed: npt.ArrayLike) -> Number:
+    def error(self, speed: Values) -> Number:
         """Return the part by which :meth:`amplification` may be off: mesh, steps and softening."""
         v = _finite("speed", speed)
         if not self.modes.times and self._grown is None:
@@ -329,7 +328,7 @@ def _zone_length(mesh: _mesh.Mesh, gap: Array, traction: Any, law: Law) -> float
     return float(stop - begin)
 
 
-def _finite(name: str, value: npt.ArrayLike) -> Array:
+def _finite(name: str, value: Values) -> Array:
     x = np.asarray(value, dtype=float)
     if not np.all(np.isfinite(x)):
         raise InputError(f"{name} must be finite, got {x[~np.isfinite(x)].flat[0]}")

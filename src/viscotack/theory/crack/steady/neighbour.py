@@ -16,10 +16,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.arrays import Array
 from viscotack.materials import Modes
+from viscotack.theory._checks import Values
 
 from ._branch import energy_of_odds
 from .cracks import SteadyCrack, modes_of
@@ -60,13 +60,13 @@ class NeighbourCrack:
         """The amplification at infinite speed."""
         return 1 / self.modes.instantaneous
 
-    def speed(self, amplification: npt.ArrayLike) -> Array:
+    def speed(self, amplification: Values) -> Array:
         """Return opening speeds [E0* h0^2/(dg tau)] of energies between 1 and 1/k."""
         gamma = np.asarray(amplification, dtype=float)
         odds = np.log((gamma - 1) / (self.largest - gamma))
         return np.exp(np.interp(odds, _ODDS, self._log_speeds))
 
-    def amplification(self, speed: npt.ArrayLike) -> Array:
+    def amplification(self, speed: Values) -> Array:
         """Return the energy over the work of adhesion at opening speeds."""
         v = np.log(np.asarray(speed, dtype=float))
         return energy_of_odds(
