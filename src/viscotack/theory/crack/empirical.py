@@ -96,9 +96,7 @@ def process_zone_correction(
     >>> f"{process_zone_correction(1e-4):.2f}"
     '1.10'
     """
-    v1, m = positive(reference_speed=reference_speed, exponent=exponent)
-    v = at_least(0, _OPENS, speed=speed)
-    return plain(1 + (v / v1) ** m)
+    return gent_schultz(speed, reference_speed=reference_speed, exponent=exponent)
 
 
 def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:

@@ -19,8 +19,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.theory._checks import ROUND_OFF, Number, Values, at_least, plain, positive
 from viscotack.theory._roots import halved
@@ -76,19 +76,8 @@ def curve(
             f"ratio must be above 1 (a cohesive ring of no width) and finite, got {np.min(m)}; "
             "for a contact that is a point use curve_without_contact"
         )
-    length, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
-    lam = np.asarray(
-        maugis_parameter(
-            radius=radius,
-            contact_modulus=contact_modulus,
-            work_of_adhesion=work_of_adhesion,
-            strength=strength,
-        )
-    )
-    a = equations.contact_radius(m - 1, lam)
-    P, d = equations.force_and_depth(m - 1, lam, a)
-    length, height = 0.75 ** (1 / 3) * length, 0.75 ** (2 / 3) * height
-    return Point(plain(a * length), plain(m * a * length), plain(d * height), plain(P * load))
+    lam = _parameter(radius, contact_modulus, work_of_adhesion, strength)
+    return _point(m - 1, lam, radius, contact_modulus, work_of_adhesion)
 
 
 def touching_radius(
@@ -204,13 +193,7 @@ def maugis_parameter(
     >>> f"{maugis_parameter(**case):.3f}"
     '0.612'
     """
-    R, E, w, s = positive(
-        radius=radius,
-        contact_modulus=contact_modulus,
-        work_of_adhesion=work_of_adhesion,
-        strength=strength,
-    )
-    return plain(s * np.cbrt(9 * R / (2 * np.pi * w * E**2)))
+    return plain(_parameter(radius, contact_modulus, work_of_adhesion, strength))
 
 
 def parameter_from_tabor(tabor: Values) -> Number:
@@ -265,14 +248,8 @@ def pull_off(
     >>> f"{pull_off(**case).contact_radius * 1e9:.1f} nm"
     '36.8 nm'
     """
-    length, height, load = contact_scales(radius, contact_modulus, work_of_adhesion)
     lam = _parameter_in_range(radius, contact_modulus, work_of_adhesion, strength)
-    excess = np.exp(_pull_off_log_excess(lam))
-    a = equations.contact_radius(excess, lam)
-    P, d = equations.force_and_depth(excess, lam, a)
-    length, height = 0.75 ** (1 / 3) * length, 0.75 ** (2 / 3) * height
-    c = (1 + excess) * a
-    return Point(plain(a * length), plain(c * length), plain(d * height), plain(P * load))
+    return _point(np.exp(_pull_off_log_excess(lam)), lam, radius, contact_modulus, work_of_adhesion)
 
 
 def work_to_pull_off(
@@ -305,17 +282,26 @@ def work_to_pull_off(
     return plain((power @ _WEIGHTS) * (end - start) / 2 * 0.75 ** (2 / 3) * height * load)
 
 
-def _parameter_in_range(
-    radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
-) -> npt.NDArray[np.float64]:
-    lam = np.asarray(
-        maugis_parameter(
-            radius=radius,
-            contact_modulus=contact_modulus,
-            work_of_adhesion=work_of_adhesion,
-            strength=strength,
-        )
+def _parameter(radius: Values, contact_modulus: Values, work: Values, strength: Values) -> Any:
+    R, E, w, s = positive(
+        radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work, strength=strength
     )
+    return s * np.cbrt(9 * R / (2 * np.pi * w * E**2))
+
+
+def _point(excess: Any, lam: Any, radius: Values, contact_modulus: Values, work: Values) -> Point:
+    """Return the state on the curve at an excess c/a - 1."""
+    length, height, load = contact_scales(radius, contact_modulus, work)
+    a = equations.contact_radius(excess, lam)
+    P, d = equations.force_and_depth(excess, lam, a)
+    length, height, c = 0.75 ** (1 / 3) * length, 0.75 ** (2 / 3) * height, (1 + excess) * a
+    return Point(plain(a * length), plain(c * length), plain(d * height), plain(P * load))
+
+
+def _parameter_in_range(
+    radius: Values, contact_modulus: Values, work: Values, strength: Values
+) -> Array:
+    lam = _parameter(radius, contact_modulus, work, strength)
     low, high = _RANGE
     if np.any((lam < low) | (lam > high)):
         raise InputError(
