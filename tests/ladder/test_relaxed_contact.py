@@ -11,6 +11,7 @@ from viscotack.theory.elastic.relaxed import (
     contact,
     contact_in_groups,
     curve,
+    ends,
     largest_radius,
     radius_without_adhesion,
 )
@@ -41,6 +42,11 @@ def test_a_start_by_depth_force_or_radius_is_one_contact_for_every_form_of_a_sha
 
 
 FOLD, END = jkr.instability(**SPHERE), jkr.pull_off(**SPHERE)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_every_form_of_a_shape_lets_go_at_the_same_contacts(shape):
+    np.testing.assert_allclose(ends(shape, **LENS), (FOLD, END), rtol=2e-5)
 
 
 @pytest.mark.parametrize("shape", SHAPES)

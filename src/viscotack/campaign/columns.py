@@ -148,7 +148,8 @@ def has_relaxed_contact(problem: Any) -> bool:
 
     Pressed to a depth, or by a force, that is not negative, sphere and punch are always in
     contact: the gap in the middle is then at most h0, below that of peak tension. Else the start is
-    looked for.
+    looked for with the range of its traction law, with which contacts exist beyond the end of JKR's
+    (:func:`viscotack.theory.elastic.relaxed.contact`).
     """
     start = problem.groups().start
     if isinstance(start, AtDepth) and start.depth >= 0:

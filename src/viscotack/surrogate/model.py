@@ -182,6 +182,9 @@ class Surrogate:
     ) -> float:
         """Return the depth [h0] of the relaxed start with a force or a contact radius.
 
+        Of contacts with the Lennard-Jones law and its range, as they were simulated; for forces of
+        short range see :func:`viscotack.theory.elastic.relaxed.contact`.
+
         Parameters
         ----------
         tabor : float

@@ -30,7 +30,7 @@ from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.surrogate import store
 from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
-from viscotack.theory.elastic.relaxed import contact, curve
+from viscotack.theory.elastic.relaxed import contact, curve, ends
 from viscotack.theory.punch import Pad, unloading
 
 # Speeds of the picture of force against speed, and how many decades around the present one.
@@ -124,10 +124,9 @@ def _elastic(problem: Problem, found: dict[str, Any]) -> None:
     shape: Any = problem.geometry
     unit = problem.scales().radius
     depth, force = curve(shape, **solid)
-    a = unit * np.geomspace(1e-3, _LARGEST, 240)
-    last = a[np.argmin(depth(a))]
+    last = ends(shape, **solid)[0].contact_radius
     contacts = (contact(state, shape=shape, **solid) for state in states(problem.protocol))
-    held = [x for x in contacts if x is not None and x.contact_radius < a[-1]]
+    held = [x for x in contacts if x is not None and x.contact_radius < _LARGEST * unit]
     start = max(held, key=lambda x: x.contact_radius, default=None)
     if start is None:
         found["notes"].append("JKR has no contact at the start: adhesion does not hold it there")

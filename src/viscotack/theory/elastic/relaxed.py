@@ -17,9 +17,8 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
-from viscotack.arrays import Array
 from viscotack.geometry import Cone, PowerLawProfile, Shape, Sphere, equivalent_radius
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory._checks import ROUND_OFF
@@ -28,7 +27,6 @@ from . import indenter, jkr, profiles
 from .jkr import Point
 
 _SPHERE = Sphere(1.0)
-
 # Radii between which a contact is looked for, over the length beta, and their number.
 _RADII, _COUNT = (1e-4, 1e6), 600
 _TOLERANCE = 1e-13
@@ -68,27 +66,43 @@ def contact(
     if isinstance(start, Apart):
         return None
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    depth, force = curve(shape, **solid)
-    if isinstance(shape, Sphere):
-        a = _radius_of_sphere(start, {"radius": shape.radius, **solid})
+    theory, case = _theory(shape, solid)
+    fold, end = ends(shape, **solid)
+    if isinstance(start, AtRadius):
+        a = start.contact_radius if start.contact_radius >= fold.contact_radius else None
     else:
-        adhesion = work_of_adhesion / contact_modulus
-        beta = float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
-        match start:
-            case AtDepth():
-                a = largest_radius(depth, start.depth, length=beta)
-            case AtForce():
-                a = largest_radius(force, start.force, length=beta)
-            case AtRadius():
-                radii = _radii(beta)
-                least = radii[np.argmin(depth(radii))]
-                a = None if start.contact_radius < least else start.contact_radius
+        by_depth = isinstance(start, AtDepth)
+        value, least = (start.depth, fold.depth) if by_depth else (start.force, end.force)
+        if value < np.asarray(least) * (1 + ROUND_OFF):
+            a = None
+        elif theory is jkr:
+            by = jkr.contact_radius_at_depth if by_depth else jkr.contact_radius_at_force
+            a = float(by(value, **case))
+        else:
+            by = partial(theory.depth if by_depth else theory.force, **case)
+            a = largest_radius(by, value, length=_length(shape, solid))
     if a is None:
         return None
     with np.errstate(over="ignore", invalid="ignore"):
-        deep = start.depth if isinstance(start, AtDepth) else float(depth(a))
-        load = start.force if isinstance(start, AtForce) else float(force(a))
+        deep = start.depth if isinstance(start, AtDepth) else float(theory.depth(a, **case))
+        load = start.force if isinstance(start, AtForce) else float(theory.force(a, **case))
     return Point(a, deep, load)
+
+
+def ends(shape: Shape, *, contact_modulus: float, work_of_adhesion: float) -> tuple[Point, Point]:
+    r"""Compute the contacts of the least depth and of the least force, beyond which JKR has none.
+
+    A rigid drive lets go at the first, a dead load at the second. A shape without closed forms is
+    searched around its length :math:`\beta`; the radii are good to five digits.
+    """
+    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    theory, case = _theory(shape, solid)
+    if theory is not indenter:
+        return theory.instability(**case), theory.pull_off(**case)
+    depth, force = curve(shape, **solid)
+    radii = (_least(function, _length(shape, solid)) for function in (depth, force))
+    fold, end = (Point(a, float(depth(a)), float(force(a))) for a in radii)
+    return fold, end
 
 
 def contact_in_groups(
@@ -144,14 +158,8 @@ def curve(
 ) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
     """Return JKR's depth [m] and force [N] as functions of the contact radius [m]."""
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    match shape:
-        case Sphere():
-            theory, of = jkr, {"radius": shape.radius}
-        case PowerLawProfile() | Cone():
-            theory, of = profiles, {"exponent": shape.exponent, "coefficient": shape.coefficient}
-        case _:
-            theory, of = indenter, {"shape": shape}
-    return partial(theory.depth, **of, **solid), partial(theory.force, **of, **solid)
+    theory, case = _theory(shape, solid)
+    return partial(theory.depth, **case), partial(theory.force, **case)
 
 
 def largest_radius(
@@ -168,26 +176,34 @@ def largest_radius(
     length : float
         Scale of the radii, :math:`\beta`; from 1e-4 to 1e6 of it are searched.
     """
-    radii = _radii(length)
+    radii = length * np.geomspace(*_RADII, _COUNT)
     below = np.flatnonzero(function(radii) <= value)
     if not below.size or below[-1] == radii.size - 1:
         return None
-    ends = radii[below[-1]], radii[below[-1] + 1]
-    return float(brentq(lambda a: function(a) - value, *ends, xtol=_TOLERANCE * length))  # type: ignore[arg-type]
+    bracket = radii[below[-1]], radii[below[-1] + 1]
+    found: Any = brentq(lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * length)
+    return float(found)
 
 
-def _radii(length: float) -> Array:
-    return length * np.geomspace(*_RADII, _COUNT)
+def _theory(shape: Shape, solid: dict[str, float]) -> tuple[Any, dict[str, Any]]:
+    """Return the theory of a shape and its arguments."""
+    match shape:
+        case Sphere():
+            return jkr, {"radius": shape.radius, **solid}
+        case PowerLawProfile() | Cone():
+            return profiles, {"exponent": shape.exponent, "coefficient": shape.coefficient, **solid}
+    return indenter, {"shape": shape, **solid}
 
 
-def _radius_of_sphere(start: Start, case: dict[str, float]) -> float | None:
-    """Return the contact radius by the closed forms, None past the end of the branch."""
-    fold = jkr.instability(**case)
-    match start:
-        case AtDepth(depth=value):
-            least, found = fold.depth, jkr.contact_radius_at_depth
-        case AtForce(force=value):
-            least, found = jkr.pull_off(**case).force, jkr.contact_radius_at_force
-        case AtRadius(contact_radius=value):
-            return None if value < fold.contact_radius else value
-    return None if value < least * (1 + ROUND_OFF) else float(found(value, **case))
+def _length(shape: Shape, solid: dict[str, float]) -> float:
+    """Return the length beta, along which adhesion and elasticity balance."""
+    adhesion = solid["work_of_adhesion"] / solid["contact_modulus"]
+    return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
+
+
+def _least(function: Callable[[Any], Any], length: float) -> float:
+    """Return the radius at which a function that falls and then grows is least."""
+    found: Any = minimize_scalar(
+        lambda x: function(length * np.exp(x)), bounds=(-5.0, 5.0), method="bounded"
+    )
+    return length * float(np.exp(found.x))
