@@ -42,6 +42,12 @@ def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
     return (1 + limit) / (1 + odds)
 
 
+def stated(differs: Array, places: Array, at: Array) -> Array:
+    """Return the stated error at places: of the largest difference nearby, as splines cross."""
+    near = [float(np.max(differs[np.abs(places - u) < 3 * STEP], initial=0.0)) for u in at.flat]
+    return _STATED * np.reshape(near, at.shape)
+
+
 @cache
 def pools() -> ThreadpoolController:
     """Return the threads of the libraries that are loaded; to look for them takes longer."""
@@ -130,9 +136,7 @@ class Branch:
         between = self._log_speed[0] + STEP / 2 * np.arange(2 * len(self._log_speed))
         between = between[between < self._log_speed[-1]]
         differs = np.abs(fine(between) - coarse(between))
-        # the largest nearby: the splines cross
-        near = [float(np.max(differs[np.abs(between - u) < 3 * STEP], initial=0)) for u in at.flat]
-        return _STATED * np.reshape(near, at.shape)
+        return stated(differs, between, at)
 
     def at(self, log_speed: float) -> Solution:
         """Return the crack at ln of a speed, solved and not interpolated."""

@@ -30,7 +30,7 @@ from viscotack.errors import InputError
 from viscotack.materials import Modes
 
 from ._balance import Law, Solution, System, slopes, solved
-from ._branch import STEP, walked
+from ._branch import STEP, stated, walked
 from ._memory import lengths_of, opening_matrix
 from ._mesh import Mesh
 
@@ -40,8 +40,6 @@ _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
 _ENOUGH = 4.0
 # Points of the inverse between two speeds that are solved.
 _FINE = 16
-# The part of the difference to the coarser spline that is stated.
-_STATED = 0.25
 
 
 class Grown:
@@ -106,10 +104,7 @@ class Grown:
             fine, coarse = CubicSpline(y, values), CubicSpline(y[every], values[every])
             worst += weight * np.abs(fine(between) - coarse(between))
         at = np.interp(between, y, y - np.array(self._log_work))
-        near = [
-            float(np.max(worst[np.abs(at - u) < 3 * STEP], initial=0.0)) for u in log_speed.flat
-        ]
-        return _STATED * np.reshape(near, log_speed.shape)
+        return stated(worst, at, log_speed)
 
     def at(self, log_speed: float) -> tuple[Solution, float]:
         """Return the crack at ln of a speed, solved, and the work by which it is divided.

@@ -207,7 +207,10 @@ class SteadyCrack:
         """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
         v, found = float(speed), self._elastic
         if v > 0 and self._grown is not None:
-            return self._grown_profile(v, *self._grown.at(float(np.log(v))))
+            found, work = self._grown.at(float(np.log(v)))
+            at_rest, _, _ = self._law.mean(found.gap)
+            interface = np.sum((work * found.traction - at_rest) * np.diff(found.gap))
+            return self._profile(v, found, work, float(interface))
         if v != 0 and self.modes.times:
             found = self._branch(1 if v > 0 else -1).at(float(np.log(abs(v))))
         return self._profile(v, found)
@@ -279,41 +282,29 @@ class SteadyCrack:
                 elif self.modes.times:
                     yield sign, moving, self._branch(sign)
 
-    def _grown_profile(self, speed: float, found: Solution, work: float) -> Profile:
-        """Return a crack that opens with an interface that grows, solved in its own units."""
+    def _profile(
+        self, speed: float, found: Solution, work: float = 1.0, interface: float = 0.0
+    ) -> Profile:
+        """Return a crack as it looks, solved in units in which its interface takes 1."""
         mesh, law = self._grid, self._law
         calibrated = work * found.amplification / self._elastic.amplification
-        at_rest, _, _ = law.mean(found.gap)
-        interface = float(np.sum((work * found.traction - at_rest) * np.diff(found.gap)))
+        if speed > 0 and self._grown is not None:
+            heat = calibrated - 1 - interface
+        elif speed < 0:
+            heat = float(np.sum((found.traction - found.relaxed) * np.diff(found.gap)))
+        else:
+            relaxed = found.u[:-1] + found.u[-1] * mesh.far
+            heat = float(np.sum(found.traction * np.diff(relaxed - found.gap)))
         return Profile(
             speed=speed,
             amplification=calibrated,
-            heat=calibrated - 1 - interface,
+            heat=heat,
             zone_length=_zone_length(mesh, found.gap, self._reduced, law) / work,
             position=mesh.x / work,
             gap=found.gap,
             middle=(mesh.x[1:] + mesh.x[:-1]) / 2 / work,
             traction=found.traction * work,
             interface_heat=interface,
-        )
-
-    def _profile(self, speed: float, found: Solution) -> Profile:
-        mesh, law = self._grid, self._law
-        if speed < 0:
-            heat = float(np.sum((found.traction - found.relaxed) * np.diff(found.gap)))
-        else:
-            relaxed = found.u[:-1] + found.u[-1] * mesh.far
-            heat = float(np.sum(found.traction * np.diff(relaxed - found.gap)))
-        calibrated = found.amplification / self._elastic.amplification
-        return Profile(
-            speed=speed,
-            amplification=calibrated,
-            heat=heat,
-            zone_length=_zone_length(mesh, found.gap, self._reduced, law),
-            position=mesh.x,
-            gap=found.gap,
-            middle=(mesh.x[1:] + mesh.x[:-1]) / 2,
-            traction=found.traction,
         )
 
 
