@@ -113,5 +113,5 @@ def _response(q: Any) -> tuple[Any, Any]:
 
 
 _theory = _crack.Theory(_response, factor=2 * np.pi)
-# for a law that is evaluated very often, see CrackLaw
+# Cracks whose tip passes in given times, as CrackLaw takes them.
 passage, amplification_of_passage = _theory.passage, _theory.amplification_of_passage

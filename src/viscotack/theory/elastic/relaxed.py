@@ -68,19 +68,18 @@ def contact(
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     theory, case = _theory(shape, solid)
     fold, end = ends(shape, **solid)
+    a = None
     if isinstance(start, AtRadius):
         a = start.contact_radius if start.contact_radius >= fold.contact_radius else None
     else:
         by_depth = isinstance(start, AtDepth)
         value, least = (start.depth, fold.depth) if by_depth else (start.force, end.force)
-        if value < np.asarray(least) * (1 + ROUND_OFF):
-            a = None
-        elif theory is jkr:
-            by = jkr.contact_radius_at_depth if by_depth else jkr.contact_radius_at_force
-            a = float(by(value, **case))
-        else:
+        if theory is not jkr:
             by = partial(theory.depth if by_depth else theory.force, **case)
             a = largest_radius(by, value, length=_length(shape, solid))
+        elif value >= np.asarray(least) * (1 + ROUND_OFF):
+            by = jkr.contact_radius_at_depth if by_depth else jkr.contact_radius_at_force
+            a = float(by(value, **case))
     if a is None:
         return None
     with np.errstate(over="ignore", invalid="ignore"):

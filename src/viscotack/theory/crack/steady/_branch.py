@@ -24,7 +24,7 @@ from ._memory import closing_inflow, closing_matrix, lengths_of, opening_matrix
 from ._mesh import Mesh
 
 STEP = np.log(10) / 4
-SHORTEST_STEP = STEP / 64
+_SHORTEST_STEP = STEP / 64
 # Of the longest mode at the first speed that is solved, over the length of the crack; and speeds
 # below it for which Gamma - 1 = s V + b V^2 gives the odds, with the s of the slowest crack.
 _SLOW, _SLOWER = 0.03, 12
@@ -73,7 +73,7 @@ def walked(
                 return crack
             continue
         step /= 2
-        if abs(step) < SHORTEST_STEP:
+        if abs(step) < _SHORTEST_STEP:
             return None
 
 
