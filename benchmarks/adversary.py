@@ -19,9 +19,8 @@ import numpy as np
 
 from viscotack import Groups, PunchGroups, solve, summary
 from viscotack.campaign.columns import KINDS
-from viscotack.surrogate import physics, punch_physics, punch_surrogate, store
+from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.punch_surrogate import PunchSurrogate
 from viscotack.surrogate.training import train_punch as punches
 from viscotack.surrogate.training.rows import LEARNED, Rows, joined, read
 
@@ -70,9 +69,9 @@ class OfPunch:
     force = "pull_off_stress"
 
     @staticmethod
-    def learned() -> PunchSurrogate:
+    def learned() -> Surrogate:
         """Return what is to be caught."""
-        return punch_surrogate.shipped()
+        return store.shipped("punch")
 
     @staticmethod
     def row(place: np.ndarray) -> np.ndarray:
@@ -84,7 +83,7 @@ class OfPunch:
     @staticmethod
     def place(row: np.ndarray) -> np.ndarray:
         """Return where in the range inputs are."""
-        return np.log10(punch_physics.stressed(row[None])[0])
+        return np.log10(row / punch_physics.unit(row[None])[0])
 
     @staticmethod
     def rows() -> Rows:

@@ -17,7 +17,7 @@ import numpy as np
 from viscotack import predict, predict_table, solve, summary
 from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import punch_physics as physics
-from viscotack.surrogate import punch_surrogate
+from viscotack.surrogate import store
 from viscotack.surrogate.training.rows import Rows, joined
 from viscotack.surrogate.training.train_punch import LEARNED, faces, parts, read, scored
 
@@ -66,7 +66,7 @@ def table(rows: Rows, edges: Rows) -> list[str]:
         "|---|---|---:|---:|---:|---:|---:|---:|---:|",
     ]
     for name, some in (regions(rows) | {"`punch_faces`": edges}).items():
-        found = scored(punch_surrogate.shipped(), some)
+        found = scored(store.shipped("punch"), some)
         for what in ("stress", "work", "curve", "travel") if name == "all" else _TWO:
             lines.append(line(f"{name}, {len(some)}", what, found[what]))
     return lines
@@ -98,7 +98,7 @@ def speed() -> str:
     began = process_time()
     predict_table(many)
     taken = process_time() - began
-    size = punch_surrogate.SHIPPED.stat().st_size / 1e6
+    size = store.FILES["punch"].stat().st_size / 1e6
     return (
         f"One `viscotack.predict` of a punch takes {times[0]:.2f} ms of a processor, "
         f"{times[1]:.2f} ms from a start by stress; {_MANY:,} stresses and works with intervals "

@@ -15,8 +15,9 @@ import numpy as np
 from cases import power_law
 
 from viscotack.surrogate import physics
+from viscotack.surrogate.contact import LEAST_WAY, between
 from viscotack.surrogate.network import Networks
-from viscotack.surrogate.store import SHIPPED, load
+from viscotack.surrogate.store import shipped
 from viscotack.surrogate.training.fitting import Fit, Task, fit
 from viscotack.surrogate.training.make import kept_apart
 from viscotack.surrogate.training.rows import LEARNED, Rows, read
@@ -110,12 +111,12 @@ def _fit(inputs: np.ndarray, target: np.ndarray, between: tuple | None) -> Netwo
 
 
 def _way(groups: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    low, high = physics.way(groups, load(SHIPPED).fast)
-    return low, np.maximum(high.mean(axis=0), low + physics.LEAST_WAY)
+    tests = shipped().tests(groups)
+    return tests.slow, np.maximum(tests.fast.mean(axis=0), tests.slow + LEAST_WAY)
 
 
 def _between(new: Rows, said: np.ndarray) -> np.ndarray:
-    return physics.between(*_way(new.groups), said[0, :, 0])
+    return between(*_way(new.groups), said[0, :, 0])
 
 
 def _crack(rows: Rows) -> np.ndarray:

@@ -21,7 +21,7 @@ from cases import add_table, published_rows
 from viscotack import Groups, predict
 from viscotack.materials import RetardationPowerLaw
 from viscotack.protocol import AtDepth, AtForce
-from viscotack.surrogate import physics, short_range, store
+from viscotack.surrogate import physics, store
 from viscotack.surrogate.store import shipped
 from viscotack.surrogate.training import drawing
 from viscotack.surrogate.training.calibration import Apart, covers, judged
@@ -188,7 +188,7 @@ def speed() -> str:
         for problem in (one, replace(one, start=AtForce(5.0)), replace(one, rate=1e13))
     )
     size = store.SHIPPED.stat().st_size
-    weights = shipped().force.parameters + shipped().work.networks.parameters
+    weights = sum(shipped().networks[name].parameters for name in ("force", "work"))
     return (
         f"One `viscotack.predict`, with its curve and intervals, takes {1e3 * single:.2f} ms of a "
         f"processor, {1e3 * by_force:.2f} ms from a start by force, {1e3 * outside:.1f} ms a "
@@ -199,8 +199,9 @@ def speed() -> str:
 
 def theory() -> str:
     """Return the sentence about the learned theory of large Tabor numbers."""
-    facts = short_range.load(short_range.SHIPPED)[1]
-    one, size = facts["scores"], short_range.SHIPPED.stat().st_size
+    file = store.FILES["short range"]
+    facts = store.facts(file)
+    one, size = facts["scores"], file.stat().st_size
     return (
         f"The learned theory of a crack at the edge: {facts['solids']} solids, "
         f"{facts['answered']} cases that it answered; on {one['cases']} of solids kept apart it is "

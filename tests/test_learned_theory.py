@@ -8,7 +8,7 @@ import pytest
 import viscotack as vt
 from viscotack.campaign.columns import KINDS
 from viscotack.forecast.tiers import AT_ONCE
-from viscotack.surrogate import physics, short_range
+from viscotack.surrogate import physics, short_range, store
 from viscotack.surrogate.physics import INPUTS
 from viscotack.theory import lennard_jones
 
@@ -21,14 +21,23 @@ CASE = {
 }
 
 
+def shipped():
+    return store.shipped("short range")
+
+
+def answered(rows):
+    """Return which rows are in the range, and have an answer of the theory."""
+    tests = shipped().tests(rows)
+    return tests.inside().all(axis=1) & tests.holds(shipped().evaluate(tests))
+
+
 def problem(**changed):
     return KINDS["sphere"].problem(CASE | changed)
 
 
 def drawn(count, seed=0):
-    low = [*short_range.LOW, short_range.STARTS[0], short_range.TIMES[0]]
-    high = [*short_range.HIGH, short_range.STARTS[1], short_range.TIMES[1]]
-    rows = np.exp(np.random.default_rng(seed).uniform(np.log(low), np.log(high), (count, 5)))
+    low, high = np.log(short_range.LOW), np.log(short_range.HIGH)
+    rows = np.exp(np.random.default_rng(seed).uniform(low, high, (count, 5)))
     rows[:, 3:] *= rows[:, :1]
     return rows
 
@@ -46,24 +55,23 @@ def test_it_says_what_the_theory_says(changed):
 
 def test_no_force_leaves_the_slowest_and_the_fastest():
     rows = drawn(2000)
-    force = short_range.shipped().evaluate(rows).pull_off_force
+    force = shipped().evaluate(rows).pull_off_force
     mu, k = rows[:, 0], rows[:, 1]
     assert np.all(force >= lennard_jones.pull_off_ratio(mu) * (1 - 1e-9))
     assert np.all(force <= lennard_jones.pull_off_ratio(mu * np.cbrt(k)) / k * (1 + 1e-9))
 
 
 def test_it_is_silent_where_the_theory_is():
-    learned = short_range.shipped()
     # a start of a light touch, pulled so fast that the edge goes no zone
     row = np.array([[20.0, 1e-3, 0.6, 3.0, 1e7]])
-    assert learned.in_range(row)[0] and not learned.inside(row)[0]
+    assert shipped().inside(row).all() and not answered(row)[0]
     with pytest.raises(vt.OutOfRange, match="zones? "):
         vt.crack_contact(problem(**dict(zip(INPUTS, row[0].tolist(), strict=True))))
     for column, value in ((0, 9.0), (1, 0.8), (2, 2.2), (3, 1.0), (4, 1e-9)):
         out = np.array([list(CASE.values())])
-        assert learned.inside(out)[0]
+        assert answered(out)[0]
         out[0, column] = value
-        assert not learned.inside(out)[0]
+        assert not answered(out)[0]
 
 
 def test_its_band_is_measured_where_simulations_were_compared():
@@ -132,30 +140,33 @@ def test_many_cases_of_a_solid_are_answered_at_once_as_alone():
 
 def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
     path = tmp_path / "theory.npz"
-    short_range.save(short_range.shipped(), path, {"made": "today"})
-    again, facts = short_range.load(path)
+    store.save(shipped(), path, {"made": "today"})
+    again, facts = store.load(path), store.facts(path)
     rows = drawn(20)
-    wanted = short_range.shipped().evaluate(rows).pull_off_force
+    wanted = shipped().evaluate(rows).pull_off_force
     assert np.array_equal(again.evaluate(rows).pull_off_force, wanted)
     assert facts["made"] == "today"
     with np.load(path) as file:
         arrays = {name: file[name] for name in file.files}
-    np.savez(path, **arrays | {"centre": arrays["centre"] + 1})
+    np.savez(path, **arrays | {"state.centre": arrays["state.centre"] + 1})
     with pytest.raises(ValueError, match="checksum"):
-        short_range.load(path)
+        store.load(path)
     path.write_bytes(b"nothing")
-    with pytest.raises(ValueError, match="not the file of a learned theory"):
-        short_range.load(path)
+    with pytest.raises(ValueError, match="not the file of a surrogate"):
+        store.load(path)
     with pytest.raises(FileNotFoundError):
-        short_range.load(tmp_path / "none.npz")
+        store.load(tmp_path / "none.npz")
 
 
 def test_what_it_is_worth_is_measured_on_other_solids():
+    from viscotack.surrogate.training.short_range import measured
+
     rows = drawn(300, seed=5)
-    rows = rows[short_range.shipped().inside(rows)]
-    said = short_range.shipped().evaluate(rows)
-    true = np.column_stack([1.02 * said.pull_off_force, said.amplification, said.zones, said.zones])
-    found, scores = short_range.measured(short_range.shipped(), rows, true)
-    assert found.error == pytest.approx([1 - 1 / 1.02] * 2)
+    rows = rows[answered(rows)]
+    said = shipped().evaluate(rows)
+    zones = said.more["zones"]
+    true = np.column_stack([1.02 * said.pull_off_force, said.more["amplification"], zones, zones])
+    found, scores = measured(shipped(), rows, true)
+    assert found.constants["error"] == pytest.approx([1 - 1 / 1.02] * 2)
     assert scores["cases"] == len(rows) and scores["median"] == pytest.approx(1 - 1 / 1.02)
     assert physics.RATE == 4  # the order of the columns above

@@ -2,6 +2,7 @@
 
 import sys
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,8 @@ import pytest
 onnx = pytest.importorskip("onnx", reason="comes with viscotack[onnx]")
 runtime = pytest.importorskip("onnxruntime", reason="comes with viscotack[dev]")
 
-from viscotack.surrogate import line, model, physics  # noqa: E402
+from viscotack.surrogate import line, physics  # noqa: E402
+from viscotack.surrogate.model import Surrogate  # noqa: E402
 from viscotack.surrogate.network import Networks  # noqa: E402
 from viscotack.surrogate.onnx import INPUTS, export  # noqa: E402
 from viscotack.surrogate.onnx import __main__ as command  # noqa: E402
@@ -24,11 +26,13 @@ LOW, HIGH = np.array(list(physics.LIMITS.values())).T
 DIGITS = 1e-12
 
 
-def networks(random, members, *sizes):
+def networks(random, members, *sizes, centre=None, spread=None):
     layers = list(zip(sizes[:-1], sizes[1:], strict=True))
     return Networks(
         tuple(random.normal(size=(members, a, b)) / np.sqrt(a) for a, b in layers),
         tuple(random.normal(size=(members, 1, b)) / 3 for _, b in layers),
+        centre,
+        spread,
     )
 
 
@@ -36,21 +40,21 @@ def networks(random, members, *sizes):
 def surrogate():
     """Return one that has learned nothing: its numbers reach every branch, and mean none."""
     random = np.random.default_rng(7)
-    shapes = model.Scaled(
-        networks(random, 1, 10, 12, line.OUTPUTS),
-        random.uniform(0.0, 1.0, line.OUTPUTS),
-        np.full(line.OUTPUTS, 0.5),
-    )
-    return model.Surrogate(
-        start=model.Scaled(
-            networks(random, 2, 2, 8, 2), np.array([0.0, 0.1]), np.array([2.0, 0.3])
-        ),
-        fast=networks(random, 3, 3, 8, 1),
-        force=networks(random, 3, 5, 12, 12, 1),
-        work=model.Scaled(networks(random, 2, 9, 12, 1), np.array([0.3]), np.array([0.5])),
-        give=model.Scaled(networks(random, 2, 10, 12, 1), np.array([0.1]), np.array([0.3])),
-        line=shapes,
-        trust=Trust(
+    shapes = networks(random, 1, 10, 12, line.OUTPUTS)
+    centre, spread = random.uniform(0.0, 1.0, line.OUTPUTS), np.full(line.OUTPUTS, 0.5)
+    return Surrogate(
+        physics.SphereContact,
+        {
+            "start": networks(
+                random, 2, 2, 8, 2, centre=np.array([0.0, 0.1]), spread=np.array([2.0, 0.3])
+            ),
+            "fast": networks(random, 3, 3, 8, 1),
+            "force": networks(random, 3, 5, 12, 12, 1),
+            "work": networks(random, 2, 9, 12, 1, centre=np.array([0.3]), spread=np.array([0.5])),
+            "give": networks(random, 2, 10, 12, 1, centre=np.array([0.1]), spread=np.array([0.3])),
+            "line": replace(shapes, centre=centre, spread=spread),
+        },
+        Trust(
             networks(random, 2, TOLD, 6, len(OF)),
             0.01 * random.uniform(1, 3, (len(OF), len(CONFIDENCES))),
         ),

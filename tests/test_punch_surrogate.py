@@ -10,11 +10,10 @@ import viscotack as vt
 from viscotack.forecast.tiers import AT_ONCE, SOON
 from viscotack.result.trajectory import PRESSED, TENSILE
 from viscotack.surrogate import punch_physics as physics
-from viscotack.surrogate import punch_surrogate
+from viscotack.surrogate import store
 from viscotack.surrogate.line import OUTPUTS, PRESSING, SHAPE
-from viscotack.surrogate.model import Scaled
-from viscotack.surrogate.network import Networks, single
-from viscotack.surrogate.punch_surrogate import PunchSurrogate, shipped
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks, single, together
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 from viscotack.surrogate.trust import INPUTS as TOLD
 
@@ -29,6 +28,10 @@ PAD = vt.Problem(
 )
 
 
+def shipped():
+    return store.shipped("punch")
+
+
 def random_rows(count, seed=1):
     """Return inputs spread over the whole range."""
     low, high = np.log10(physics.LOW), np.log10(physics.HIGH)
@@ -41,27 +44,33 @@ def random_surrogate(seed=0):
     """Return a surrogate that has learned nothing: what holds for it holds by construction."""
     random = np.random.default_rng(seed)
 
-    def networks(inputs, outputs, count=2):
+    def networks(inputs, outputs, count=2, **scale):
         sizes = (inputs, 6, outputs)
         pairs = list(zip(sizes[:-1], sizes[1:], strict=True))
         return Networks(
             tuple(random.normal(size=(count, a, b)) for a, b in pairs),
             tuple(random.normal(size=(count, 1, b)) for _, b in pairs),
+            **scale,
         )
 
     def scaled(inputs, outputs, count=2):
-        return Scaled(networks(inputs, outputs, count), np.zeros(outputs), np.full(outputs, 0.1))
+        scale = {"centre": np.zeros(outputs), "spread": np.full(outputs, 0.1)}
+        return networks(inputs, outputs, count, **scale)
 
-    return PunchSurrogate(
-        start=scaled(3, 1),
-        slow=networks(2, 1),
-        fast=networks(4, 1),
-        stress=networks(5, 1),
-        work=scaled(7, 1),
-        give=scaled(7, 1),
-        # shapes that rise, and waver
-        line=Scaled(networks(8, OUTPUTS, 1), _rising(), np.full(OUTPUTS, 0.02)),
-        trust=Trust(networks(TOLD, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
+    # shapes that rise, and waver
+    shapes = {"centre": _rising(), "spread": np.full(OUTPUTS, 0.02)}
+    return Surrogate(
+        physics.PunchContact,
+        {
+            "start": scaled(3, 1),
+            "slow": networks(2, 1),
+            "fast": networks(4, 1),
+            "force": networks(5, 1),
+            "work": scaled(7, 1),
+            "give": scaled(7, 1),
+            "line": networks(8, OUTPUTS, 1, **shapes),
+        },
+        Trust(networks(TOLD, len(OF)), np.ones((len(OF), len(CONFIDENCES)))),
     )
 
 
@@ -87,7 +96,8 @@ def punch_of(size=64.85, thickness=3.24, ratio=0.1, start=None, rate=10.0, **oth
 @pytest.mark.parametrize("made", [random_surrogate, shipped])
 def test_no_stress_leaves_its_limits(made):
     surrogate, rows = made(), random_rows(2000)
-    slow, fast = surrogate.way(rows)
+    tests = surrogate.tests(rows)
+    slow, fast = tests.slow, tests.fast
     stress = surrogate.evaluate(rows).pull_off_force
     # where both limits are one, the way between them has a least length
     assert np.all(np.log10(stress) >= slow.min(axis=0) - 1e-12)
@@ -102,7 +112,7 @@ def test_the_curve_ends_at_the_stress_and_its_area_is_the_work(made):
     curves = surrogate.curves(rows, said)
     assert curves.force[:, -1] == pytest.approx(-said.pull_off_force, rel=1e-9)
     assert curves.depth[:, 0] == pytest.approx(rows[:, physics.PRELOAD])
-    assert curves.force[:, 0] == pytest.approx(surrogate.relaxed(rows), rel=1e-9)
+    assert curves.force[:, 0] == pytest.approx(surrogate.relaxed(rows)[0], rel=1e-9)
     assert np.all(curves.contact_radius <= rows[:, [physics.SIZE]])
     travel = curves.depth[:, 8:9] - curves.depth[:, 8:]
     areas = [
@@ -148,7 +158,7 @@ def test_si_and_groups_cohesion_and_one_branch_change_nothing():
 def test_thin_and_thick_elastic_layers_are_those_of_theory():
     """With a0 beside a and b the strength caps what a crack asks for; far from it both are one."""
     rows = np.array([[200.0, 20.0, 0.1, 1.0, 1.0], [100.0, 1000.0, 0.1, 1.0, 1.0]])
-    slow = 10 ** shipped().slow_limit(rows).mean(axis=0)
+    slow = 10 ** shipped().tests(rows).slow.mean(axis=0)
     thin, thick = np.sqrt(4 / (np.pi * 20.0)) * (1 + 0.177 * 0.1), 1 / np.sqrt(100.0)
     # a finite zone takes 3 to 8 % (docs/punch.md)
     assert slow == pytest.approx([thin, thick], rel=0.09)
@@ -160,7 +170,8 @@ def test_both_limits_are_those_that_were_simulated():
     from viscotack.surrogate.training.train_punch import LIMITS, read
 
     rows = read(LIMITS)
-    slow, fast = (10 ** limit.mean(axis=0) for limit in shipped().way(rows.groups))
+    tests = shipped().tests(rows.groups)
+    slow, fast = (10 ** limit.mean(axis=0) for limit in (tests.slow, tests.fast))
     elastic = rows.groups[:, physics.MODULUS_RATIO] == 1
     for limit, some in ((slow, elastic), (fast, ~elastic)):
         off = np.abs(limit[some] / rows.force[some] - 1)
@@ -171,7 +182,7 @@ def test_a_slow_pull_off_tends_to_that_of_the_relaxed_layer_as_the_rate():
     rows = random_rows(300, seed=4)
     # cracks of wide punches run away at the end, and are slow at no rate of this range
     rows[:, physics.SIZE] = np.clip(rows[:, physics.SIZE], 1.0, 5.0)
-    slow = 10 ** shipped().slow_limit(rows).mean(axis=0)
+    slow = 10 ** shipped().tests(rows).slow.mean(axis=0)
     excess = []
     for rate in (1e-3, 1e-2):
         rows[:, physics.RATE] = rate
@@ -185,7 +196,7 @@ def test_a_slow_pull_off_tends_to_that_of_the_relaxed_layer_as_the_rate():
 def test_a_fast_pull_off_tends_to_that_of_a_layer_that_does_not_relax():
     rows = random_rows(300, seed=5)
     rows[:, physics.RATE] = physics.HIGH[physics.RATE]
-    fast = 10 ** shipped().way(rows)[1].mean(axis=0)
+    fast = 10 ** shipped().tests(rows).fast.mean(axis=0)
     off = 1 - shipped().evaluate(rows).pull_off_force / fast
     assert np.median(off) < 5e-4 and np.quantile(off, 0.95) < 5e-3
 
@@ -202,8 +213,10 @@ def test_faster_is_never_weaker():
 def test_the_start_by_stress_is_that_of_its_depth():
     for size, thickness, depth in ((64.85, 3.24, 1.0), (5.0, 300.0, 20.0), (150.0, 0.2, 0.3)):
         rows = np.array([[size, thickness, 0.1, depth, 1.0]])
-        stress = float(shipped().relaxed(rows)[0])
-        assert shipped().start_depth(size, thickness, stress) == pytest.approx(depth, rel=2e-3)
+        stress = float(shipped().relaxed(rows)[0][0])
+        assert shipped().start_depth(size, thickness, force=stress) == pytest.approx(
+            depth, rel=2e-3
+        )
         by_depth, by_stress = (
             vt.predict(punch_of(size, thickness, start=start))
             for start in (vt.AtDepth(depth), vt.AtForce(stress))
@@ -322,9 +335,9 @@ def test_rows_of_a_table_are_those_of_single_predictions():
 
 def test_a_surrogate_comes_back_from_its_file(tmp_path):
     one, path, rows = random_surrogate(), tmp_path / "one.npz", random_rows(20)
-    punch_surrogate.save(one, path, {"made": "today"})
-    again, facts = punch_surrogate.load(path)
-    assert facts["made"] == "today"
+    store.save(one, path, {"made": "today"})
+    again = store.load(path)
+    assert store.facts(path)["made"] == "today" and again.contact is physics.PunchContact
     said, found = one.evaluate(rows), again.evaluate(rows)
     assert np.array_equal(found.work_to_pull_off, said.work_to_pull_off)
     assert np.array_equal(again.curves(rows, found).force, one.curves(rows, said).force)
@@ -332,19 +345,20 @@ def test_a_surrogate_comes_back_from_its_file(tmp_path):
 
 def test_a_damaged_or_foreign_file_is_refused(tmp_path):
     path, one = tmp_path / "one.npz", random_surrogate()
-    fewer = replace(one, slow=random_surrogate().stress)
+    three, slow = random_surrogate().networks["force"], one.networks["slow"]
     for wrong, words in (
-        (fewer, "layers of slow do not lead from 2 inputs to 1"),
+        (one.having(slow=three), "layer 0 of slow must have the shape"),
+        (one.having(force=slow), "layer 0 of force must have the shape"),
         (replace(one, trust=Trust(one.trust.reach, np.ones((4, 2)))), "trust.levels must have"),
         (replace(one, trust=Trust(one.trust.reach, np.full((4, 7), np.nan))), "finite numbers"),
-        (replace(one, slow=single(one.slow, 0)), "limits of its own"),
+        (one.having(slow=together([slow, single(slow, 0)])), "3 networks of the slow limit for 2"),
     ):
-        punch_surrogate.save(wrong, path, {})
+        store.save(wrong, path, {})
         with pytest.raises(ValueError, match=words):
-            punch_surrogate.load(path)
-    whole = punch_surrogate.SHIPPED.read_bytes()
+            store.load(path)
+    whole = store.FILES["punch"].read_bytes()
     assert len(whole) < 5e5
     for content in (b"nothing", whole[: len(whole) // 2], whole[:5000] + b"x" + whole[5001:]):
         path.write_bytes(content)
-        with pytest.raises(ValueError, match="not the file of a surrogate of punches|checksum"):
-            punch_surrogate.load(path)
+        with pytest.raises(ValueError, match="not the file of a surrogate|checksum"):
+            store.load(path)

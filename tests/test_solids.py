@@ -59,7 +59,7 @@ def test_simulated_forces_and_works_lie_in_the_intervals_and_none_far_beyond():
 
 
 def test_a_power_law_has_the_same_answer_through_either_door():
-    random, made = np.random.default_rng(3), linear_solids.shipped()
+    random, made = np.random.default_rng(3), store.shipped("solids")
     groups = physics.LOW * (physics.HIGH / physics.LOW) ** random.random((200, 5))
     mu, k, n, depth, rate = groups.T
     creep = [
@@ -68,7 +68,7 @@ def test_a_power_law_has_the_same_answer_through_either_door():
         )
         for ratio, e, speed in zip(k, n, rate, strict=True)
     ]
-    like = made.like(mu, k, depth, np.array(creep))
+    like = linear_solids.like(made, mu, k, depth, np.array(creep))
     said, plain = made.evaluate(like), store.shipped().evaluate(groups)
     off = np.abs(np.log10(said.pull_off_force / plain.pull_off_force))
     half = store.shipped().intervals(groups, plain).pull_off_force[:, 1] / plain.pull_off_force
@@ -85,7 +85,7 @@ def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
 
     tests = read(datasets.load("solids"))
     tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
-    made, facts = linear_solids.load(linear_solids.SHIPPED)
+    made, facts = store.shipped("solids"), store.facts(store.FILES["solids"])
     said = made.evaluate(tests.like(made))
     stated = facts["scores"]["judged by, drawn evenly"]
     for name, found, true in (
@@ -100,7 +100,7 @@ def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
     from viscotack.surrogate.training import likeness
 
     tests, creep = likeness.made_up(150, 50)
-    found = linear_solids.shipped().like(*tests, creep)
+    found = linear_solids.like(store.shipped("solids"), *tests, creep)
     slow = likeness.first(tests, creep)
     begun = np.column_stack(
         [np.log(slow.groups[:, 1]), np.log(slow.groups[:, 2]), np.log10(slow.groups[:, 4])]
@@ -175,19 +175,19 @@ def test_what_is_out_of_range_is_said(changed, words):
 
 
 def test_a_damaged_file_is_refused(tmp_path):
-    content = bytearray(linear_solids.SHIPPED.read_bytes())
+    content = bytearray(store.FILES["solids"].read_bytes())
     content[len(content) // 2] ^= 1
     path = tmp_path / "solids.npz"
     path.write_bytes(content)
-    with pytest.raises(ValueError, match="is not what was learned of solids, or damaged"):
-        linear_solids.load(path)
+    with pytest.raises(ValueError, match="is not the file of a surrogate, or damaged"):
+        store.load(path)
     path.write_bytes(b"")
-    with pytest.raises(ValueError, match="is not what was learned of solids, or damaged"):
-        linear_solids.load(path)
+    with pytest.raises(ValueError, match="is not the file of a surrogate, or damaged"):
+        store.load(path)
 
 
 def test_the_file_says_what_it_is_worth():
-    _, facts = linear_solids.load(linear_solids.SHIPPED)
+    facts = store.facts(store.FILES["solids"])
     even = facts["scores"]["judged by, drawn evenly"]
     assert 0.88 <= even["force"]["cover"] <= 0.95 and 0.88 <= even["work"]["cover"] <= 0.95
     assert even["force"]["mse"] < 1e-5 and even["work"]["mse"] < 1e-4

@@ -199,7 +199,7 @@ def surrogate_with(tmp_path, **arrays):
         ({"force.weight.0": np.full((3, 5, 72), np.nan)}, "must be finite"),
         ({"force.weight.0": np.ones((3, 6, 72))}, r"layer 0 of force must have .*\(3, 5, 72\)"),
         ({"force.bias.0": np.ones((3, 1, 73))}, "layer 0 of force"),
-        ({"work.centre": np.ones(7)}, "work.centre must have 1 numbers"),
+        ({"work.centre": np.ones(7)}, r"work.centre must have the shape \(1,\)"),
         ({"trust.levels": np.ones((3, 6))}, r"trust.levels must have the shape \(4, 7\)"),
         ({"trust.levels": None}, "not the file of a surrogate"),
         ({"fast.bias.0": None}, "not the file of a surrogate"),

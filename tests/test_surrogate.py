@@ -12,9 +12,9 @@ from viscotack.campaign.columns import KINDS
 from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.surrogate import line, physics, store
-from viscotack.surrogate.model import Scaled, Surrogate
+from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
-from viscotack.surrogate.physics import INPUTS
+from viscotack.surrogate.physics import INPUTS, SphereContact
 from viscotack.surrogate.store import shipped
 from viscotack.surrogate.trust import CONFIDENCES, OF, Trust, error_inputs
 from viscotack.surrogate.trust import INPUTS as TOLD
@@ -28,11 +28,13 @@ def random_groups(count, seed=1):
     return LOW * (HIGH / LOW) ** u
 
 
-def random_networks(rng, *sizes, members=1):
+def random_networks(rng, *sizes, members=1, centre=None, spread=None):
     pairs = list(zip(sizes[:-1], sizes[1:], strict=True))
     return Networks(
         tuple(rng.normal(size=(members, a, b)) / np.sqrt(a) for a, b in pairs),
         tuple(0.1 * rng.normal(size=(members, 1, b)) for _, b in pairs),
+        centre,
+        spread,
     )
 
 
@@ -43,14 +45,20 @@ def random_surrogate(seed=0):
     centre[line.SHAPE] = np.linspace(0.1, 0.99, trajectory.TENSILE - 2)
     centre[line.PRESSING] = np.linspace(0.8, 0.1, trajectory.PRESSED - 1)
     centre[line.RADII] = np.linspace(0.95, 0.4, trajectory.POINTS - 1)
+    one = {"centre": np.zeros(1), "spread": np.full(1, 0.2)}
+    start = {"centre": np.array([-1.0, 0.3]), "spread": np.full(2, 0.1)}
+    shapes = {"centre": centre, "spread": np.full(line.OUTPUTS, 0.02)}
     return Surrogate(
-        start=Scaled(random_networks(rng, 2, 6, 2), np.array([-1.0, 0.3]), np.full(2, 0.1)),
-        fast=random_networks(rng, 3, 6, 1, members=3),
-        force=random_networks(rng, 5, 8, 8, 1, members=3),
-        work=Scaled(random_networks(rng, 9, 8, 1, members=3), np.zeros(1), np.full(1, 0.2)),
-        give=Scaled(random_networks(rng, 10, 8, 1, members=2), np.zeros(1), np.full(1, 0.2)),
-        line=Scaled(random_networks(rng, 10, 8, line.OUTPUTS), centre, np.full(line.OUTPUTS, 0.02)),
-        trust=Trust(
+        SphereContact,
+        {
+            "start": random_networks(rng, 2, 6, 2, **start),
+            "fast": random_networks(rng, 3, 6, 1, members=3),
+            "force": random_networks(rng, 5, 8, 8, 1, members=3),
+            "work": random_networks(rng, 9, 8, 1, members=3, **one),
+            "give": random_networks(rng, 10, 8, 1, members=2, **one),
+            "line": random_networks(rng, 10, 8, line.OUTPUTS, **shapes),
+        },
+        Trust(
             reach=random_networks(rng, TOLD, 6, len(OF), members=2),
             levels=0.01 * np.cumsum(np.ones((len(OF), len(CONFIDENCES))), axis=1),
         ),

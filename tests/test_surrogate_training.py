@@ -8,12 +8,12 @@ import pytest
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
 from viscotack.result import trajectory  # noqa: E402
-from viscotack.surrogate import line, physics, punch_surrogate  # noqa: E402
+from viscotack.surrogate import contact, line, physics, store  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
 from viscotack.surrogate.training import train_punch as punches  # noqa: E402
-from viscotack.surrogate.training.choosing import choose  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
+from viscotack.surrogate.training.refining import Stage  # noqa: E402
 from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
 from viscotack.surrogate.training.train_punch import parts  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
@@ -101,10 +101,10 @@ def test_what_is_fitted_between_limits_is_what_numpy_puts_between_them():
     pytest.importorskip("jax", reason="networks are fitted with JAX")
     x = np.random.default_rng(0).uniform(-1, 1, (300, 1))
     low, high = np.zeros(300), 1 + x[:, 0] ** 2
-    target = (high * physics.share(0.3 * x[:, 0] - 0.1))[:, None]
+    target = (high * contact.share(0.3 * x[:, 0] - 0.1))[:, None]
     task = Task(x, target, np.ones_like(target), (low, high))
     found = fit(task, Fit(hidden=(6,), steps=300), seed=0)
-    assert physics.between(low, high, found(x)[0, :, 0]) == pytest.approx(target[:, 0], abs=2e-3)
+    assert contact.between(low, high, found(x)[0, :, 0]) == pytest.approx(target[:, 0], abs=2e-3)
 
 
 def test_rows_without_weight_do_not_count():
@@ -144,9 +144,6 @@ def test_a_network_learns_what_another_left_over():
     two = added(one, fit(rest, Fit(hidden=(10,), steps=300, scale=1e-3), seed=1))
     first, second = (np.sqrt(np.mean((n(x)[0] - target) ** 2)) for n in (one, two))
     assert second < 0.6 * first
-    # and it goes on from weights that it is given
-    again = fit(task, replace(SMALL, steps=1), seed=5, first=one)
-    assert again(x)[0] == pytest.approx(one(x)[0], abs=0.02)
 
 
 def test_a_quantile_has_the_wanted_part_of_the_targets_below():
@@ -160,7 +157,7 @@ def test_a_quantile_has_the_wanted_part_of_the_targets_below():
 
 
 def test_intervals_hold_the_share_that_they_promise():
-    from viscotack.surrogate.training.calibration import Apart, covers, measured
+    from viscotack.surrogate.training.calibration import Apart, covers, levels_of, scored, untested
 
     random = np.random.default_rng(0)
 
@@ -174,7 +171,9 @@ def test_intervals_hold_the_share_that_they_promise():
         error[::3, OF.index("travel")] = np.nan
         return Apart(inputs, error)
 
-    trust, new = measured(shipped().trust, apart(20_000)), apart(20_000)
+    begun = replace(shipped().trust, levels=untested())
+    trust = replace(begun, levels=levels_of(scored(begun, apart(20_000))))
+    new = apart(20_000)
     for confidence in CONFIDENCES:
         held = covers(trust, new, confidence=confidence)
         assert np.nanmean(held, axis=0) == pytest.approx(np.full(len(OF), confidence), abs=0.015)
@@ -183,23 +182,9 @@ def test_intervals_hold_the_share_that_they_promise():
         assert both[0] == pytest.approx(both[1], abs=0.03)
 
 
-def test_cases_are_chosen_where_errors_reach_far():
-    groups = choose(shipped(), 500, seed=3)
-    u = np.random.default_rng(0).random((500, 5))
-    everywhere = physics.LOW * (physics.HIGH / physics.LOW) ** u
-    reach = [shipped().intervals(g, shipped().evaluate(g)) for g in (groups, everywhere)]
-    half = [np.mean(np.ptp(np.log(one.pull_off_force), axis=1)) for one in reach]
-    assert half[0] > 3 * half[1]
-    assert np.all(shipped().inside(groups))
-    assert np.array_equal(groups, choose(shipped(), 500, seed=3))
-    with pytest.raises(ValueError, match="81920 points .* 100000 were asked"):
-        choose(shipped(), 100_000)
-
-
 @pytest.mark.slow
 def test_the_whole_training_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from viscotack.surrogate import store
     from viscotack.surrogate.training.make import make
 
     found = make(tmp_path, workers=2, quick=True)
@@ -228,11 +213,11 @@ def test_the_training_of_punches_runs_on_few_rows(tmp_path, monkeypatch):
     monkeypatch.setattr(punches, "read", lambda name: whole(name).chosen(slice(None, None, 4)))
     quick = Fit((8,), steps=60, scale=0.3)
     for name in ("SLOW", "FAST", "STRESS", "WORK", "GIVE", "START"):
-        monkeypatch.setattr(punches, name, punches.Looks(quick, quick, 0.1))
+        monkeypatch.setattr(punches, name, punches.Looks(quick, Stage(quick, 0.1)))
     monkeypatch.setattr(punches, "LINE", quick)
     facts = punches.make(tmp_path, workers=2)
     assert facts["rows"]["judging"] > 50
-    made, said = punch_surrogate.load(tmp_path / "punch.npz")
+    made, said = (read(tmp_path / "punch.npz") for read in (store.load, store.facts))
     assert said["scores"] == facts["scores"]
     assert facts["scores"]["all"]["stress"]["median"] < 0.1
     assert 0.7 < facts["scores"]["all"]["stress"]["cover"] <= 1.0

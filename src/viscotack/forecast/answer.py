@@ -68,7 +68,7 @@ def predict(
     :class:`viscotack.RetardationPowerLaw`; any other linear solid is represented by the one which
     creeps like it around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals
     measured on other solids. For a flat punch: the same test on a standard solid that slides
-    on its base (:mod:`viscotack.surrogate.punch_surrogate`). :mod:`viscotack.forecast.tiers` has
+    on its base (:mod:`viscotack.surrogate.punch_physics`). :mod:`viscotack.forecast.tiers` has
     the other tiers, and what each was verified for.
 
     Examples

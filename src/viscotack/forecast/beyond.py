@@ -89,12 +89,14 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
     near = LEAST_TABOR <= mu and rate <= MOST_RATE and k >= LEAST_RATIO
     if not (near and learned.inside(at_end).all()) or (k < least and (mu < low or rate > high)):
         return None
-    said = learned.evaluate(at_end)
-    held = learned.intervals(at_end, said, confidence=confidence)
+    tests = learned.tests(at_end)
+    said = learned.evaluate(tests)
+    held = learned.intervals(tests, said, confidence=confidence)
     why = []
     if rate > high:
-        glassy = at_end.copy()
-        glassy[0, physics.EXPONENT] = learned.limits["exponent"][1]
+        rows = at_end.copy()
+        rows[0, physics.EXPONENT] = learned.limits["exponent"][1]
+        glassy = learned.tests(rows)
         most = learned.evaluate(glassy)
         said, held = _between(
             (said, held), (most, learned.intervals(glassy, most, confidence=confidence))

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def like_of(groups: Groups, depth: float) -> Alike:
     """Return the power law that stands for the solid of a test from a start at a depth [h0]."""
-    from viscotack.surrogate import alike, linear_solids
+    from viscotack.surrogate import alike, linear_solids, store
 
     assert groups.rate is not None, "checked at the door"
     material, k = groups.material, groups.modulus_ratio
@@ -22,21 +22,24 @@ def like_of(groups: Groups, depth: float) -> Alike:
     # rounded, it may lie beyond its ends
     creep = np.clip(creep, k, 1.0)
     one = np.ones(1)
-    return linear_solids.shipped().like(groups.tabor * one, k * one, depth * one, creep[None])
+    learned = store.shipped("solids")
+    return linear_solids.like(learned, groups.tabor * one, k * one, depth * one, creep[None])
 
 
 def unlike_words(like: Alike) -> list[str]:
     """Return in words that a solid is unlike all that were learned from, or nothing."""
-    from viscotack.surrogate import linear_solids
+    from viscotack.surrogate import linear_solids, store
 
-    learned = linear_solids.shipped()
-    if learned.inside(like)[0]:
+    learned = store.shipped("solids")
+    if learned.inside(like).all():
         return []
+    (far,) = linear_solids.far(like, learned.constants["spread"])
+    most = learned.constants["farthest"]
     return [
         "the creep of the solid around h0 over the speed is unlike that of all solids which were "
         f"learned from: it leaves a power law by {like.unlike[0]:.2g} of the way from glass "
-        f"to rubber, in the logarithm, and {learned.farthest[0]:.2g} was learned from (in the "
-        f"directions of those {learned.far(like)[0]:.2g}, up to {learned.farthest[1]:.2g})"
+        f"to rubber, in the logarithm, and {most[0]:.2g} was learned from (in the "
+        f"directions of those {far:.2g}, up to {most[1]:.2g})"
     ]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,9 +27,9 @@ from .two_peaks import two_peaks
 
 if TYPE_CHECKING:
     from viscotack.surrogate.alike import Alike
-    from viscotack.surrogate.linear_solids import Solids
+    from viscotack.surrogate.answers import Answers, Intervals
+    from viscotack.surrogate.contact import Contact
     from viscotack.surrogate.model import Surrogate
-    from viscotack.surrogate.short_range import Said
 
 
 SURROGATE, SOLIDS, LEARNED_CRACK = "surrogate", "surrogate of solids", "learned crack contact"
@@ -48,7 +48,7 @@ OTHER_SOLIDS = Verified(
     solids=ANY,
     starts=(AtDepth, AtForce, AtRadius),
 )
-_INSIDE = "every input lies in the range that was learned from"
+INSIDE = "every input lies in the range that was learned from"
 # Units of the inputs that have one.
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
@@ -123,9 +123,7 @@ def by_power_laws(asked: Question) -> Prediction:
     """Evaluate the surrogate of power laws, also a little beyond its range."""
     learned, inputs = _learned(), asked.once(inputs_of_sphere)
     if not inputs.out:
-        answers = learned.evaluate(inputs.rows)
-        held = learned.intervals(inputs.rows, answers, confidence=asked.confidence)
-        return _inside(asked, inputs.rows, answers, held, SURROGATE, _INSIDE)
+        return within(asked, learned, learned.tests(inputs.rows), SURROGATE, INSIDE)
     further = _further(asked)
     assert further is not None, "checked by the limits"
     why = f"{'; '.join(inputs.out)}; {further.why}"
@@ -152,28 +150,29 @@ def solid_limits(asked: Question) -> str:
 
 def by_solids(asked: Question) -> Prediction:
     """Evaluate the surrogate of solids that are no power laws by retardation."""
-    inputs = asked.once(inputs_of_sphere)
+    inputs, solids = asked.once(inputs_of_sphere), _learned("solids")
     assert inputs.like is not None, "checked by the limits"
-    answers = _solids().evaluate(inputs.like)
-    held = _solids().intervals(inputs.like, answers, confidence=asked.confidence)
-    why = f"{_INSIDE}; {alike_words(inputs.like)}"
-    return _inside(asked, inputs.rows, answers, held, SOLIDS, why)
+    why = f"{INSIDE}; {alike_words(inputs.like)}"
+    return within(asked, solids, solids.tests(inputs.like), SOLIDS, why)
 
 
-def _inside(
-    asked: Question, rows: Array, answers: Any, held: Any, method: str, why: str
+def within(
+    asked: Question, learned: Surrogate, tests: Contact, method: str, why: str
 ) -> Prediction:
     """Return a prediction in the range, with its curve and the uncertainty of its start."""
-    learned, start = _learned(), asked.groups.start
+    start, answers = asked.groups.start, learned.evaluate(tests)
+    held = learned.intervals(tests, answers, confidence=asked.confidence)
     if not isinstance(start, AtDepth):
         by = "force" if isinstance(start, AtForce) else "contact_radius"
         half = NormalDist().inv_cdf((1 + asked.confidence) / 2)
-        held = learned.with_start_doubt(rows, answers, held, by=by, quantile=half)
+        held = learned.with_start_doubt(tests, answers, held, by=by, quantile=half)
     found = _prediction(asked, answers, held, method, why)
-    return with_curve(found, learned.curves(rows, answers), held)
+    return with_curve(found, learned.curves(tests, answers), held)
 
 
-def _prediction(asked: Question, answers: Any, held: Any, method: str, why: str) -> Prediction:
+def _prediction(
+    asked: Question, answers: Answers, held: Intervals, method: str, why: str
+) -> Prediction:
     force, work = (
         (float(pair[0, 0]), float(pair[0, 1]))
         for pair in (held.pull_off_force, held.work_to_pull_off)
@@ -205,12 +204,12 @@ def learned_crack_limits(asked: Question) -> str:
 
 def by_learned_crack(asked: Question) -> Prediction:
     """Evaluate the learned theory of a crack at the edge."""
-    from viscotack.surrogate import short_range
-
-    said, error = asked.once(said_of_crack), float(short_range.shipped().error[0])
+    said = asked.once(said_of_crack)
     assert not isinstance(said, str), "checked by the limits"
-    zones, energy = float(said.zones[0]), float(said.amplification[0])
-    effective = float(said.effective[0])
+    error = float(_learned("short range").constants["error"][0])
+    zones, energy, effective = (
+        float(said.more[name][0]) for name in ("zones", "amplification", "effective")
+    )
     band = error + sum(map(float, band_parts(energy, effective, zones)))
     why = (
         f"{'; '.join(asked.once(inputs_of_sphere).out)}; learned from the theory 'crack contact', "
@@ -220,22 +219,20 @@ def by_learned_crack(asked: Question) -> Prediction:
     return of_theory(asked, float(said.pull_off_force[0]), band, LEARNED_CRACK, why, inside=True)
 
 
-def said_of_crack(asked: Question) -> Said | str:
+def said_of_crack(asked: Question) -> Answers | str:
     """Return the output of the learned theory of a crack at the edge, or why there is none."""
     from viscotack.surrogate import physics, short_range
 
-    learned, rows, groups = (
-        short_range.shipped(),
-        asked.once(inputs_of_sphere).rows.copy(),
-        asked.groups,
-    )
+    learned, groups = _learned("short range"), asked.groups
+    rows = asked.once(inputs_of_sphere).rows.copy()
     if np.isnan(rows[0, physics.PRELOAD]) and rows[0, physics.TABOR] >= short_range.LOW[0]:
         contact = contact_in_groups(groups.start, tabor=groups.tabor)
         rows[0, physics.PRELOAD] = np.nan if contact is None else contact.depth * groups.tabor
-    if not np.isfinite(rows).all() or not learned.in_range(rows)[0]:
+    tests = learned.tests(rows)
+    if not learned.inside(tests).all():
         return "out of the range that was learned from the theory of a crack at the edge"
-    said = learned.evaluate(rows)
-    if not learned.holds(said)[0]:
+    said = learned.evaluate(tests)
+    if not learned.holds(tests, said)[0]:
         return "the theory of a crack at the edge, which was learned, does not hold there"
     if elsewhere := not_measured(groups):
         return f"the band of the theory of a crack at the edge was not measured here: {elsewhere}"
@@ -266,13 +263,7 @@ def _out_words(name: str, value: float, limits: tuple[float, float], problem: Ca
     return out_of_range(name, value, limits, unit, si)
 
 
-def _learned() -> Surrogate:
+def _learned(contact: str = "sphere") -> Surrogate:
     from viscotack.surrogate import store
 
-    return store.shipped()
-
-
-def _solids() -> Solids:
-    from viscotack.surrogate import linear_solids
-
-    return linear_solids.shipped()
+    return store.shipped(contact)

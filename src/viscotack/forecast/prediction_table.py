@@ -13,11 +13,13 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .answer import check_confidence, predict
+from .learned import SURROGATE
 from .prediction import MEASURED
 from .punches import LEARNED_PUNCH
 
 if TYPE_CHECKING:
     from viscotack.campaign.columns import Kind
+    from viscotack.surrogate.answers import Answers, Intervals
     from viscotack.surrogate.model import Surrogate
 
 
@@ -33,8 +35,7 @@ FORCE = {
 WORK = _with_interval("work_to_pull_off")
 # What a column tells of a start.
 _BY = {"preload_force": "force", "preload_radius": "contact_radius"}
-# Rows that were learned, their answers and intervals, and the method.
-_Known = tuple[npt.NDArray[np.intp], Any, Any, str]
+METHOD = {"sphere": SURROGATE, "punch": LEARNED_PUNCH}
 
 
 def kind_of(names: Collection[str]) -> Kind:
@@ -114,12 +115,15 @@ def predict_table(
     table: dict[str, npt.NDArray[Any]] = {n: np.full(count, np.nan) for n in (*force, *WORK)}
     table |= {"method": np.full(count, "", dtype=object), "inside": np.zeros(count, dtype=bool)}
     table |= {name: np.full(count, "", dtype=object) for name in ("band", "why")}
-    learned = _punches if kind.name == "punch" else _spheres
-    at, answers, held, method = learned(given, count, confidence)
+    at, answers, held = _learned(kind, given, confidence)
     if at.size:
         _put(table, force, at, answers.pull_off_force, held.pull_off_force.T)
         _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
-        table["method"][at], table["inside"][at], table["band"][at] = method, True, MEASURED
+        table["method"][at], table["inside"][at], table["band"][at] = (
+            METHOD[kind.name],
+            True,
+            MEASURED,
+        )
     done = int(table["inside"].sum())
     for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
         try:
@@ -160,64 +164,44 @@ def _equal_rows(
     return places
 
 
-def _depths(learned: Surrogate, tabor: Array, start: Array, name: str) -> Array:
-    """Return the depths of relaxed starts [h0]; nan where the surrogate knows none."""
-    keyword = _BY[name]
-    # a series of rates has one start
-    pairs, where = np.unique(np.stack([tabor, start], axis=1), axis=0, return_inverse=True)
-    found = np.full(len(pairs), np.nan)
-    for i, (mu, value) in enumerate(pairs.tolist()):
-        try:
-            found[i] = learned.start_depth(mu, **{keyword: value})
-        except ValueError:
-            continue  # said row by row, by `predict`
-    return found[where.ravel()]
-
-
-def _spheres(given: dict[str, Array], count: int, confidence: float) -> _Known:
-    """Return the answers of the surrogate to spheres, where it knows them."""
+def _learned(
+    kind: Kind, given: dict[str, Array], confidence: float
+) -> tuple[npt.NDArray[np.intp], Answers, Intervals]:
+    """Return which rows a surrogate answers, its answers and their intervals."""
     from viscotack.surrogate import store
-    from viscotack.surrogate.physics import INPUTS, PRELOAD, TABOR
 
-    learned, unknown = store.shipped(), np.full(count, np.nan)
-    rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
+    learned = store.shipped(kind.name)
+    unknown = np.full(len(given["rate"]), np.nan)
+    rows = np.stack([given.get(name, unknown) for name in learned.contact.inputs], axis=1)
     start = next((name for name in _BY if name in given), None)
+    *others, preload = learned.contact.start_inputs
     if start is not None:
-        known = learned.inside(rows)[:, TABOR]
-        rows[known, PRELOAD] = _depths(learned, given["tabor"][known], given[start][known], start)
-    at = np.flatnonzero(learned.inside(rows).all(axis=1))
-    inside = rows[at]
+        known = learned.inside(rows)[:, others].all(axis=1)
+        rows[known, preload] = _depths(learned, rows[known][:, others], given[start][known], start)
+    # the cohesion of a punch changes crack speeds and no stress, but a case needs one
+    possible = (rows > 0).all(axis=1) & (given.get("cohesion", np.ones(len(rows))) > 0)
+    at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible)
+    inside = learned.tests(rows[at])
     answers = learned.evaluate(inside)
     held = learned.intervals(inside, answers, confidence=confidence)
     if start is not None and at.size:
         half = NormalDist().inv_cdf((1 + confidence) / 2)
         held = learned.with_start_doubt(inside, answers, held, by=_BY[start], quantile=half)
-    return at, answers, held, "surrogate"
+    return at, answers, held
 
 
-def _punches(given: dict[str, Array], count: int, confidence: float) -> _Known:
-    """Return the answers of the surrogate to punches, where it knows them."""
-    from viscotack.surrogate import punch_surrogate
-    from viscotack.surrogate.punch_physics import INPUTS, PRELOAD, SIZE, THICKNESS
-
-    learned, unknown = punch_surrogate.shipped(), np.full(count, np.nan)
-    rows = np.stack([given.get(n, unknown) for n in INPUTS], axis=1)
-    # it changes crack speeds and no stress, but a case needs one
-    possible = given["cohesion"] > 0
-    if "preload_force" in given:
-        sized = learned.inside(rows)[:, [SIZE, THICKNESS]].all(axis=1)
-        for i in np.flatnonzero(sized & np.isfinite(given["preload_force"])).tolist():
-            try:
-                rows[i, PRELOAD] = learned.start_depth(
-                    rows[i, SIZE], rows[i, THICKNESS], given["preload_force"][i]
-                )
-            except ValueError:
-                continue  # said row by row, by `predict`
-    at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible & (rows > 0).all(axis=1))
-    inside = rows[at]
-    answers = learned.evaluate(inside)
-    held = learned.intervals(inside, answers, confidence=confidence)
-    return at, answers, held, LEARNED_PUNCH
+def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array:
+    """Return the depths of relaxed starts [h0]; nan where the surrogate knows none."""
+    # a series of rates has one start
+    starts = np.column_stack([others, start])
+    each, where = np.unique(starts, axis=0, return_inverse=True)
+    found = np.full(len(each), np.nan)
+    for i, (*known, value) in enumerate(each.tolist()):
+        try:
+            found[i] = learned.start_depth(*known, **{_BY[name]: value})
+        except ValueError:
+            continue  # said row by row, by `predict`
+    return found[where.ravel()]
 
 
 def _put(

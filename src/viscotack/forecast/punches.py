@@ -15,12 +15,13 @@ from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
 from .allow_list import Verified
-from .prediction import MEASURED, Prediction, with_curve
+from .learned import INSIDE, within
+from .prediction import Prediction
 from .question import Question
 from .refusals import out_of_range
 
 if TYPE_CHECKING:
-    from viscotack.surrogate.punch_surrogate import PunchSurrogate
+    from viscotack.surrogate.model import Surrogate
 
 
 LEARNED_PUNCH = "surrogate of punches"
@@ -51,27 +52,8 @@ def punch_limits(asked: Question) -> str:
 def by_punches(asked: Question) -> Prediction:
     """Evaluate the surrogate of punches on a sliding layer."""
     learned = _learned()
-    rows = _row(asked.groups, learned)[None]
-    answers = learned.evaluate(rows)
-    held = learned.intervals(rows, answers, confidence=asked.confidence)
-    (low, high), (least, most) = (
-        pair[0].tolist() for pair in (held.pull_off_force, held.work_to_pull_off)
-    )
-    found = Prediction(
-        pull_off_force=float(answers.pull_off_force[0]),
-        interval=(low, high),
-        work_to_pull_off=float(answers.work_to_pull_off[0]),
-        work_interval=(least, most),
-        confidence=asked.confidence,
-        band=MEASURED,
-        method=LEARNED_PUNCH,
-        inside=True,
-        why="every input lies in the range that was learned from",
-        curve=None,
-        curve_band=None,
-        problem=asked.problem,
-    )
-    return with_curve(found, learned.curves(rows, answers), held)
+    tests = learned.tests(_row(asked.groups, learned)[None])
+    return within(asked, learned, tests, LEARNED_PUNCH, INSIDE)
 
 
 def inputs_of(groups: PunchGroups) -> dict[str, float]:
@@ -92,13 +74,13 @@ def inputs_of(groups: PunchGroups) -> dict[str, float]:
     }
 
 
-def _learned() -> PunchSurrogate:
-    from viscotack.surrogate import punch_surrogate
+def _learned() -> Surrogate:
+    from viscotack.surrogate import store
 
-    return punch_surrogate.shipped()
+    return store.shipped("punch")
 
 
-def _row(groups: PunchGroups, learned: PunchSurrogate) -> Array:
+def _row(groups: PunchGroups, learned: Surrogate) -> Array:
     """Return the inputs of a test; the depth of a start by stress is nan where sizes are out.
 
     Raises
@@ -111,7 +93,7 @@ def _row(groups: PunchGroups, learned: PunchSurrogate) -> Array:
     given = inputs_of(groups)
     row = np.array([given.get(name, np.nan) for name in INPUTS])
     if "preload_force" in given and learned.inside(row[None])[0, :2].all():
-        row[PRELOAD] = learned.start_depth(row[0], row[1], given["preload_force"])
+        row[PRELOAD] = learned.start_depth(row[0], row[1], force=given["preload_force"])
     return row
 
 
@@ -125,9 +107,9 @@ def _time(groups: PunchGroups) -> float:
     return material.tau0
 
 
-def _out(row: Array, problem: Case, groups: PunchGroups, learned: PunchSurrogate) -> list[str]:
+def _out(row: Array, problem: Case, groups: PunchGroups, learned: Surrogate) -> list[str]:
     """Return in words which inputs are out of the range, with their values and the range."""
-    inside, limits = learned.inside(row[None])[0], learned.limits(row[0], row[1])
+    inside, limits = learned.inside(row[None])[0], learned.limits_of(row)
     sized, units = inside[0] and inside[1], _si(problem, groups)
     found = []
     for (name, ends), value, fits in zip(limits.items(), row.tolist(), inside, strict=True):

@@ -1,6 +1,6 @@
 r"""Detachments from any linear solid: from the power law that it is like, and what it leaves over.
 
-Force, work and curve are those that the surrogate of power laws (:mod:`viscotack.surrogate.model`)
+Force, work and curve are those that the surrogate of power laws (:mod:`.physics`)
 says of the power law that creeps like the solid (:mod:`viscotack.surrogate.alike`), bent by what
 that one leaves over. How much a sample of the creep counts in the likeness is a bell with two
 widths,
@@ -20,27 +20,24 @@ pulled slower, too.
 
 from __future__ import annotations
 
-import os
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
-from typing import Any
+from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
 
-from . import physics, sealed, store
 from .alike import DECADES, Alike, alike, climbed
-from .answers import Answers, Intervals
-from .line import Curves
-from .model import Scaled, Surrogate
-from .network import Networks, from_arrays
-from .trust import CONFIDENCES, INPUTS, OF, Trust, error_inputs
+from .answers import Answers
+from .contact import Contact, Further, share
+from .model import Surrogate
+from .network import Networks
+from .physics import SphereContact
+from .trust import INPUTS, OF
 
-SHIPPED = Path(__file__).with_name("solids.npz")
 SAMPLES = len(DECADES)
 # What the network is told that says where a search begins and what counts, and what it says: three
 # numbers of a power law; the middle and the logarithms of the widths of the bell.
@@ -51,8 +48,6 @@ BEND_INPUTS = 7 + SAMPLES
 # What the network of the errors is told: what it is of power laws; how unlike the solid is, how far
 # from those learned from, how far force and work were bent, and how far networks are apart in that.
 TRUST_INPUTS = INPUTS + 6
-_SAYS = ("start", "fast", "force", "work", "give", "line")
-_FORM, _MOST = "viscotack solids 2", 5e6
 # Below these likenesses and bends tell nothing more.
 _LEAST_UNLIKE, _LEAST_BEND = 1e-4, 1e-4
 # Logarithms of widths of the bell [decades] that it may have.
@@ -60,113 +55,91 @@ WIDEST = 2.4
 
 
 @dataclass(frozen=True, eq=False)
-class SolidAnswers(Answers):
-    """Predicted numbers of some rows, and how they were bent.
+class SolidContact(SphereContact):
+    """A sphere on any linear solid: that on the power law that it is like, bent.
 
-    Attributes
-    ----------
-    bends : ndarray, shape (n, 4)
-        How far the output that places the force and log10 of work over force were bent, and how
-        far the networks are apart in it.
+    The networks beside those of power laws are ``begin``, where the search for a power law begins
+    and which samples count in it, and ``bend_force`` and ``bend_work``, how what is left over bends
+    an answer. The constants are ``floor``, what each sample counts at least; ``usual``, the root
+    mean square of what is left over; ``spread``, times which that is of order one for the solids
+    learned from; and ``farthest``, how unlike, and how far out by that measure, solids are for
+    which there is an answer. The answers have ``bends`` (:attr:`.answers.Answers.more`), shape
+    (n, 4): how far force and work were bent, and how far the networks are apart in it.
     """
 
-    bends: Array
+    like: Alike
 
+    name = "solids"
+    shared = ("start", "fast", "force", "work", "give", "line")
+    shapes = {
+        "begin": (BEGIN_INPUTS, BEGIN_OUTPUTS),
+        "bend_force": (BEND_INPUTS, SAMPLES),
+        "bend_work": (BEND_INPUTS, SAMPLES),
+        "trust": (TRUST_INPUTS, len(OF)),
+    }
+    sizes = {"floor": (), "usual": (SAMPLES,), "spread": (SAMPLES, SAMPLES), "farthest": (2,)}
+    limiting = ()
 
-@dataclass(frozen=True, eq=False)
-class Solids:
-    """A sphere on any linear solid, pulled from a relaxed start at a constant speed.
+    @classmethod
+    def of(
+        cls, networks: Mapping[str, Networks], constants: Mapping[str, Array], given: Any
+    ) -> Self:
+        """Return the tests on solids that :func:`like` has compared with power laws."""
+        return cls(networks, constants, given.groups, given)
 
-    Attributes
-    ----------
-    power_law : Surrogate
-        What answers.
-    begin : Scaled
-        Where the search for a power law begins, and which samples count in it.
-    floor : float
-        What each sample counts at least.
-    usual : ndarray, shape (15,)
-        Root mean square of what is left over.
-    force, work : Networks
-        How what is left over bends an answer.
-    trust : Trust
-        How wide the intervals are.
-    spread : ndarray, shape (15, 15)
-        What is left over times this is of order one for the solids learned from.
-    farthest : ndarray, shape (2,)
-        How unlike, and how far out by that measure, solids are for which there is an answer.
-    """
+    def deeper(self, factors: Array) -> Contact:
+        """Return tests on the power laws with their depths times factors; nothing bends them."""
+        return SphereContact(self.networks, self.constants, self.rows).deeper(factors)
 
-    power_law: Surrogate
-    begin: Scaled
-    floor: float
-    usual: Array
-    force: Networks
-    work: Networks
-    trust: Trust
-    spread: Array
-    farthest: Array
+    @cached_property
+    def far(self) -> Array:
+        """How far out solids are among those that were learned from, shape (n,)."""
+        return far(self.like, self.constants["spread"])
 
-    def like(self, tabor: Array, modulus_ratio: Array, preload: Array, creep: Array) -> Alike:
-        """Return the power laws that stand for solids in tests.
+    def inside(self) -> npt.NDArray[np.bool_]:
+        """Return whether solids are as like power laws as those learned from, shape (n, 2)."""
+        return np.stack([self.like.unlike, self.far], axis=1) <= self.constants["farthest"]
 
-        Parameters
-        ----------
-        tabor, modulus_ratio, preload : ndarray, shape (n,)
-            Of the tests.
-        creep : ndarray, shape (n, 15)
-            Creep over the relaxed one, at ``alike.TIMES`` in units of h0 over the speed.
-        """
-        tests = tabor, modulus_ratio, preload
-        said = self.begin(begin_inputs(tests, creep))[0]
-        return alike(tests, creep, said[:, :3], bell(said[:, 3:], self.floor))
+    def further(self, output: Array) -> Further:
+        """Return how what is left over bends force and work."""
+        over = scaled_over(self.like, self.constants["usual"])
+        inputs = np.column_stack([features(self.like, output), over])
+        ways = ("bend_force", over), ("bend_work", over * felt(output))
+        each = [(self.networks[name](inputs) * factors).mean(axis=2) for name, factors in ways]
+        force, work = (one.mean(axis=0) for one in each)
+        bends = [np.abs(force), np.abs(work), *(one.std(axis=0) for one in each)]
+        return Further(force, work, {"bends": np.column_stack(bends)})
 
-    def far(self, like: Alike) -> Array:
-        """Return how far out solids are among those that were learned from, shape (n,)."""
-        return np.sqrt(np.mean((like.over @ self.spread) ** 2, axis=1))
-
-    def inside(self, like: Alike) -> npt.NDArray[np.bool_]:
-        """Return which solids are like those that were learned from, shape (n,)."""
-        return (like.unlike <= self.farthest[0]) & (self.far(like) <= self.farthest[1])
-
-    def evaluate(self, like: Alike) -> SolidAnswers:
-        """Return force and work; they are not checked to lie inside."""
-        over = scaled_over(like, self.usual)
-        bends: list[Array] = []
-
-        def bent(output: Array) -> tuple[Array, Array]:
-            inputs = np.column_stack([features(like, output), over])
-            ways = (self.force, over), (self.work, over * felt(output))
-            each = [(part(inputs) * factors).mean(axis=2) for part, factors in ways]
-            mean = [one.mean(axis=0) for one in each]
-            bends.extend([*map(np.abs, mean), *(one.std(axis=0) for one in each)])
-            return mean[0], mean[1]
-
-        said = self.power_law.evaluate(like.groups, bent)
-        return SolidAnswers(**vars(said), bends=np.column_stack(bends))
-
-    def curves(self, like: Alike, answers: Answers) -> Curves:
-        """Return the unloading curves that belong to the answers."""
-        return self.power_law.curves(like.groups, answers)
-
-    def told(self, like: Alike, answers: SolidAnswers) -> Array:
+    def told_of_errors(self, answers: Answers) -> Array:
         """Return what the network of the errors is told, shape (n, TRUST_INPUTS)."""
-        plain = error_inputs(physics.scaled(like.groups), answers)
-        unlike = np.log10(like.unlike + _LEAST_UNLIKE) + 3
-        far = np.log10(self.far(like) + _LEAST_UNLIKE) + 1
-        return np.column_stack([plain, unlike, far, np.log10(answers.bends + _LEAST_BEND) + 2])
+        unlike = np.log10(self.like.unlike + _LEAST_UNLIKE) + 3
+        far = np.log10(self.far + _LEAST_UNLIKE) + 1
+        bends = np.log10(answers.more["bends"] + _LEAST_BEND) + 2
+        return np.column_stack([super().told_of_errors(answers), unlike, far, bends])
 
-    def intervals(
-        self, like: Alike, answers: SolidAnswers, *, confidence: float = 0.9
-    ) -> Intervals:
-        """Return intervals that held so many of the cases that were kept apart.
 
-        Raises
-        ------
-        ValueError
-            If the confidence is not one of those that were measured.
-        """
-        return self.trust.intervals(self.told(like, answers), answers, confidence)
+def like(
+    made: Surrogate, tabor: Array, modulus_ratio: Array, preload: Array, creep: Array
+) -> Alike:
+    """Return the power laws that stand for solids in tests.
+
+    Parameters
+    ----------
+    made : Surrogate
+        Of solids.
+    tabor, modulus_ratio, preload : ndarray, shape (n,)
+        Of the tests.
+    creep : ndarray, shape (n, 15)
+        Creep over the relaxed one, at ``alike.TIMES`` in units of h0 over the speed.
+    """
+    tests = tabor, modulus_ratio, preload
+    said = made.networks["begin"](begin_inputs(tests, creep))[0]
+    return alike(tests, creep, said[:, :3], bell(said[:, 3:], float(made.constants["floor"])))
+
+
+def far(like: Alike, spread: Array) -> Array:
+    """Return how far out solids are among those that were learned from, shape (n,)."""
+    return np.sqrt(np.mean((like.over @ spread) ** 2, axis=1))
 
 
 def begin_inputs(tests: tuple[Array, Array, Array], creep: Array) -> Array:
@@ -211,8 +184,8 @@ def felt(output: Array) -> Array:
     output : ndarray, shape (m, n)
         What the networks of the force of power laws say.
     """
-    share = physics.share(output).mean(axis=0)[:, None]
-    return 4 * share * (1 - share)
+    part = share(output).mean(axis=0)[:, None]
+    return 4 * part * (1 - part)
 
 
 def features(like: Alike, output: Array) -> Array:
@@ -229,7 +202,7 @@ def features(like: Alike, output: Array) -> Array:
         [
             *_test(mu, depth),
             np.log10(k) / 2 + 1,
-            2 * physics.share(output).mean(axis=0) - 1,
+            2 * share(output).mean(axis=0) - 1,
             np.log(n),
             np.log10(rate) / 3 - 1,
             np.log10(like.modulus_ratio) / 2 + 1,
@@ -239,78 +212,3 @@ def features(like: Alike, output: Array) -> Array:
 
 def _test(tabor: Array, preload: Array) -> tuple[Array, Array]:
     return np.log10(tabor) / 1.5 + 1 / 3, (np.log10(preload) - 0.2) / 2.5
-
-
-def save(made: Solids, path: str | os.PathLike[str], facts: dict[str, Any]) -> None:
-    """Write what was learned of solids, and beside its arrays what is to be known of it.
-
-    The surrogate of power laws is not in the file; the file says which it goes with.
-    """
-    arrays: dict[str, Any] = made.begin.arrays("begin.") | made.force.arrays("force.")
-    arrays |= made.work.arrays("work.") | made.trust.reach.arrays("trust.")
-    arrays |= {"trust.levels": made.trust.levels, "floor": np.array(made.floor)}
-    arrays |= {name: getattr(made, name) for name in ("usual", "spread", "farthest")}
-    sealed.write(path, arrays, _FORM, {"power law": _power_law(), **facts})
-
-
-def load(path: str | os.PathLike[str]) -> tuple[Solids, dict[str, Any]]:
-    """Return what a file has, and what it says of that.
-
-    Raises
-    ------
-    ValueError
-        If the file is not one that :func:`save` wrote, is damaged, or was made for another
-        surrogate of power laws than that of the package.
-    """
-    with sealed.opened(path, _FORM, "what was learned of solids", _MOST) as (arrays, words):
-        if words["power law"] != _power_law():
-            raise InputError("it corrects another surrogate of power laws; learn it again")
-        made = Solids(
-            power_law=store.shipped(),
-            begin=Scaled.of(arrays, "begin."),
-            floor=float(arrays["floor"]),
-            usual=arrays["usual"],
-            force=from_arrays(arrays, "force."),
-            work=from_arrays(arrays, "work."),
-            trust=Trust(from_arrays(arrays, "trust."), arrays["trust.levels"]),
-            spread=arrays["spread"],
-            farthest=arrays["farthest"],
-        )
-        _check(made)
-        return made, words
-
-
-@cache
-def shipped() -> Solids:
-    """Return what comes with the package, read once."""
-    return load(SHIPPED)[0]
-
-
-def _check(made: Solids) -> None:
-    """Refuse arrays that do not fit to one another."""
-    for name, part, wanted in (
-        ("begin", made.begin.networks, (BEGIN_INPUTS, BEGIN_OUTPUTS)),
-        ("force", made.force, (BEND_INPUTS, SAMPLES)),
-        ("work", made.work, (BEND_INPUTS, SAMPLES)),
-        ("trust", made.trust.reach, (TRUST_INPUTS, len(OF))),
-    ):
-        ends = part.weights[0].shape[1], part.weights[-1].shape[2]
-        if ends != wanted:
-            raise InputError(f"its network {name} goes from and to {ends}, not {wanted}")
-    for name, shape in (
-        ("usual", (SAMPLES,)),
-        ("spread", (SAMPLES, SAMPLES)),
-        ("farthest", (2,)),
-    ):
-        if getattr(made, name).shape != shape:
-            raise InputError(f"{name} has the shape {getattr(made, name).shape}, not {shape}")
-    if made.trust.levels.shape != (len(OF), len(CONFIDENCES)):
-        raise InputError(f"its levels have the shape {made.trust.levels.shape}")
-
-
-def _power_law() -> str:
-    """Return the checksum of what the surrogate of power laws says; its own intervals are apart."""
-    arrays: dict[str, Any] = {}
-    for name in _SAYS:
-        arrays |= getattr(store.shipped(), name).arrays(f"{name}.")
-    return sealed.checksum(arrays)

@@ -1,141 +1,136 @@
-"""The learned answer to a detachment: force, work and curve, and how sure they are.
+"""One surrogate for every contact: physics, a learned correction, intervals, and where it ends.
 
-Evaluated with NumPy alone. What is learned and what is not: :mod:`viscotack.surrogate.physics`.
+Evaluated with NumPy alone. What is known without learning, contact by contact:
+:mod:`viscotack.surrogate.contact`.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from numpy.lib.mixins import NDArrayOperatorsMixin
 
+from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from . import physics
-from .answers import Answers, Intervals, answered
-from .line import Curves, curves
-from .network import Networks, from_arrays
-from .physics import LIMITS, START, Array
+from .answers import Answers, Intervals
+from .contact import LEAST_WAY, Contact, between
+from .line import Curves
+from .network import Networks
 from .slopes import Sloped, by_logarithms
-from .trust import Trust, error_inputs
-
-Bent = Callable[[Array], tuple[Array, Array]]
-_STARTS = 64
-_REFINEMENTS = 4
-
-
-@dataclass(frozen=True, eq=False)
-class Scaled:
-    """Networks whose outputs are numbers of order one, and what they stand for."""
-
-    networks: Networks
-    centre: Array
-    spread: Array
-
-    def __call__(self, inputs: Array) -> Array:
-        """Return outputs in their own units, shape (m, n, outputs)."""
-        return self.centre + self.spread * self.networks(inputs)
-
-    def arrays(self, before: str = "") -> dict[str, Array]:
-        """Return all arrays by names for a file, with something before each name."""
-        scale = {f"{before}centre": self.centre, f"{before}spread": self.spread}
-        return scale | self.networks.arrays(before)
-
-    @classmethod
-    def of(cls, arrays: Mapping[str, Array], before: str) -> "Scaled":
-        """Return what :meth:`arrays` was given for."""
-        networks = from_arrays(arrays, before)
-        return cls(networks, arrays[f"{before}centre"], arrays[f"{before}spread"])
+from .trust import Trust
 
 
 @dataclass(frozen=True, eq=False)
 class Surrogate:
-    """A sphere on a power law by retardation, pulled from a relaxed start at a constant rate.
-
-    Inputs are rows of the five groups in the order of ``INPUTS``: Tabor number, modulus ratio,
-    exponent, preload [h0] and rate [h0/tau0].
+    """Pull-off force, work and curve of a contact pulled from a relaxed start at a constant rate.
 
     Attributes
     ----------
-    start, fast : Scaled, Networks
-        Of the relaxed start: force and log10 of the radius; of the fast limit. One each, or as many
-        as there are for the force, each of which then has a limit of its own.
-    force, work, give, line : Networks, Scaled, Scaled, Scaled
-        Several for force, work, and log10 of the give of a start; one for the shapes of a curve.
-    trust : Trust
-        How wide the intervals are.
+    contact : type of Contact
+        Its inputs with their ranges, limits of the force, and what the networks are told.
+    networks : mapping of str to Networks
+        The learned correction: where between its limits the force is, and what follows from it.
+    trust : Trust or None
+        How wide intervals are; None where they were not measured.
+    constants : mapping of str to ndarray
+        Numbers of the contact that were measured beside the networks.
+
+    Notes
+    -----
+    Methods take rows of inputs in the order of ``contact.inputs``, shape (n, inputs), of solids
+    that are no power laws what :func:`.linear_solids.like` returns, or :meth:`tests` of these.
+    :meth:`inside` and :meth:`holds` check whether it has learned of them; the others answer.
     """
 
-    start: Scaled
-    fast: Networks
-    force: Networks
-    work: Scaled
-    give: Scaled
-    line: Scaled
-    trust: Trust
+    contact: type[Contact]
+    networks: Mapping[str, Networks]
+    trust: Trust | None = None
+    constants: Mapping[str, Array] = field(default_factory=dict)
+
+    def tests(self, given: Any) -> Contact:
+        """Return tests; what is known of them is computed once, for all methods that take them."""
+        if isinstance(given, Contact):
+            return given
+        return self.contact.of(self.networks, self.constants, given)
+
+    def having(self, **networks: Networks) -> Surrogate:
+        """Return the surrogate with other networks, or more of them."""
+        return replace(self, networks={**self.networks, **networks})
+
+    # Where it ends --------------------------------------------------------------------------
 
     @property
     def limits(self) -> Mapping[str, tuple[float, float]]:
-        """Least and largest of each input that was learned from."""
-        return LIMITS
+        """Least and largest of each input that was learned from, in the units of its range."""
+        return _by_name(self.contact.inputs, self.contact.low, self.contact.high)
 
-    def inside(self, groups: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Return which inputs lie in the range learned from, shape (n, 5)."""
-        rows = _rows(groups)
-        # the ends themselves, whichever way they were rounded
-        return (rows >= physics.LOW * (1 - 1e-9)) & (rows <= physics.HIGH * (1 + 1e-9))
+    def limits_of(self, row: Array) -> Mapping[str, tuple[float, float]]:
+        """Return least and largest of each input for a test whose other inputs are these.
 
-    def relaxed(self, groups: Array) -> tuple[Array, Array]:
-        """Return force [1.5 pi R dg0] and contact radius of the relaxed starts, shape (n,)."""
-        said = self.start(physics.scaled(groups)[:, START]).mean(axis=0)
-        return physics.start_force(groups, said[:, 0]), 10 ** said[:, 1]
+        How deep the start of a punch may be depends on its size and on the layer.
 
-    def evaluate(self, groups: npt.ArrayLike, bent: Bent | None = None) -> Answers:
-        """Return force and work of rows of groups; they are not checked to lie inside.
-
-        Parameters
-        ----------
-        groups : array_like, shape (n, 5)
-        bent : callable, optional
-            Takes what the networks of the force say, shape (m, n), and returns what is added to
-            that, and to log10 of work over force, shape (n,) each.
+        Examples
+        --------
+        >>> from viscotack.surrogate.store import shipped
+        >>> low, high = shipped("punch").limits_of([64.85, 3.24, 0.1, 1.0, 1.0])["preload"]
+        >>> f"{low:.2g} to {high:.2g} h0"
+        '0.0074 to 49 h0'
         """
-        rows = _rows(groups)
-        slow, fast = physics.way(rows, self.fast)
-        output = self.force(physics.scaled(rows))[..., 0]
-        further: Any = None
-        if bent is not None:
-            more, further = bent(output)
-            output = output + more
-        forces = physics.between(slow, fast, output)
-        force = forces.mean(axis=0)
-        works = force + self.work(self._told(rows, force))[..., 0]
-        if further is not None:
-            works = works + further
-        return answered(forces, works, slow, fast.mean(axis=0))
+        ends = np.array([self.contact.low, self.contact.high])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            unit = self.contact.unit(np.asarray(row, dtype=float)[None])
+        return _by_name(self.contact.inputs, *(ends if unit is None else ends * unit))
 
-    def curves(self, groups: npt.ArrayLike, answers: Answers) -> Curves:
-        """Return the unloading curves that belong to the answers of the same rows."""
-        rows = _rows(groups)
-        force, radius = self.relaxed(rows)
-        log_force, log_work = np.log10(answers.pull_off_force), np.log10(answers.work_to_pull_off)
-        told = physics.with_start(rows, force, radius, log_force, log_work)
-        said = self.line(told)[0]
-        return curves(
-            said,
-            give=10 ** self.give(told)[..., 0].mean(axis=0),
-            preload=rows[:, physics.PRELOAD],
-            force=force,
-            radius=radius,
-            pull_off=answers.pull_off_force,
-            work=answers.work_to_pull_off,
+    def inside(self, given: Any) -> npt.NDArray[np.bool_]:
+        """Return which inputs lie in the range learned from, shape (n, inputs).
+
+        Of a solid that is no power law, whether it is like those learned from, shape (n, 2).
+        """
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return self.tests(given).inside()
+
+    def holds(self, given: Any, said: Answers) -> npt.NDArray[np.bool_]:
+        """Return where in the range what was learned has an answer, shape (n,)."""
+        return self.tests(given).holds(said)
+
+    # What it answers ------------------------------------------------------------------------
+
+    def evaluate(self, given: Any) -> Answers:
+        """Return force and work."""
+        tests = self.tests(given)
+        slow, fast = tests.slow, tests.fast
+        output = self.networks["force"](tests.told)[..., 0]
+        further = tests.further(output)
+        if further.force is not None:
+            output = output + further.force
+        forces = between(slow, fast, output)
+        force, slow, fast = forces.mean(axis=0), _mean(slow), _mean(fast)
+        way = np.maximum(fast - slow, LEAST_WAY)
+        work = work_spread = np.full(len(tests.rows), np.nan)
+        if "work" in self.networks:
+            works = force + self.networks["work"](tests.knowing(force))[..., 0]
+            if further.work is not None:
+                works = works + further.work
+            work, work_spread = 10 ** works.mean(axis=0), works.std(axis=0)
+        return Answers(
+            pull_off_force=10**force,
+            work_to_pull_off=work,
+            force_spread=forces.std(axis=0),
+            work_spread=work_spread,
+            way=way,
+            share=(force - slow) / way,
+            more=further.more,
         )
 
-    def intervals(
-        self, groups: npt.ArrayLike, answers: Answers, *, confidence: float = 0.9
-    ) -> Intervals:
+    def curves(self, given: Any, answers: Answers) -> Curves:
+        """Return the unloading curves that belong to the answers to the same tests."""
+        return self.tests(given).curves(answers)
+
+    def intervals(self, given: Any, answers: Answers, *, confidence: float = 0.9) -> Intervals:
         """Return intervals that held so many of the cases that were kept apart.
 
         Raises
@@ -143,20 +138,21 @@ class Surrogate:
         ValueError
             If the confidence is not one of those that were measured.
         """
-        inputs = error_inputs(physics.scaled(_rows(groups)), answers)
-        return self.trust.intervals(inputs, answers, confidence)
+        if self.trust is None:
+            raise InputError(f"no intervals were measured for a {self.contact.name}")
+        return self.trust.intervals(self.tests(given).told_of_errors(answers), answers, confidence)
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
         """Return the derivatives of log force and log work by the logarithms of the inputs, exact.
 
         Parameters
         ----------
-        groups : array_like, shape (n, 5)
+        groups : array_like, shape (n, inputs)
             Rows, not checked to lie inside.
 
         Returns
         -------
-        force, work : ndarray, shape (n, 5)
+        force, work : ndarray, shape (n, inputs)
             Part by which the answer changes for a part by which an input does; the derivative by
             the input itself is this times answer over input.
 
@@ -167,9 +163,8 @@ class Surrogate:
         >>> bool(0 < force[0, 4] < 0.5)
         True
         """
-        inputs: Any = by_logarithms(_rows(groups))
-        said = self.evaluate(inputs)
-        numbers = said.pull_off_force, said.work_to_pull_off
+        said = self.evaluate(by_logarithms(self.tests(groups).rows))
+        numbers: tuple[Any, ...] = said.pull_off_force, said.work_to_pull_off
         force, work = (
             np.column_stack([s / x.value for s in x.slopes])
             for x in numbers
@@ -177,8 +172,14 @@ class Surrogate:
         )
         return force, work
 
+    # Starts ---------------------------------------------------------------------------------
+
+    def relaxed(self, given: Any) -> tuple[Array, Array]:
+        """Return force and contact radius of the relaxed starts, shape (n,) each."""
+        return self.tests(given).start
+
     def start_depth(
-        self, tabor: float, *, force: float | None = None, contact_radius: float | None = None
+        self, *known: float, force: float | None = None, contact_radius: float | None = None
     ) -> float:
         """Return the depth [h0] of the relaxed start with a force or a contact radius.
 
@@ -187,10 +188,11 @@ class Surrogate:
 
         Parameters
         ----------
-        tabor : float
-            Tabor number.
+        *known : float
+            The inputs that tell a start beside its depth: Tabor number; of a punch size and
+            thickness.
         force : float, optional
-            [1.5 pi R dg0], compression positive.
+            [1.5 pi R dg0], of a punch mean stress [sigma0]; compression positive.
         contact_radius : float, optional
             [(pi R^2 dg0/E0*)^(1/3)]
 
@@ -203,68 +205,48 @@ class Surrogate:
             raise InputError("give either the force or the contact radius of the start")
         which, wanted = (0, force) if force is not None else (1, contact_radius)
         assert wanted is not None
-        low, high = LIMITS["preload"]
-        first: tuple[float, float] | None = None
-        for _ in range(_REFINEMENTS):
-            depths = np.geomspace(low, high, _STARTS)
-            groups = np.ones((_STARTS, 5))
-            groups[:, physics.TABOR], groups[:, physics.PRELOAD] = tabor, depths
+        *others, preload = self.contact.start_inputs
+        count, looks = self.contact.search
+        rows = np.ones((count, len(self.contact.inputs)))
+        rows[:, others] = known
+        low, high = self.limits_of(rows[0])[self.contact.inputs[preload]]
+        i, found = 0, rows[:, preload]
+        for look in range(looks):
+            rows[:, preload] = np.geomspace(low, high, count)
             # in tension and at large Tabor numbers it rises by less than the networks err
-            found = np.maximum.accumulate(self.relaxed(groups)[which])
-            first = first or (float(found[0]), float(found[-1]))
-            if not first[0] <= wanted <= first[1]:
-                what = "force [1.5 pi R dg0]" if which == 0 else "contact radius"
+            found = np.maximum.accumulate(self.relaxed(rows)[which])
+            if look == 0 and not found[0] <= wanted <= found[-1]:
+                words = {"wanted": wanted, "least": found[0], "most": found[-1]}
+                what = ("force [1.5 pi R dg0]", "contact radius")[which]
                 raise InputError(
-                    f"no relaxed start between depths of {low:g} and {high:g} h0 has a {what} of "
-                    f"{wanted:g}; at that Tabor number it is between {first[0]:.4g} and "
-                    f"{first[1]:.4g}"
+                    self.contact.no_start.format(what=what, low=low, high=high, **words)
                 )
-            i = int(np.clip(np.searchsorted(found, wanted), 1, _STARTS - 1))
-            low, high = depths[i - 1], depths[i]
+            i = min(max(int(np.searchsorted(found, wanted)), 1), count - 1)
+            low, high = rows[i - 1, preload], rows[i, preload]
         rise = float(found[i] - found[i - 1])
         part = (wanted - float(found[i - 1])) / rise if rise > 0 else 0.5
-        return float(low + np.clip(part, 0.0, 1.0) * (high - low))
-
-    def start_doubt(self, groups: Array, *, by: str) -> Array:
-        """Return standard deviations of log10 of depths of starts that were told otherwise, (n,).
-
-        Parameters
-        ----------
-        groups : ndarray, shape (n, 5)
-            With the depths that were found.
-        by : {"force", "contact_radius"}
-            What was told; how much the networks of the start differ in it tells the doubt.
-        """
-        which, step = ("force", "contact_radius").index(by), 1e-3
-
-        near = np.tile(groups, (3, 1))
-        near[:, physics.PRELOAD] *= np.repeat(10 ** (step * np.arange(-1, 2)), len(groups))
-        said = self.start(physics.scaled(near)[:, START])[..., which]
-        if not which:
-            said = np.array([physics.start_force(near, one) for one in said])
-        before, here, after = np.split(said, 3, axis=1)
-        rise = np.abs((after - before).mean(axis=0)) / (2 * step)
-        # where what was told hardly depends on the depth, it tells no depth
-        return np.minimum(here.std(axis=0) / np.maximum(rise, 1e-30), 1.0)
+        return float(low + min(max(part, 0.0), 1.0) * (high - low))
 
     def with_start_doubt(
-        self, groups: Array, answers: Answers, held: Intervals, *, by: str, quantile: float
+        self, given: Any, answers: Answers, held: Intervals, *, by: str, quantile: float
     ) -> Intervals:
         """Return intervals that hold the doubt of the depths of their starts as well.
 
         Parameters
         ----------
-        groups, answers, held : ndarray, Answers, Intervals
-            Rows, what is said of them, and intervals without that doubt.
+        given, answers, held : ndarray, Answers, Intervals
+            Tests, what is said of them, and intervals without that doubt.
         by : {"force", "contact_radius"}
-            What was told of the start.
+            What was told of the start; by how much its networks differ in it tells the doubt. One
+            network alone tells none.
         quantile : float
             Standard deviations in half an interval.
         """
-        doubt = 10 ** (quantile * self.start_doubt(groups, by=by))
-        near = np.tile(groups, (3, 1))
-        near[:, physics.PRELOAD] *= np.concatenate([np.ones_like(doubt), doubt, 1 / doubt])
-        others = self.evaluate(near)
+        if len(self.networks["start"].weights[0]) == 1:
+            return held
+        tests = self.tests(given)
+        doubt = 10 ** (quantile * _start_doubt(tests, by=by))
+        others = self.evaluate(tests.deeper(np.stack([np.ones_like(doubt), doubt, 1 / doubt])))
 
         def wider(name: str) -> Array:
             value, pair = np.log(getattr(answers, name)), np.log(getattr(held, name))
@@ -280,10 +262,24 @@ class Surrogate:
             work_to_pull_off=wider("work_to_pull_off"),
         )
 
-    def _told(self, rows: Array, force: Array) -> Array:
-        return physics.with_start(rows, *self.relaxed(rows), force)
+
+def _start_doubt(tests: Contact, *, by: str, step: float = 1e-3) -> Array:
+    """Return standard deviations of log10 of the depths of starts, shape (n,)."""
+    factors = np.power(10.0, step * np.arange(-1, 2))
+    near = tests.deeper(np.repeat(factors[:, None], len(tests.rows), axis=1))
+    said = near.said_of_start
+    # networks say log10 of the radius
+    told = np.array([near.started(x)[0] for x in said]) if by == "force" else said[..., 1]
+    before, here, after = np.split(told, 3, axis=1)
+    rise = np.abs((after - before).mean(axis=0)) / (2 * step)
+    # where what was told hardly depends on the depth, it tells no depth
+    return np.minimum(here.std(axis=0) / np.maximum(rise, 1e-30), 1.0)
 
 
-def _rows(groups: Any) -> Any:
-    # what only stands for an array, as where formulas are exported, stays what it is
-    return groups if isinstance(groups, NDArrayOperatorsMixin) else np.asarray(groups, dtype=float)
+def _by_name(names: tuple[str, ...], low: Array, high: Array) -> dict[str, tuple[float, float]]:
+    return {n: (float(a), float(b)) for n, a, b in zip(names, low, high, strict=True)}
+
+
+def _mean(limit: Array) -> Array:
+    """Return the mean over the networks, where there are several."""
+    return limit if limit.ndim == 1 else limit.mean(axis=0)

@@ -24,6 +24,8 @@ class Networks:
         Of each layer, for m networks.
     biases : tuple of ndarray, shape (m, 1, outputs)
         Likewise.
+    centre, spread : ndarray, shape (outputs,), or None
+        What outputs of order one stand for: this number of spreads from the centre.
 
     Examples
     --------
@@ -34,6 +36,8 @@ class Networks:
 
     weights: tuple[Array, ...]
     biases: tuple[Array, ...]
+    centre: Array | None = None
+    spread: Array | None = None
 
     def __call__(self, inputs: Array) -> Array:
         """Return what each of the networks says of each row.
@@ -46,13 +50,19 @@ class Networks:
         -------
         ndarray, shape (m, n, outputs)
         """
+        if self.centre is None or self.spread is None:
+            return self.plain(inputs)
+        return self.centre + self.spread * self.plain(inputs)
+
+    def plain(self, inputs: Array) -> Array:
+        """Return outputs of order one, shape (m, n, outputs)."""
         if len(inputs) <= _ROWS:
             return self._some(inputs)
         starts = range(0, len(inputs), _ROWS)
         return np.concatenate([self._some(inputs[i : i + _ROWS]) for i in starts], axis=1)
 
     def _some(self, x: Array) -> Array:
-        first, *others = (block.plainly(x) for block in self.blocks)
+        first, *others = (block.by_layers(x) for block in self.blocks)
         for said in others:
             first = first + said
         return first
@@ -83,8 +93,8 @@ class Networks:
         biases = (*(b[:, :, of] for b in self.biases[:-1]), last)
         return Networks(tuple(map(np.ascontiguousarray, weights)), biases)
 
-    def plainly(self, x: Array) -> Array:
-        """Return what the networks say, layer by layer."""
+    def by_layers(self, x: Array) -> Array:
+        """Return outputs of order one, layer by layer."""
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = np.tanh(x @ weight + bias)
         return x @ self.weights[-1] + self.biases[-1]
@@ -92,7 +102,14 @@ class Networks:
     def arrays(self, before: str = "") -> dict[str, Array]:
         """Return weights and biases by names for a file, with something before each name."""
         named = [("weight", self.weights), ("bias", self.biases)]
-        return {f"{before}{name}.{i}": a for name, some in named for i, a in enumerate(some)}
+        found = {f"{before}{name}.{i}": a for name, some in named for i, a in enumerate(some)}
+        scale = {f"{before}centre": self.centre, f"{before}spread": self.spread}
+        return found | {name: a for name, a in scale.items() if a is not None}
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """Number of inputs and of outputs."""
+        return self.weights[0].shape[1], self.weights[-1].shape[2]
 
     @property
     def parameters(self) -> int:
@@ -113,11 +130,11 @@ def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
     weights, biases = (
         tuple(arrays[f"{before}{name}.{i}"] for i in layers) for name in ("weight", "bias")
     )
-    return Networks(weights, biases)
+    return Networks(weights, biases, *(arrays.get(f"{before}{x}") for x in ("centre", "spread")))
 
 
 def together(networks: list[Networks]) -> Networks:
-    """Return networks of the same shape as one object.
+    """Return networks of the same shape, whose outputs are of order one, as one object.
 
     Examples
     --------
@@ -132,7 +149,7 @@ def together(networks: list[Networks]) -> Networks:
 
 
 def single(networks: Networks, number: int) -> Networks:
-    """Return one of several networks."""
+    """Return one of several networks, its outputs of order one."""
     some = slice(number, number + 1)
     return Networks(
         tuple(layer[some] for layer in networks.weights),

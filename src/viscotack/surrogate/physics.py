@@ -1,9 +1,9 @@
-r"""What the networks are told and spared: limits, the relaxed start, and how inputs are scaled.
+r"""A sphere: the limits of its force, its relaxed start, and how the inputs of networks are scaled.
 
 Inputs of a row are the five groups of a sphere on a power law by retardation, pulled from a relaxed
 start: Tabor number mu, modulus ratio k, exponent n, depth d [h0] and rate [h0/tau0].
 
-A network never says a pull-off force. It says where between its two limits the force is,
+The two limits of the force are
 
 .. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \hat G(\mu, k, d) , \qquad 0 < s < 1 ,
 
@@ -19,12 +19,17 @@ Hertz,
 and :math:`\sqrt{1 + \hat F_H}` times a network, for adhesion changes a deep contact by that power.
 """
 
+from functools import cached_property
+
 import numpy as np
 
 from viscotack.arrays import Array
 
 from ..theory import lennard_jones
-from .network import Networks
+from .contact import Contact, between, scaled_logarithms
+from .line import OUTPUTS
+from .trust import INPUTS as ERROR_INPUTS
+from .trust import OF
 
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
 TABOR, MODULUS_RATIO, EXPONENT, PRELOAD, RATE = range(5)
@@ -41,14 +46,11 @@ LOW, HIGH = np.array(list(LIMITS.values())).T
 _LOW, _HIGH = np.log10(LOW), np.log10([*HIGH[:3], 550.0, HIGH[4]])
 # Which of the inputs the relaxed start and the fast limit depend on.
 START, FAST = [TABOR, PRELOAD], [TABOR, MODULUS_RATIO, PRELOAD]
-# A network's output is small where the share of the way between two limits is near one half.
-STEEP = 4.0
-LEAST_WAY = 1e-4
 
 
 def scaled(groups: Array) -> Array:
     """Return the logarithms of inputs, from -1 to 1 over all rows learned from; shape (n, 5)."""
-    return (2 * np.log10(groups) - (_LOW + _HIGH)) / (_HIGH - _LOW)
+    return scaled_logarithms(groups, _LOW, _HIGH)
 
 
 def slow_limit(groups: Array) -> Array:
@@ -60,29 +62,6 @@ def largest_fast_limit(groups: Array) -> Array:
     """Return log10 of the fastest pull-off force from a large contact, shape (n,)."""
     k = groups[:, MODULUS_RATIO]
     return np.log10(lennard_jones.pull_off_ratio(groups[:, TABOR] * np.cbrt(k)) / k)
-
-
-def share(output: Array) -> Array:
-    """Return the share s of the way between two limits that the output of a network stands for.
-
-    Examples
-    --------
-    >>> share(np.array([-9.0, 0.0, 9.0])).round(6).tolist()
-    [0.0, 0.5, 1.0]
-    """
-    return 1 / (1 + np.exp(-STEEP * output))
-
-
-def between(low: Array, high: Array, output: Array) -> Array:
-    """Return what lies between two logarithms, by the output of a network."""
-    return low + np.maximum(high - low, LEAST_WAY) * share(output)
-
-
-def way(groups: Array, fast: Networks) -> tuple[Array, Array]:
-    """Return log10 of the slow limit of the pull-off force, (n,), and of the fast ones, (m, n)."""
-    slow = slow_limit(groups)
-    said = fast(scaled(groups)[:, FAST])[..., 0]
-    return slow, between(slow, largest_fast_limit(groups), said)
 
 
 def hertz(groups: Array) -> Array:
@@ -102,16 +81,56 @@ def start_output(groups: Array, force: Array) -> Array:
     return (force - without) / np.sqrt(1 + without)
 
 
-def with_start(groups: Array, force: Array, radius: Array, *logarithms: Array) -> Array:
+def with_start(inputs: Array, force: Array, radius: Array, *logarithms: Array) -> Array:
     """Return inputs for a network that is to know more of the case; shape (n, 8 + how many).
 
     Parameters
     ----------
-    groups : ndarray, shape (n, 5)
+    inputs : ndarray, shape (n, 5)
+        As :func:`scaled` has them.
     force, radius : ndarray, shape (n,)
         Of the relaxed start.
     logarithms : ndarray, shape (n,)
         log10 of what else is known.
     """
     start = (np.arcsinh(force) / 5, np.tanh(force), np.log10(radius))
-    return np.column_stack([scaled(groups), *start, *logarithms])
+    return np.column_stack([inputs, *start, *logarithms])
+
+
+class SphereContact(Contact):
+    """A sphere on a power law by retardation."""
+
+    name, inputs, low, high, ends = "sphere", INPUTS, LOW, HIGH, (_LOW, _HIGH)
+    shapes = {
+        "start": (len(START), 2),
+        "fast": (len(FAST), 1),
+        "force": (len(INPUTS), 1),
+        "work": (len(INPUTS) + 4, 1),
+        "give": (len(INPUTS) + 5, 1),
+        "line": (len(INPUTS) + 5, OUTPUTS),
+        "trust": (ERROR_INPUTS, len(OF)),
+    }
+    limiting, start_inputs, search = ("fast",), START, (64, 4)
+    no_start = (
+        "no relaxed start between depths of {low:g} and {high:g} h0 has a {what} of {wanted:g}; at "
+        "that Tabor number it is between {least:.4g} and {most:.4g}"
+    )
+
+    @cached_property
+    def slow(self) -> Array:
+        """log10 of the elastic pull-off of the relaxed solid, shape (n,)."""
+        return slow_limit(self.rows)
+
+    @cached_property
+    def fast(self) -> Array:
+        """log10 of the pull-off of a solid that does not relax, shape (m, n)."""
+        said = self.networks["fast"](self.scaled[:, FAST])[..., 0]
+        return between(self.slow, largest_fast_limit(self.rows), said)
+
+    def started(self, said: Array) -> tuple[Array, Array]:
+        """Return force and radius of starts of which a network says this, shape (n, 2)."""
+        return start_force(self.rows, said[:, 0]), 10 ** said[:, 1]
+
+    def knowing(self, force: Array) -> Array:
+        """Return what networks are told that know the start and the force, shape (n, 9)."""
+        return with_start(self.scaled, *self.start, force)

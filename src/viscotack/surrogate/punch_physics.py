@@ -29,10 +29,19 @@ which has the thin layer, :math:`\sqrt{2 E \Delta\gamma/b}`, and the half-plane,
 :math:`\sqrt{\pi E \Delta\gamma/2a}`, in it.
 """
 
+from dataclasses import replace
+from functools import cached_property
+
 import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.traction import LennardJones
+
+from .answers import Answers
+from .contact import Contact, between, scaled_logarithms
+from .line import OUTPUTS, Curves
+from .trust import INPUTS as ERROR_INPUTS
+from .trust import OF
 
 INPUTS = ("size", "thickness", "modulus_ratio", "preload", "rate")
 SIZE, THICKNESS, MODULUS_RATIO, PRELOAD, RATE = range(5)
@@ -42,6 +51,7 @@ _CONTACT = 16 / STRENGTH
 # Of size, thickness, modulus ratio, the start's depth over the compliance, and rate.
 LOW = np.array([1.0, 0.1, 1e-3, 1.5e-3, 1e-3])
 HIGH = np.array([200.0, 1000.0, 0.7, 10.0, 1e6])
+_ENDS = np.log10(LOW), np.log10(HIGH)
 # Which of the inputs the limits and the start depend on.
 SLOW, FAST, START = [SIZE, THICKNESS], [SIZE, THICKNESS, MODULUS_RATIO, PRELOAD], [0, 1, PRELOAD]
 
@@ -59,17 +69,16 @@ def compliance(groups: Array) -> Array:
     return np.pi / (2 * STRENGTH) * length + 1 / _CONTACT
 
 
-def stressed(groups: Array) -> Array:
-    """Return rows with the depth of the start over the compliance in place of the depth."""
-    found = groups.copy()
-    found[:, PRELOAD] /= compliance(groups)
+def unit(rows: Array) -> Array:
+    """Return the units in which inputs have their ranges: depths of starts in the compliance."""
+    found = np.ones_like(rows)
+    found[:, PRELOAD] = compliance(rows)
     return found
 
 
 def scaled(groups: Array) -> Array:
     """Return the logarithms of the inputs, from -1 to 1 over the range; shape (n, 5)."""
-    low, high = np.log10(LOW), np.log10(HIGH)
-    return (2 * np.log10(stressed(groups)) - (low + high)) / (high - low)
+    return scaled_logarithms(groups / unit(groups), *_ENDS)
 
 
 def least(groups: Array, stiffer: Array | float = 1.0) -> Array:
@@ -88,3 +97,73 @@ def least(groups: Array, stiffer: Array | float = 1.0) -> Array:
 def least_fast(groups: Array) -> Array:
     """Return log10 of a stress below every pull-off of a layer that does not relax, shape (n,)."""
     return least(groups, 1 / groups[:, MODULUS_RATIO])
+
+
+def told(inputs: Array, slow: Array, stress: Array) -> Array:
+    """Return what networks are told that know the slow limit and the stress, shape (n, 7).
+
+    Parameters
+    ----------
+    inputs : ndarray, shape (n, 5)
+        As :func:`scaled` has them.
+    slow, stress : ndarray, shape (n,)
+        log10 of the slow limit of the stress and of the stress itself.
+    """
+    return np.column_stack([inputs, 2 * slow, 2 * (stress - slow)])
+
+
+class PunchContact(Contact):
+    """A flat punch on a sliding layer of a standard solid; forces are mean stresses [sigma0]."""
+
+    name, inputs, low, high, ends = "punch", INPUTS, LOW, HIGH, _ENDS
+    shapes = {
+        "start": (len(START), 1),
+        "slow": (len(SLOW), 1),
+        "fast": (len(FAST), 1),
+        "force": (len(INPUTS), 1),
+        "work": (len(INPUTS) + 2, 1),
+        "give": (len(INPUTS) + 2, 1),
+        "line": (len(INPUTS) + 3, OUTPUTS),
+        "trust": (ERROR_INPUTS, len(OF)),
+    }
+    limiting, start_inputs, search = ("slow", "fast"), START, (24, 3)
+    no_start = (
+        "preload_force is {wanted:.4g} sigma0, and {least:.4g} to {most:.4g} sigma0 was learned "
+        "from for this size and thickness"
+    )
+    # works are in dg0, and areas below curves in sigma0 h0
+    give_knows_work, work_unit = False, STRENGTH
+    unit = staticmethod(unit)
+
+    @cached_property
+    def slow(self) -> Array:
+        """log10 of the pull-off stress of the relaxed layer, shape (m, n)."""
+        said = self.networks["slow"](self.scaled[:, SLOW])[..., 0]
+        return between(least(self.rows), np.zeros(len(self.rows)), said)
+
+    @cached_property
+    def fast(self) -> Array:
+        """log10 of the pull-off stress of a layer that does not relax, shape (m, n)."""
+        said = self.networks["fast"](self.scaled[:, FAST])[..., 0]
+        fast = between(least_fast(self.rows), np.zeros(len(self.rows)), said)
+        return np.maximum(self.slow, fast)
+
+    def started(self, said: Array) -> tuple[Array, Array]:
+        """Return stress and ligament of starts of which a network says this, shape (n, 1)."""
+        return self.ranged[:, PRELOAD] * 10 ** said[:, 0], self.rows[:, SIZE]
+
+    def knowing(self, force: Array) -> Array:
+        """Return what networks are told that know the slow limit and the stress, shape (n, 7)."""
+        return told(self.scaled, self.slow.mean(axis=0), force)
+
+    def give(self, said: Array) -> Array:
+        """Return travel to zero stress times size over stress; its part of the depth is learned."""
+        stress, size = self.start
+        return self.rows[:, PRELOAD] * 10**said * size / stress
+
+    def curves(self, answers: Answers) -> Curves:
+        """Return the unloading curves: depths in h0, stresses in sigma0, the edge in a0."""
+        found = super().curves(answers)
+        # no contact is wider than its punch
+        edge = np.minimum(found.contact_radius, self.rows[:, [SIZE]])
+        return replace(found, contact_radius=edge)

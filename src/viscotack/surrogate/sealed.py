@@ -7,7 +7,7 @@ import io
 import json
 import os
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 from zipfile import BadZipFile
@@ -38,15 +38,15 @@ def write(
 
 @contextmanager
 def opened(
-    path: str | os.PathLike[str], form: str, what: str, most: float
+    path: str | os.PathLike[str], forms: Collection[str], what: str, most: float
 ) -> Iterator[tuple[dict[str, npt.NDArray[Any]], dict[str, Any]]]:
     """Give the arrays and words of a file that :func:`write` wrote.
 
     Parameters
     ----------
     path : path
-    form : str
-        That it must have.
+    forms : collection of str
+        One of which it must have, the newest first.
     what : str
         What it should be, in words.
     most : float
@@ -55,15 +55,17 @@ def opened(
     Raises
     ------
     InputError
-        If the file is not of that form, is damaged, or what is made of it in the ``with`` fails.
+        If the file is of none of these forms, is damaged, or what is made of it in the ``with``
+        fails.
     """
     try:
         # opened here, for NumPy leaves a damaged file open
         with open(path, "rb") as stream:
             arrays = read_arrays(stream, lambda _: True, most)
         words = json.loads(arrays.pop(_WORDS).tobytes())
-        if words["form"] != form:
-            raise InputError(f"it has the form {words['form']!r}, this version reads {form!r}")
+        if words["form"] not in forms:
+            known = ", ".join(map(repr, forms))
+            raise InputError(f"it has the form {words['form']!r}, this version reads {known}")
         if words["sha256"] != checksum(arrays):
             raise InputError("its arrays do not have the checksum beside them")
         yield arrays, words

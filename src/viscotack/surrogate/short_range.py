@@ -18,71 +18,30 @@ other solids from fewer of them.
 
 from __future__ import annotations
 
-import os
-from dataclasses import dataclass, replace
-from functools import cache
-from pathlib import Path
-from typing import Any
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import gamma, kv
 
 from viscotack.arrays import Array
-from viscotack.errors import InputError
 
-from . import physics, sealed
-from .network import Networks, from_arrays
+from . import physics
+from .answers import Answers
+from .contact import Contact, Further
 
-SHIPPED = Path(__file__).with_name("short_range.npz")
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a
 # contact beta^2/R; and the rate over it, in these heights a time of the material.
-LOW, HIGH = np.array([10.0, 1e-4, 0.15]), np.array([1e6, 0.5, 2.0])
-STARTS, TIMES = (0.1, 1000.0), (1e-6, 1e6)
+LOW, HIGH = np.array([10.0, 1e-4, 0.15, 0.1, 1e-6]), np.array([1e6, 0.5, 2.0, 1000.0, 1e6])
+_ENDS = np.log10(LOW), np.log10(HIGH)
 # Of Gamma - 1, below which it says nothing.
 LEAST = 1e-3
 # The theory holds from an effective Tabor number of 2 and 1.5 zones on; so much above them the
 # networks may be off.
 _LEAST_TABOR, _LEAST_ZONES, _SLOW = 2.2, 1.8, 1.1
-_FORM, _MOST = "viscotack short range 1", 5e6
-_INPUTS = 10
 # Length of a zone in crossing times that tells most, halvings of its energy's logarithm, and the
 # largest energy's decades.
 _ZONE, _HALVINGS, _DECADES = 0.3, 25, 4.0
-
-
-def scaled(groups: Array) -> Array:
-    """Return the logarithms of what the theory depends on, from -1 to 1 over the range; (n, 5).
-
-    These are Tabor number, modulus ratio, exponent, and start and rate in units of the contact.
-    """
-    tabor = groups[:, physics.TABOR]
-    columns = np.column_stack(
-        [groups[:, :3], groups[:, physics.PRELOAD] / tabor, groups[:, physics.RATE] / tabor]
-    )
-    low = np.log10([*LOW, STARTS[0], TIMES[0]])
-    high = np.log10([*HIGH, STARTS[1], TIMES[1]])
-    return (2 * np.log10(columns) - (low + high)) / (high - low)
-
-
-def told(groups: Array) -> Array:
-    """Return what the networks are told of rows, shape (n, 10)."""
-    mu, k, _, depth, rate = groups.T
-    energy, most = crack_alone(groups), -np.log(k)
-    radius = np.sqrt(np.maximum(depth / mu, 1e-3))
-    with np.errstate(invalid="ignore", over="ignore"):
-        bulk = crept(groups, depth / rate)
-        pulled = crept(groups, np.exp(energy * 2 / 3) * mu / rate)
-    return np.column_stack(
-        [
-            scaled(groups),
-            2 * energy / most - 1,
-            2 * energy / (_DECADES * np.log(10)) - 1,
-            2 * np.log10(bulk) / _DECADES + 1,
-            2 * np.log10(pulled) / _DECADES + 1,
-            np.tanh(np.log10(radius) - energy / np.log(10) / 3 - 0.1),
-        ]
-    )
 
 
 def crept(groups: Array, time: Array) -> Array:
@@ -113,132 +72,66 @@ def crack_alone(groups: Array) -> Array:
     return low
 
 
-def limits(groups: Array) -> tuple[Array, Array]:
-    """Return log10 of the slowest and of the fastest pull-off force, each of shape (n,)."""
-    return physics.slow_limit(groups), physics.largest_fast_limit(groups)
+class ShortRangeContact(Contact):
+    """A sphere of a large Tabor number on a power law, as the theory of a crack at its edge has it.
 
-
-@dataclass(frozen=True, eq=False)
-class Said:
-    """What was learned says of some cases, arrays of shape (n,).
-
-    Attributes
-    ----------
-    pull_off_force : ndarray
-        [1.5 pi R dg0]
-    amplification : ndarray
-        Energy of the crack at the pull-off over the work of adhesion.
-    zones : ndarray
-        Way of the edge to the pull-off in zones of the crack.
-    effective : ndarray
-        Tabor number of an elastic contact whose zone is as large beside it.
+    Besides the force it says, as :attr:`.answers.Answers.more`, the ``amplification``, the energy
+    of the crack at the pull-off over the work of adhesion; ``zones``, the way of the edge to the
+    pull-off in zones of the crack; and ``effective``, the Tabor number of an elastic contact whose
+    zone is as large beside it. The constant ``error`` is the part of the force by which the
+    networks differ from the theory in 9 and in 98 of 100 cases of solids that they had not learned
+    from.
     """
 
-    pull_off_force: Array
-    amplification: Array
-    zones: Array
-    effective: Array
+    name, inputs, low, high, ends = "short range", physics.INPUTS, LOW, HIGH, _ENDS
+    shapes, sizes = {"force": (10, 1), "state": (10, 2)}, {"error": (2,)}
 
-
-@dataclass(frozen=True, eq=False)
-class ShortRange:
-    """Networks of the theory of a crack at the edge.
-
-    Attributes
-    ----------
-    force, state : Networks
-        Of the share between the limits; of energy and zones, scaled.
-    centre, spread : ndarray, shape (2,)
-        Of the logarithms of energy less one and of the zones.
-    error : ndarray, shape (2,)
-        Part of the force by which the networks differ from the theory in 9 and in 98 of 100 cases
-        of solids that they had not learned from.
-    """
-
-    force: Networks
-    state: Networks
-    centre: Array
-    spread: Array
-    error: Array
-
-    def evaluate(self, groups: Array) -> Said:
-        """Return what was learned of rows of groups; they are not checked to lie inside."""
-        inputs = told(groups)
-        force = 10 ** physics.between(*limits(groups), self.force(inputs)[..., 0]).mean(axis=0)
-        state = 10 ** (self.centre + self.spread * self.state(inputs)[0])
-        energy = np.clip(state[:, 0] - LEAST, 0.0, 1 / groups[:, physics.MODULUS_RATIO] - 1) + 1
-        return Said(force, energy, state[:, 1], groups[:, physics.TABOR] * energy ** (-1 / 3))
-
-    def inside(self, groups: Array) -> npt.NDArray[np.bool_]:
-        """Return which rows lie in the range, and where the theory has an answer, shape (n,)."""
-        found = self.in_range(groups)
-        if np.any(found):
-            found[found] = self.holds(self.evaluate(groups[found]))
+    @staticmethod
+    def unit(rows: Array) -> Array:
+        """Return the units of the ranges: Tabor numbers for start and rate."""
+        found = np.ones_like(rows)
+        found[:, physics.PRELOAD] = found[:, physics.RATE] = rows[:, physics.TABOR]
         return found
 
-    @staticmethod
-    def holds(said: Said) -> npt.NDArray[np.bool_]:
+    @cached_property
+    def slow(self) -> Array:
+        """log10 of the slowest pull-off force, shape (n,)."""
+        return physics.slow_limit(self.rows)
+
+    @cached_property
+    def fast(self) -> Array:
+        """log10 of the fastest pull-off force of a large contact, shape (n,)."""
+        return physics.largest_fast_limit(self.rows)
+
+    @cached_property
+    def told(self) -> Array:
+        """What the networks are told, shape (n, 10)."""
+        mu, k, _, depth, rate = self.rows.T
+        energy, most = crack_alone(self.rows), -np.log(k)
+        radius = np.sqrt(np.maximum(depth / mu, 1e-3))
+        with np.errstate(invalid="ignore", over="ignore"):
+            bulk = crept(self.rows, depth / rate)
+            pulled = crept(self.rows, np.exp(energy * 2 / 3) * mu / rate)
+        return np.column_stack(
+            [
+                self.scaled,
+                2 * energy / most - 1,
+                2 * energy / (_DECADES * np.log(10)) - 1,
+                2 * np.log10(bulk) / _DECADES + 1,
+                2 * np.log10(pulled) / _DECADES + 1,
+                np.tanh(np.log10(radius) - energy / np.log(10) / 3 - 0.1),
+            ]
+        )
+
+    def further(self, output: Array) -> Further:
+        """Return energy and zones at the pull-off."""
+        state = 10 ** self.networks["state"](self.told)[0]
+        most = 1 / self.rows[:, physics.MODULUS_RATIO] - 1
+        energy = np.clip(state[:, 0] - LEAST, 0.0, most) + 1
+        effective = self.rows[:, physics.TABOR] * energy ** (-1 / 3)
+        return Further(more={"amplification": energy, "zones": state[:, 1], "effective": effective})
+
+    def holds(self, said: Answers) -> npt.NDArray[np.bool_]:
         """Return where the theory has an answer, by what was learned of it, shape (n,)."""
-        steady = (said.zones >= _LEAST_ZONES) | (said.amplification <= _SLOW)
-        return steady & (said.effective >= _LEAST_TABOR)
-
-    @staticmethod
-    def in_range(groups: Array) -> npt.NDArray[np.bool_]:
-        """Return which rows lie in the range of the cases that were learned from, shape (n,)."""
-        with np.errstate(invalid="ignore"):
-            return np.all(np.abs(scaled(groups)) <= 1 + 1e-9, axis=1)
-
-
-def measured(made: ShortRange, groups: Array, said: Array) -> tuple[ShortRange, dict[str, Any]]:
-    """Return networks with their error on cases of other solids, and what they are worth.
-
-    Parameters
-    ----------
-    made : ShortRange
-        That has not learned from these cases.
-    groups : ndarray, shape (n, 5)
-    said : ndarray, shape (n, 4)
-        Force, amplification, zones and work by the theory.
-    """
-    found = made.evaluate(groups)
-    inside = made.inside(groups)
-    off = np.abs(found.pull_off_force / said[:, 0] - 1)[inside]
-    error = np.quantile(off, [0.9, 0.98])
-    scores = {
-        "cases": int(inside.sum()),
-        "mse_log10": float(np.mean(np.log10(found.pull_off_force / said[:, 0])[inside] ** 2)),
-        "median": float(np.median(off)),
-        "90 %": float(error[0]),
-        "98 %": float(error[1]),
-        "largest": float(off.max()),
-    }
-    return replace(made, error=error), scores
-
-
-def save(made: ShortRange, path: str | os.PathLike[str], facts: dict[str, Any]) -> None:
-    """Write networks with what is to be known of them."""
-    arrays: dict[str, Any] = made.force.arrays("force.") | made.state.arrays("state.")
-    arrays |= {name: getattr(made, name) for name in ("centre", "spread", "error")}
-    sealed.write(path, arrays, _FORM, facts)
-
-
-def load(path: str | os.PathLike[str]) -> tuple[ShortRange, dict[str, Any]]:
-    """Return the networks of a file, and what it says of them.
-
-    Raises
-    ------
-    ValueError
-        If the file is not one that :func:`save` wrote, or is damaged.
-    """
-    with sealed.opened(path, _FORM, "the file of a learned theory", _MOST) as (arrays, words):
-        force, state = from_arrays(arrays, "force."), from_arrays(arrays, "state.")
-        made = ShortRange(force, state, *(arrays[n] for n in ("centre", "spread", "error")))
-        if force.weights[0].shape[1] != _INPUTS or made.centre.shape != (2,):
-            raise InputError("its networks have other inputs")
-        return made, words
-
-
-@cache
-def shipped() -> ShortRange:
-    """Return the networks that come with the package, read once."""
-    return load(SHIPPED)[0]
+        steady = (said.more["zones"] >= _LEAST_ZONES) | (said.more["amplification"] <= _SLOW)
+        return steady & (said.more["effective"] >= _LEAST_TABOR)

@@ -1,37 +1,60 @@
 """A surrogate in a file: arrays in NPZ and words in JSON, no pickle."""
 
 import os
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from viscotack.errors import InputError
 
 from . import sealed
-from .model import Scaled, Surrogate
-from .network import from_arrays
-from .trust import CONFIDENCES, INPUTS, OF, Trust
+from .contact import Contact
+from .linear_solids import SolidContact
+from .model import Surrogate
+from .network import Networks, from_arrays
+from .physics import SphereContact
+from .punch_physics import PunchContact
+from .short_range import ShortRangeContact
+from .trust import CONFIDENCES, OF, Trust
 
-SHIPPED = Path(__file__).with_name("shipped.npz")
-_FORM = "viscotack surrogate 2"
-# Largest file that is taken [bytes unpacked]: the one that is shipped has half a megabyte.
-_MOST = 50e6
-# How many inputs each of the networks has.
-_INPUTS = {
-    "start": 2,
-    "fast": 3,
-    "force": 5,
-    "work": 9,
-    "give": 10,
-    "line": 10,
-    "trust": INPUTS,
+_FOLDER = Path(__file__).parent
+# Those of the package, by the names of their contacts.
+FILES = {
+    "sphere": _FOLDER / "shipped.npz",
+    "solids": _FOLDER / "solids.npz",
+    "punch": _FOLDER / "punch.npz",
+    "short range": _FOLDER / "short_range.npz",
 }
+SHIPPED = FILES["sphere"]
+_CONTACTS: dict[str, type[Contact]] = {
+    each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
+}
+_FORM = "viscotack surrogate 3"
+# Forms before it, each of one contact, and beginnings of names that were others in them.
+_BEFORE = {
+    "viscotack surrogate 2": ("sphere", {}),
+    "viscotack solids 2": ("solids", {"force.": "bend_force.", "work.": "bend_work."}),
+    "viscotack punch 1": ("punch", {"stress.": "force."}),
+    "viscotack short range 1": (
+        "short range",
+        {"centre": "state.centre", "spread": "state.spread"},
+    ),
+}
+# Largest file that is taken [bytes unpacked]: the largest that is shipped has less than one
+# megabyte.
+_MOST = 50e6
+Arrays = Mapping[str, npt.NDArray[Any]]
 
 
-def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, Any]) -> None:
+def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str, Any]) -> None:
     """Write a surrogate, and beside its arrays what is to be known of it.
+
+    Networks that a contact shares with the sphere on power laws are not in the file; it says which
+    they were.
 
     Parameters
     ----------
@@ -39,38 +62,46 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: dict[str, An
         What to write.
     path : path
         Ends in .npz.
-    facts : dict
+    facts : mapping
         How it was made and what it is worth; JSON.
     """
-    arrays: dict[str, Any] = {}
-    for name in ("start", "fast", "force", "work", "give", "line"):
-        arrays |= getattr(surrogate, name).arrays(f"{name}.")
-    trust = surrogate.trust
-    arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
-    sealed.write(path, arrays, _FORM, facts)
+    contact, trust = surrogate.contact, surrogate.trust
+    arrays: dict[str, Any] = dict(surrogate.constants)
+    for name, networks in surrogate.networks.items():
+        if name not in contact.shared:
+            arrays |= networks.arrays(f"{name}.")
+    if trust is not None:
+        arrays |= trust.reach.arrays("trust.") | {"trust.levels": trust.levels}
+    words = {"contact": contact.name, **facts}
+    if contact.shared:
+        words["power law"] = _checksum(surrogate.networks, contact.shared)
+    sealed.write(path, arrays, _FORM, words)
 
 
 def load(path: str | os.PathLike[str]) -> Surrogate:
-    """Return the surrogate of a file.
+    """Return the surrogate of a file, of whatever contact.
 
     Raises
     ------
     ValueError
-        If the file is not one that :func:`save` wrote, or is damaged.
+        If the file is not one that :func:`save` wrote, is damaged, or goes with another surrogate
+        of power laws than that of the package.
     """
     return _read(path)[0]
 
 
 @cache
-def shipped() -> Surrogate:
-    """Return the surrogate that comes with the package, read once.
+def shipped(contact: str = "sphere") -> Surrogate:
+    """Return the surrogate of a contact that comes with the package, read once.
 
     Examples
     --------
     >>> shipped().limits["tabor"]
     (0.01, 10.0)
+    >>> shipped("punch").contact.inputs
+    ('size', 'thickness', 'modulus_ratio', 'preload', 'rate')
     """
-    return load(SHIPPED)
+    return load(FILES[contact])
 
 
 def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
@@ -79,42 +110,82 @@ def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
 
 
 def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
-    with sealed.opened(path, _FORM, "the file of a surrogate", _MOST) as (arrays, words):
-        _check(arrays)
-        scaled = {name: Scaled.of(arrays, f"{name}.") for name in ("start", "work", "give", "line")}
-        trust = Trust(from_arrays(arrays, "trust."), arrays["trust.levels"])
-        fast, force = from_arrays(arrays, "fast."), from_arrays(arrays, "force.")
-        return Surrogate(fast=fast, force=force, trust=trust, **scaled), words
+    with sealed.opened(path, (_FORM, *_BEFORE), "the file of a surrogate", _MOST) as (found, words):
+        arrays, words = _upgraded(found, words)
+        contact = _CONTACTS[words["contact"]]
+        _check_numbers(arrays)
+        networks = {n: from_arrays(arrays, f"{n}.") for n in contact.shapes}
+        for name, each in networks.items():
+            _check_layers(name, each, *contact.shapes[name])
+        trust = None
+        if reach := networks.pop("trust", None):
+            trust = Trust(reach, arrays["trust.levels"])
+            _check_shape("trust.levels", trust.levels, (len(OF), len(CONFIDENCES)))
+        constants = {name: arrays[name] for name in contact.sizes}
+        for name, shape in contact.sizes.items():
+            _check_shape(name, constants[name], shape)
+        _check_members(contact, networks)
+        if contact.shared:
+            whole = shipped().networks
+            if words["power law"] != _checksum(whole, contact.shared):
+                raise InputError("it corrects another surrogate of power laws; learn it again")
+            networks |= {name: whole[name] for name in contact.shared}
+        return Surrogate(contact, networks, trust, constants), words
 
 
-def _check(arrays: dict[str, np.ndarray]) -> None:
-    """Refuse arrays that do not fit to one another, or are not finite numbers."""
+def _upgraded(arrays: Arrays, words: dict[str, Any]) -> tuple[Arrays, dict[str, Any]]:
+    """Return arrays and words of a file of any form under the names of today."""
+    if words["form"] == _FORM:
+        return arrays, words
+    contact, renamed = _BEFORE[words["form"]]
+
+    def name(old: str) -> str:
+        begin = next((each for each in renamed if old.startswith(each)), "")
+        return renamed.get(begin, "") + old.removeprefix(begin)
+
+    return {name(old): each for old, each in arrays.items()}, {**words, "contact": contact}
+
+
+def _checksum(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:
+    """Return the checksum of some networks; intervals are apart."""
+    arrays: dict[str, Any] = {}
+    for name in names:
+        arrays |= networks[name].arrays(f"{name}.")
+    return sealed.checksum(arrays)
+
+
+def _check_numbers(arrays: Arrays) -> None:
     for name, array in arrays.items():
         if array.dtype.kind != "f" or not np.all(np.isfinite(array)):
             raise InputError(f"{name} must be finite numbers")
-    for name, inputs in _INPUTS.items():
-        networks = from_arrays(arrays, f"{name}.")
-        if not networks.weights:
-            raise InputError(f"it has no layers of {name}")
-        width, count = inputs, len(networks.weights[0])
-        for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
-            shape = (count, width, weight.shape[-1])
-            if weight.shape != shape or bias.shape != (count, 1, shape[-1]):
-                raise InputError(
-                    f"layer {i} of {name} must have the shape {shape}, got {weight.shape} with "
-                    f"biases {bias.shape}"
-                )
-            width = shape[-1]
-        for part in ("centre", "spread"):
-            scale = arrays.get(f"{name}.{part}")
-            if scale is not None and np.broadcast_shapes(scale.shape, (width,)) != (width,):
-                raise InputError(f"{name}.{part} must have {width} numbers, got {scale.shape}")
-    levels, wanted = arrays["trust.levels"], (len(OF), len(CONFIDENCES))
-    if levels.shape != wanted:
-        raise InputError(f"trust.levels must have the shape {wanted}, got {levels.shape}")
-    members = {name: len(arrays[f"{name}.weight.0"]) for name in ("fast", "force")}
-    if members["fast"] not in (1, members["force"]):
-        raise InputError(
-            f"it has {members['fast']} networks of the fast limit for {members['force']} of the "
-            "force; give one, or one for each"
-        )
+
+
+def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> None:
+    """Refuse layers that do not lead from so many inputs to so many outputs."""
+    if not networks.weights:
+        raise InputError(f"it has no layers of {name}")
+    width, count = inputs, len(networks.weights[0])
+    for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
+        _check_shape(f"layer {i} of {name}", weight, (count, width, weight.shape[-1]))
+        _check_shape(f"biases of layer {i} of {name}", bias, (count, 1, weight.shape[-1]))
+        width = weight.shape[-1]
+    if width != outputs:
+        raise InputError(f"layers of {name} lead from {inputs} inputs to {width}, not {outputs}")
+    for part, scale in (("centre", networks.centre), ("spread", networks.spread)):
+        if scale is not None:
+            _check_shape(f"{name}.{part}", scale, (outputs,))
+
+
+def _check_members(contact: type[Contact], networks: Mapping[str, Networks]) -> None:
+    for name in contact.limiting:
+        count, wanted = (len(networks[n].weights[0]) for n in (name, "force"))
+        if count not in (1, wanted):
+            raise InputError(
+                f"it has {count} networks of the {name} limit for {wanted} of the force; give one, "
+                "or one for each"
+            )
+
+
+def _check_shape(name: str, array: npt.NDArray[Any], wanted: tuple[int, ...]) -> None:
+    if array.shape != wanted:
+        raise InputError(f"{name} must have the shape {wanted}, got {array.shape}")

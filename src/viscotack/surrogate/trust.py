@@ -16,15 +16,14 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from . import physics
 from .answers import Answers, Intervals
 from .network import Networks
 
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
-# What the network says of, and how many inputs it has: the groups, how near they are to ends of
+# What the network says of, and how many inputs it has: five groups, how near they are to ends of
 # their ranges, the spreads of two answers, and where between its limits the force is, and how
 # steep.
-OF, INPUTS = ("force", "work", "curve", "travel"), len(physics.INPUTS) + 5
+OF, INPUTS = ("force", "work", "curve", "travel"), 10
 # How far from an end an input counts as near it, in halves of its range.
 _NEAR = 0.03
 # Spreads of log10 below this tell nothing more, and their logarithms are of order one.
@@ -50,7 +49,7 @@ def error_inputs(scaled: Array, answers: Answers) -> Array:
     apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
     # beyond a face there is no row, and networks know less of what is there
     near = np.exp((np.abs(scaled) - 1) / _NEAR)
-    faces = sum(near[:, i] for i in range(1, len(physics.INPUTS))) + near[:, 0]
+    faces = sum(near[:, i] for i in range(1, scaled.shape[1])) + near[:, 0]
     share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
     climb = np.log10(np.maximum(share * (1 - share) * answers.way, _LEAST_SHARE)) / 3 + 1
     place = np.log(share / (1 - share)) / 5

@@ -244,15 +244,10 @@ def _columns(graph: Graph, parts: Sequence[Any]) -> Traced:
     return graph.apply("Concat", blocks, np.hstack([b.value for b in blocks]), axis=1)
 
 
-def _searchsorted(graph: Graph, edges: Sequence[float], x: Traced) -> Any:
-    return sum(astype(graph, x > edge, np.dtype(np.int64)) for edge in edges)
-
-
 _FUNCTIONS: dict[Any, Callable[..., Any]] = {
     np.where: _where,
     np.clip: _clip,
     np.column_stack: _columns,
     np.hstack: _columns,
-    np.searchsorted: _searchsorted,
     np.ndim: lambda graph, x: x.ndim,
 }

@@ -18,25 +18,21 @@ from typing import Any
 
 import numpy as np
 
-from .. import physics
-from ..answers import Answers
+from viscotack.arrays import Array
+
 from ..model import Surrogate
 from ..network import together
-from ..physics import Array
-from ..trust import CONFIDENCES, OF, Trust, error_inputs
-from .fitting import Fit, Task
+from ..trust import CONFIDENCES, OF, Trust
+from .fitting import Fit, Fits, Task
 from .rows import Rows
 from .scores import curve_errors, travel_errors
-from .shop import Shop
 
 # The part of the errors that a network of their reach is to hold: the far ones decide, for where
 # errors are as large as elsewhere in the median their tails may be longer. And smaller errors than
 # those of the rows themselves [log10, log10, part of the pull-off force, log10], not worth telling.
 REACH, LEAST = 0.98, np.array([5e-5, 1e-4, 3e-4, 1e-4])
 # How many times a row counts that was kept apart, in learning how far errors reach.
-_WEIGHT = 8.0
-# Networks for each half of these rows: one alone errs by chance in places.
-_MEMBERS = 2
+WEIGHT = 8.0
 HOW = Fit(hidden=(24, 24), steps=700, scale=1.0, penalty=3e-5)
 
 
@@ -61,42 +57,40 @@ class Apart:
         return Apart(**{f.name: getattr(self, f.name)[which] for f in fields(self)})
 
 
-def judged(surrogate: Surrogate, rows: Rows) -> Apart:
-    """Return how far a surrogate is off on some rows."""
-    said = surrogate.evaluate(rows.groups)
-    inputs = error_inputs(physics.scaled(rows.groups), said)
-    return Apart(inputs, errors_of(surrogate, rows, said))
-
-
-def errors_of(asked: Any, rows: Rows, said: Answers) -> Array:
-    """Return how far answers and the curves that go with them are off, as :class:`Apart` has it.
+def judged(surrogate: Surrogate, rows: Rows, given: Any = None) -> Apart:
+    """Return how far a surrogate is off on some rows.
 
     Parameters
     ----------
-    asked : Surrogate or PunchSurrogate
-        Whose curves they are.
+    surrogate : Surrogate
+        Whose answers and curves they are.
     rows : Rows
         What was simulated.
-    said : Answers
-        To these rows.
+    given : optional
+        What the surrogate is asked; the groups of the rows if left out.
     """
+    tests = surrogate.tests(rows.groups if given is None else given)
+    said = surrogate.evaluate(tests)
+    found = surrogate.curves(tests, said)
     errors = (
         np.log10(said.pull_off_force / rows.force),
         np.log10(said.work_to_pull_off / rows.work),
-        np.nanmax(np.abs(curve_errors(asked, rows, said)), axis=1),
-        travel_errors(asked, rows, said),
+        np.nanmax(np.abs(curve_errors(found, rows)), axis=1),
+        travel_errors(found, rows),
     )
-    return np.column_stack(errors)
+    return Apart(tests.told_of_errors(said), np.column_stack(errors))
 
 
 def trusted(
     surrogate: Surrogate,
     learned: Apart,
     kept: Sequence[Apart],
-    hard: Apart,
-    shop: Shop,
+    fits: Fits,
     *,
+    hard: Sequence[Apart] = (),
     how: Fit = HOW,
+    weight: float = WEIGHT,
+    seeds: tuple[Sequence[int], Sequence[int]] = ((0,), (1,)),
 ) -> Surrogate:
     """Return a surrogate with intervals.
 
@@ -108,20 +102,23 @@ def trusted(
         Of rows that it learned from.
     kept : sequence of Apart
         Of others, a set each for which intervals are to hold.
-    hard : Apart
+    fits : callable
+        Fits networks.
+    hard : sequence of Apart
         Of others, that were sought where errors are large: they tell how far errors reach there,
         and nothing of how often.
-    shop : Shop
-        Where networks are fitted.
     how : Fit
         Of the networks of the reach.
+    weight : float
+        How many times a row counts that was kept apart.
+    seeds : pair of sequences of int
+        Of the networks that learn from each half of the rows kept apart.
     """
     halves = [[one.chosen(np.arange(len(one.told)) % 2 == half) for one in kept] for half in (0, 1)]
-    begun = [
-        [shop.fit(reach_task(learned, [*half, hard]), how, seed=seed) for seed in range(_MEMBERS)]
-        for half in halves
-    ]
-    members = [together([one.result() for one in several]) for several in begun]
+    tasks = [reach_task(learned, [*half, *hard], weight=weight) for half in halves]
+    jobs = [(task, how, seed) for task, some in zip(tasks, seeds, strict=True) for seed in some]
+    found, first = fits(jobs), len(seeds[0])
+    members = [together(some) for some in (found[:first], found[first:])]
     of_each = [
         [scored(Trust(one, untested()), some) for some in half]
         for one, half in zip(members, halves[::-1], strict=True)
@@ -130,7 +127,7 @@ def trusted(
     return replace(surrogate, trust=Trust(together(members), np.max(levels, axis=0)))
 
 
-def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = _WEIGHT) -> Task:
+def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = WEIGHT) -> Task:
     """Return the task to learn how far errors reach, from rows kept apart by so much more."""
     inputs = np.concatenate([one.told for one in (learned, *kept)])
     error = np.concatenate([one.error for one in (learned, *kept)])
@@ -144,21 +141,6 @@ def reach_task(learned: Apart, kept: Sequence[Apart], *, weight: float = _WEIGHT
 def untested() -> Array:
     """Return levels of one, before any case has measured them."""
     return np.ones((len(OF), len(CONFIDENCES)))
-
-
-def measured(trust: Trust, apart: Apart) -> Trust:
-    """Return a trust whose levels hold the wanted shares of some rows.
-
-    Examples
-    --------
-    >>> from viscotack.surrogate.store import shipped
-    >>> from viscotack.surrogate.training.rows import read
-    >>> apart = judged(shipped(), read("chosen").chosen(slice(None, 200)))
-    >>> levels = measured(shipped().trust, apart).levels
-    >>> bool(np.all(np.diff(levels, axis=1) >= 0))
-    True
-    """
-    return replace(trust, levels=levels_of(scored(replace(trust, levels=untested()), apart)))
 
 
 def scored(trust: Trust, apart: Apart) -> Array:
@@ -183,3 +165,28 @@ def covers(trust: Trust, apart: Apart, *, confidence: float = 0.9) -> Array:
     widths = np.column_stack(trust.widths(apart.told, confidence))
     held = np.abs(apart.error) <= widths
     return np.where(np.isfinite(apart.error), held, np.nan)
+
+
+def worth(surrogate: Surrogate, apart: Apart, *, confidence: float = 0.9) -> dict[str, Any]:
+    """Return what answers and intervals are worth on rows not learned from, ready for JSON.
+
+    Errors of curves are parts of the pull-off force, the others parts of the number itself.
+    """
+    assert surrogate.trust is not None, "intervals are measured first"
+    widths = np.column_stack(surrogate.trust.widths(apart.told, confidence))
+    answer: dict[str, Any] = {"rows": len(apart.told)}
+    for i, name in enumerate(OF):
+        known = np.isfinite(apart.error[:, i])
+        log, width = np.abs(apart.error[known, i]), widths[known, i]
+        part, half = (log, width) if name == "curve" else (10**log - 1, 10**width - 1)
+        answer[name] = {
+            "mse_log10": None if name == "curve" else float(np.mean(log**2)),
+            "median": float(np.median(part)),
+            "90 %": float(np.quantile(part, 0.9)),
+            "95 %": float(np.quantile(part, 0.95)),
+            "largest": float(part.max()),
+            "cover": float(np.mean(log <= width)),
+            "half width": float(np.median(half)),
+            "worst, half widths": float(np.max(log / width)),
+        }
+    return answer

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +14,7 @@ from threadpoolctl import threadpool_limits
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .. import physics
+from .. import contact
 from ..network import Networks
 
 # How many steps the curvature is remembered for.
@@ -55,7 +56,7 @@ class Task:
     weight : ndarray, shape (n, outputs)
         Of the squared errors.
     between : tuple of two ndarrays of shape (n,), or None
-        Limits between which the single target lies, see ``physics.between``; None for outputs that
+        Limits between which the single target lies, see ``contact.between``; None for outputs that
         are the target.
     before : ndarray, shape (n, outputs), or None
         What networks fitted before say; this one learns what to add to it.
@@ -78,7 +79,16 @@ class Task:
     factors: Array | None = None
 
 
-def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Networks:
+# Fits networks of tasks, as told, from seeds: here or in other processes.
+Fits = Callable[[Sequence[tuple[Task, Fit, int]]], list[Networks]]
+
+
+def fit_all(jobs: Sequence[tuple[Task, Fit, int]]) -> list[Networks]:
+    """Return the networks of several tasks, fitted one after the other."""
+    return [fit(task, how, seed=seed) for task, how, seed in jobs]
+
+
+def fit(task: Task, how: Fit, *, seed: int) -> Networks:
     """Return one network that has learned a task.
 
     Parameters
@@ -89,8 +99,6 @@ def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Ne
         Size, steps, penalty.
     seed : int
         Of the weights to begin with.
-    first : Networks, optional
-        One network of that size to go on from, in place of random weights.
 
     Raises
     ------
@@ -123,9 +131,9 @@ def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Ne
         if task.between is None:
             return out
         low, high = (jnp.asarray(a)[:, None] for a in task.between)
-        # physics.between, in the words of JAX
-        way = jnp.maximum(high - low, physics.LEAST_WAY)
-        return low + way * jax.nn.sigmoid(physics.STEEP * out)
+        # contact.between, in the words of JAX
+        way = jnp.maximum(high - low, contact.LEAST_WAY)
+        return low + way * jax.nn.sigmoid(contact.STEEP * out)
 
     def loss(v: Any) -> Any:
         layers = parts(v)
@@ -153,8 +161,7 @@ def fit(task: Task, how: Fit, *, seed: int, first: Networks | None = None) -> Ne
     }
     # sums of several threads come in another order, and steps go another way
     with threadpool_limits(1):
-        begun = _first(sizes, seed) if first is None else _as_vector(first)
-        found = minimize(evaluate, begun, jac=True, method="L-BFGS-B", options=limits)
+        found = minimize(evaluate, _first(sizes, seed), jac=True, method="L-BFGS-B", options=limits)
     if not np.isfinite(found.fun):
         raise InputError(
             "what is to be learned is not finite everywhere; look for gaps in the rows"
@@ -171,12 +178,6 @@ def _first(sizes: tuple[int, ...], seed: int) -> Array:
     for a, b in zip(sizes[:-1], sizes[1:], strict=True):
         values += [random.normal(size=a * b) / np.sqrt(a), random.uniform(-0.5, 0.5, size=b)]
     return np.concatenate(values)
-
-
-def _as_vector(network: Networks) -> Array:
-    """Return weights and biases of one network in the order in which they are fitted."""
-    pairs = zip(network.weights, network.biases, strict=True)
-    return np.concatenate([a[0].ravel() for pair in pairs for a in pair])
 
 
 def _jax() -> Any:

@@ -10,7 +10,7 @@ least squares of the forces of 974 rows of `solids`; 1,700 rows gave none better
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,8 +31,9 @@ from ..alike import (
     crept,
     left,
 )
+from ..contact import share
 from ..linear_solids import WIDEST, begin_inputs, bell
-from ..model import Scaled
+from ..network import Networks
 from .fitting import Fit, Task, fit
 
 Tests = tuple[Array, Array, Array]
@@ -82,12 +83,12 @@ class Sought:
 
 def first(tests: Tests, creep: Array) -> Alike:
     """Return the power laws that solids are like with the bell that is the same for all."""
-    k, share = tests[1], climbed(tests[1], creep)
+    k, climb = tests[1], climbed(tests[1], creep)
     ln_n, rate = (x.ravel() for x in np.meshgrid(np.log(_EXPONENTS), _RATES, indexing="ij"))
     part = np.exp(crept(ln_n, rate)[0])
     best = np.empty(len(k), dtype=int)
     for i, ratio in enumerate(k):
-        over = np.log(ratio + (1 - ratio) * part) / np.log(ratio) - share[i]
+        over = np.log(ratio + (1 - ratio) * part) / np.log(ratio) - climb[i]
         best[i] = np.argmin(over**2 @ PLAIN + DOUBTS[1] * (ln_n - USUAL) ** 2)
     begun = np.column_stack([np.log(k), ln_n[best], rate[best]])
     return alike(tests, creep, begun, np.broadcast_to(PLAIN, creep.shape), enough=_ENOUGH)
@@ -102,7 +103,7 @@ def sought(tests: Tests, creep: Array) -> Sought:
     return Sought(found, np.column_stack([_numbers(found), said]))
 
 
-def begin(*, how: Fit = HOW, thinned: int = 1) -> Scaled:
+def begin(*, how: Fit = HOW, thinned: int = 1) -> Networks:
     """Return the network that says where a search begins, and which samples count.
 
     Parameters
@@ -121,7 +122,7 @@ def begin(*, how: Fit = HOW, thinned: int = 1) -> Scaled:
     weight = np.column_stack([weight, np.ones_like(weight)])
     target = (found.said - _ABOUT) / _SPREAD
     network = fit(Task(begin_inputs(tests, creep), target, weight), how, seed=0)
-    return Scaled(network, _ABOUT, _SPREAD)
+    return replace(network, centre=_ABOUT, spread=_SPREAD)
 
 
 def made_up(solids: int, power_laws: int) -> tuple[Tests, Array]:
@@ -152,7 +153,7 @@ def _numbers(like: Alike) -> Array:
 def _features(before: Alike) -> Array:
     """Return what the bell depends on, of order one, shape (n, 6)."""
     groups = before.groups
-    said = store.shipped().force(physics.scaled(groups))[..., 0].mean(axis=0)
+    said = store.shipped().networks["force"](physics.scaled(groups))[..., 0].mean(axis=0)
     mu, k, n, depth, _ = groups.T
     return np.column_stack(
         [
@@ -160,7 +161,7 @@ def _features(before: Alike) -> Array:
             np.log10(mu) / 1.5 + 1 / 3,
             (np.log10(depth) - 0.2) / 2.5,
             (np.log10(k) + 2) / 2,
-            2 * physics.share(said) - 1,
+            2 * share(said) - 1,
             np.log(n),
         ]
     )

@@ -1,15 +1,15 @@
-"""A surrogate from rows: which network learns what, and in which order."""
+"""The surrogate of a sphere from rows: which network learns what, and in which order."""
 
+from collections.abc import Mapping
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import line, physics
-from ..model import Scaled, Surrogate
+from ..model import Surrogate
 from ..network import Networks, together
-from ..physics import Array
-from ..trust import CONFIDENCES, INPUTS, OF, Trust
+from ..physics import Array, SphereContact
 from .fitting import Fit, Task
 from .rows import Rows
 from .shop import Shop
@@ -50,138 +50,142 @@ QUICK = Recipe(
 
 
 @dataclass(frozen=True, eq=False)
-class Limits:
-    """What the other networks stand on: the relaxed start, and the fast limit."""
+class Scaled:
+    """A task whose targets are of order one, and what they stand for.
 
-    start: Scaled
-    fast: Networks
+    Attributes
+    ----------
+    task : Task
+    centre, spread : ndarray, shape (outputs,)
+        As :class:`..network.Networks` have them.
+    """
+
+    task: Task
+    centre: Array
+    spread: Array
+
+    def of(self, networks: Networks) -> Networks:
+        """Return networks that learned the task, in the units of the targets."""
+        return replace(networks, centre=self.centre, spread=self.spread)
 
 
-def learn_limits(rows: Rows, fast: Rows, recipe: Recipe, shop: Shop) -> Limits:
-    """Return networks of the relaxed start, from rows, and of the fast limit, from the set of it.
+def scaled_task(inputs: Array, target: Array, known: Array | None = None) -> Scaled:
+    """Return the task to learn targets, each scaled by its mean and deviation."""
+    known = np.ones_like(target) if known is None else known
+    count = known.sum(axis=0)
+    centre = (known * target).sum(axis=0) / count
+    spread = np.sqrt((known * (target - centre) ** 2).sum(axis=0) / count)
+    spread = np.maximum(spread, _LEAST_SPREAD)
+    return Scaled(Task(inputs, (target - centre) / spread, known), centre, spread)
+
+
+def learn_limits(rows: Rows, fast: Rows, recipe: Recipe, shop: Shop) -> Surrogate:
+    """Return a surrogate of the relaxed start, from rows, and the fast limit, from the set of it.
 
     Both depend on two and three of the inputs only. They are known in cells and bands that other
     networks are judged on: what is told there is the way between the limits.
     """
-    target = np.column_stack(
-        [physics.start_output(rows.groups, rows.start_force), np.log10(rows.start_radius)]
-    )
-    task, centre, spread = scaled_task(physics.scaled(rows.groups)[:, physics.START], target)
-    starting, limiting = shop.fit(task, recipe.limits), shop.fit(_fast(fast), recipe.limits)
-    return Limits(Scaled(starting.result(), centre, spread), limiting.result())
+    begun = start_task(rows)
+    starting = shop.fit(begun.task, recipe.limits)
+    limiting = shop.fit(fast_task(fast), recipe.limits)
+    networks = {"start": begun.of(starting.result()), "fast": limiting.result()}
+    return Surrogate(SphereContact, networks)
 
 
 @dataclass(frozen=True, eq=False)
 class Pending:
     """A surrogate whose networks are being fitted."""
 
-    limits: Limits
+    limits: Surrogate
     forces: list[Future[Networks]]
-    works: list[Future[Networks]]
-    gives: list[Future[Networks]]
-    line: Future[Networks]
-    scales: tuple[tuple[Array, Array], tuple[Array, Array], tuple[Array, Array]]
+    others: Mapping[str, tuple[Scaled, list[Future[Networks]]]]
 
     def surrogate(self) -> Surrogate:
         """Return it when all are done; its intervals have not been measured yet."""
-        work, give, shapes = self.scales
-        return Surrogate(
-            start=self.limits.start,
-            fast=self.limits.fast,
-            force=_all(self.forces),
-            work=Scaled(_all(self.works), *work),
-            give=Scaled(_all(self.gives), *give),
-            line=Scaled(self.line.result(), *shapes),
-            trust=untested(),
-        )
+        others = {name: task.of(_all(begun)) for name, (task, begun) in self.others.items()}
+        return self.limits.having(force=_all(self.forces), **others)
 
 
-def learn(
-    rows: Rows, limits: Limits, recipe: Recipe, shop: Shop, *, curves: Recipe | None = None
-) -> Pending:
+def learn(rows: Rows, limits: Surrogate, recipe: Recipe, shop: Shop) -> Pending:
     """Begin to learn force, work and curves of rows.
 
     Parameters
     ----------
     rows : Rows
         What is learned from.
-    limits : Limits
+    limits : Surrogate
         What it stands on.
     recipe : Recipe
         Sizes and steps.
     shop : Shop
         Where networks are fitted.
-    curves : Recipe, optional
-        Another recipe for the curves, where they are not to be judged.
     """
     forces = begin_forces(rows, limits, recipe.force, shop, members=recipe.members)
-    task, *of_work = work_task(rows)
-    works = [shop.fit(task, recipe.work, seed=i) for i in range(recipe.members)]
-    curves = curves or recipe
-    task, *of_give = give_task(rows.chosen(rows.start_force > 0))
-    gives = [shop.fit(task, curves.work, seed=i) for i in range(curves.members)]
-    task, *of_line = _line(rows)
-    shapes = shop.fit(task, curves.line)
-    (a, b), (c, d), (e, f) = of_work, of_give, of_line
-    return Pending(limits, forces, works, gives, shapes, ((a, b), (c, d), (e, f)))
+    pressed = rows.chosen(rows.start_force > 0)
+    assert rows.line.shape[1] == line.OUTPUTS
+    tasks = {
+        "work": (work_task(rows), recipe.work, recipe.members),
+        "give": (give_task(pressed), recipe.work, recipe.members),
+        "line": (scaled_task(_told(rows), rows.line, rows.known), recipe.line, 1),
+    }
+    others = {
+        name: (each, [shop.fit(each.task, how, seed=i) for i in range(members)])
+        for name, (each, how, members) in tasks.items()
+    }
+    return Pending(limits, forces, others)
 
 
 def begin_forces(
-    rows: Rows, limits: Limits, how: Fit, shop: Shop, *, members: int = 1
+    rows: Rows, limits: Surrogate, how: Fit, shop: Shop, *, members: int = 1
 ) -> list[Future[Networks]]:
     """Begin to learn the force alone."""
-    target = np.log10(rows.force)[:, None]
-    slow, high = physics.way(rows.groups, limits.fast)
-    task = Task(physics.scaled(rows.groups), target, np.ones_like(target), (slow, high[0]))
+    task = force_task(rows, limits)
     return [shop.fit(task, how, seed=i) for i in range(members)]
-
-
-def untested(inputs: int = INPUTS) -> Trust:
-    """Return intervals of one width everywhere, before any case has measured them."""
-    flat = Networks((np.zeros((1, inputs, len(OF))),), (np.zeros((1, 1, len(OF))),))
-    return Trust(reach=flat, levels=np.ones((len(OF), len(CONFIDENCES))))
 
 
 def _all(futures: list[Future[Networks]]) -> Networks:
     return together([future.result() for future in futures])
 
 
-def scaled_task(
-    inputs: Array, target: Array, known: Array | None = None
-) -> tuple[Task, Array, Array]:
-    """Return the task to learn scaled targets, and centre and spread of each."""
-    known = np.ones_like(target) if known is None else known
-    count = known.sum(axis=0)
-    centre = (known * target).sum(axis=0) / count
-    spread = np.sqrt((known * (target - centre) ** 2).sum(axis=0) / count)
-    spread = np.maximum(spread, _LEAST_SPREAD)
-    return Task(inputs, (target - centre) / spread, known), centre, spread
+# Tasks ---------------------------------------------------------------------------------------
 
 
-def _fast(fast: Rows) -> Task:
+def force_task(rows: Rows, limits: Surrogate) -> Task:
+    """Return the task to learn the force between limits, the fast one of the first network."""
+    tests, target = limits.tests(rows.groups), np.log10(rows.force)[:, None]
+    return Task(tests.told, target, np.ones_like(target), (tests.slow, tests.fast[0]))
+
+
+def fast_task(fast: Rows) -> Task:
+    """Return the task to learn the fast limit."""
     limits = physics.slow_limit(fast.groups), physics.largest_fast_limit(fast.groups)
     target = np.log10(fast.force)[:, None]
     inputs = physics.scaled(fast.groups)[:, physics.FAST]
     return Task(inputs, target, np.ones_like(target), limits)
 
 
-def work_task(rows: Rows) -> tuple[Task, Array, Array]:
-    """Return the task to learn work over force, and centre and spread of its target."""
+def start_task(rows: Rows) -> Scaled:
+    """Return the task to learn force and log10 of the radius of relaxed starts."""
+    force, radius = physics.start_output(rows.groups, rows.start_force), np.log10(rows.start_radius)
+    inputs = physics.scaled(rows.groups)[:, physics.START]
+    return scaled_task(inputs, np.column_stack([force, radius]))
+
+
+def work_task(rows: Rows) -> Scaled:
+    """Return the task to learn work over force."""
     force = np.log10(rows.force)
-    told = physics.with_start(rows.groups, rows.start_force, rows.start_radius, force)
-    return scaled_task(told, (np.log10(rows.work) - force)[:, None])
+    return scaled_task(_knowing(rows, force), (np.log10(rows.work) - force)[:, None])
 
 
-def give_task(rows: Rows) -> tuple[Task, Array, Array]:
+def give_task(rows: Rows) -> Scaled:
     """Return the task to learn the travel to zero force of pressed starts, as `rows` have it."""
     return scaled_task(_told(rows), np.log10(rows.give)[:, None])
 
 
-def _line(rows: Rows) -> tuple[Task, Array, Array]:
-    assert rows.line.shape[1] == line.OUTPUTS
-    return scaled_task(_told(rows), rows.line, rows.known)
-
-
 def _told(rows: Rows) -> Array:
-    logs = np.log10(rows.force), np.log10(rows.work)
-    return physics.with_start(rows.groups, rows.start_force, rows.start_radius, *logs)
+    return _knowing(rows, np.log10(rows.force), np.log10(rows.work))
+
+
+def _knowing(rows: Rows, *logarithms: Array) -> Array:
+    inputs = physics.scaled(rows.groups)
+    return physics.with_start(inputs, rows.start_force, rows.start_radius, *logarithms)

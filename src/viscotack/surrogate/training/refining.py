@@ -1,25 +1,26 @@
-"""A second look: networks that learn what those of a rough surrogate leave over.
+"""A second look: networks that learn what others leave over.
 
 A network fitted to its end leaves smooth errors of a tenth of a percent, many times what the rows
 are uncertain by, and more steps or nodes hardly change it. A second one that learns the errors of
 the first, magnified, halves them in a fraction of the steps; its hidden layers stand beside those
-of the first, so that both are one network when they are asked. Fast limit and relaxed start, which
-were one network each, get members of their own here: the spread of the answers counts their doubt
-too. Work, and the travel to zero force, are looked at again in the same way.
+of the first, so that both are one network when they are asked. Of a sphere, fast limit and relaxed
+start, which were one network each, get members of their own here: the spread of the answers counts
+their doubt too. Work, and the travel to zero force, are looked at again in the same way.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .. import physics
-from ..model import Scaled, Surrogate
+from ..model import Surrogate
 from ..network import Networks, added, single, together
 from .fitting import Fit, Task
-from .recipe import give_task, work_task
+from .recipe import fast_task, force_task, give_task, work_task
 from .rows import Rows
 from .shop import Shop
 
@@ -40,9 +41,43 @@ class Stage:
     gain: float
 
 
+@dataclass(frozen=True, eq=False)
+class Begun:
+    """A network, and the one that is being fitted to what it leaves over."""
+
+    first: Networks
+    second: Future[Networks]
+
+    def done(self) -> Networks:
+        """Return both as one when the second is done."""
+        return added(self.first, self.second.result())
+
+
+def again(first: Networks, task: Task, stage: Stage, shop: Shop, seed: int) -> Begun:
+    """Begin to learn what one network leaves over of a task."""
+    left = replace(task, before=first.plain(task.inputs)[0], gain=stage.gain)
+    return Begun(first, shop.fit(left, stage.fit, seed=seed))
+
+
+def all_done(begun: Sequence[Begun]) -> Networks:
+    """Return several networks as one object when they are done."""
+    return together([one.done() for one in begun])
+
+
+def twice(tasks: Sequence[Task], first: Fit, second: Stage, shop: Shop) -> Callable[[], Networks]:
+    """Begin to learn tasks, a network each; what is returned waits, and looks at each again."""
+    begun = [shop.fit(task, first, seed=i) for i, task in enumerate(tasks)]
+
+    def done() -> Networks:
+        firsts = zip(tasks, [one.result() for one in begun], strict=True)
+        return all_done([again(f, t, second, shop, i) for i, (t, f) in enumerate(firsts)])
+
+    return done
+
+
 @dataclass(frozen=True)
 class Refinement:
-    """What is learned in second looks.
+    """What is learned in second looks at a sphere.
 
     Attributes
     ----------
@@ -89,77 +124,39 @@ def refine(rough: Surrogate, rows: Rows, fast: Rows, how: Refinement, shop: Shop
     shop : Shop
         Where networks are fitted.
     """
-    members = how.members
-    limiting = [_fast(single(rough.fast, 0), fast, how, shop, seed) for seed in range(members)]
-    forces = [
-        _force(single(rough.force, i), one, rows, how, shop, i) for i, one in enumerate(limiting)
-    ]
-    some = rows.chosen(slice(None, None, how.thinned))
-    starts = [_start(rough.start, some, how.start, shop, seed) for seed in range(members)]
-    works = _scaled(rough.work, work_task(rows)[0], how.work, members, shop)
-    pressed = rows.chosen(rows.start_force > 0)
-    gives = _scaled(rough.give, give_task(pressed)[0], how.give, members, shop)
-    return replace(
-        rough,
-        fast=together(limiting),
-        force=_all(forces),
-        start=replace(rough.start, networks=_all(starts)),
-        work=replace(rough.work, networks=_all(works)),
-        give=replace(rough.give, networks=_all(gives)),
-    )
+    networks, members = rough.networks, range(how.members)
+    limiting = [single(networks["fast"], 0) for _ in members]
+    for seed in members:
+        for stage in how.fast:
+            limiting[seed] = again(limiting[seed], fast_task(fast), stage, shop, seed).done()
+    tasks = [force_task(rows, rough.having(fast=one)) for one in limiting]
+    some, pressed = rows.chosen(slice(None, None, how.thinned)), rows.chosen(rows.start_force > 0)
+    begun = {
+        "force": [
+            again(single(networks["force"], i), task, how.force, shop, i)
+            for i, task in enumerate(tasks)
+        ],
+        "start": [
+            again(single(networks["start"], 0), _start(networks["start"], some), how.start, shop, i)
+            for i in members
+        ],
+        "work": _each(networks["work"], work_task(rows).task, how, how.work, shop),
+        "give": _each(networks["give"], give_task(pressed).task, how, how.give, shop),
+    }
+    found = {name: all_done(each) for name, each in begun.items()}
+    found = {n: replace(networks[n], weights=x.weights, biases=x.biases) for n, x in found.items()}
+    return rough.having(fast=together(limiting), **found)
 
 
-@dataclass(frozen=True, eq=False)
-class _Begun:
-    """A network, and the one that is being fitted to what it leaves over."""
-
-    first: Networks
-    second: Future[Networks]
+def _each(rough: Networks, task: Task, how: Refinement, stage: Stage, shop: Shop) -> list[Begun]:
+    """Begin to look again at a task by several networks."""
+    return [again(single(rough, i), task, stage, shop, i) for i in range(how.members)]
 
 
-def _done(begun: _Begun) -> Networks:
-    return added(begun.first, begun.second.result())
-
-
-def _all(begun: list[_Begun]) -> Networks:
-    return together([_done(one) for one in begun])
-
-
-def _again(first: Networks, task: Task, stage: Stage, shop: Shop, seed: int) -> _Begun:
-    """Begin to learn what one network leaves over of a task."""
-    before = first(task.inputs)[0]
-    left = replace(task, before=before, gain=stage.gain)
-    return _Begun(first, shop.fit(left, stage.fit, seed=seed))
-
-
-def _fast(first: Networks, fast: Rows, how: Refinement, shop: Shop, seed: int) -> Networks:
-    limits = physics.slow_limit(fast.groups), physics.largest_fast_limit(fast.groups)
-    target = np.log10(fast.force)[:, None]
-    inputs = physics.scaled(fast.groups)[:, physics.FAST]
-    task = Task(inputs, target, np.ones_like(target), limits)
-    for stage in how.fast:
-        first = _done(_again(first, task, stage, shop, seed))
-    return first
-
-
-def _force(
-    first: Networks, limit: Networks, rows: Rows, how: Refinement, shop: Shop, seed: int
-) -> _Begun:
-    target = np.log10(rows.force)[:, None]
-    slow, high = physics.way(rows.groups, limit)
-    task = Task(physics.scaled(rows.groups), target, np.ones_like(target), (slow, high[0]))
-    return _again(first, task, how.force, shop, seed)
-
-
-def _scaled(rough: Scaled, task: Task, stage: Stage, members: int, shop: Shop) -> list[_Begun]:
-    """Begin to look again at a task by several networks, whose outputs are scaled."""
-    return [_again(single(rough.networks, i), task, stage, shop, i) for i in range(members)]
-
-
-def _start(rough: Scaled, rows: Rows, stage: Stage, shop: Shop, seed: int) -> _Begun:
-    inputs = physics.scaled(rows.groups)[:, physics.START]
+def _start(rough: Networks, rows: Rows) -> Task:
+    """Return the task to learn relaxed starts, on the scale of networks that learned them."""
+    assert rough.centre is not None and rough.spread is not None, "starts are scaled"
     said = [physics.start_output(rows.groups, rows.start_force), np.log10(rows.start_radius)]
     target = (np.column_stack(said) - rough.centre) / rough.spread
-    return _again(
-        single(rough.networks, 0), Task(inputs, target, np.ones_like(target)), stage, shop, seed
-    )
+    inputs = physics.scaled(rows.groups)[:, physics.START]
+    return Task(inputs, target, np.ones_like(target))

@@ -11,12 +11,13 @@ from scipy.interpolate import PchipInterpolator
 from viscotack.result.trajectory import PRESSED
 
 from .. import physics
-from ..answers import Answers
+from ..contact import between
+from ..line import Curves
 from ..model import Surrogate
 from ..network import Networks, together
 from ..physics import Array
 from .fitting import Fit
-from .recipe import Limits, begin_forces
+from .recipe import begin_forces
 from .rows import BANDED, BANDS, LEARNED, Rows, band
 from .shop import Shop
 
@@ -68,12 +69,12 @@ def _of(surrogate: Surrogate, rows: Rows) -> dict[str, Any]:
             ],
             "half width": float(np.median(ends[:, 1] / ends[:, 0]) ** 0.5 - 1),
         }
-    return answer | {"curve": _curve(surrogate, rows, said)}
+    return answer | {"curve": _curve(surrogate.curves(rows.groups, said), rows)}
 
 
-def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
+def _curve(found: Curves, rows: Rows) -> dict[str, float]:
     """Return how far predicted curves are off, root mean square over the points in tension."""
-    error = np.sqrt(np.nanmean(curve_errors(surrogate, rows, said) ** 2, axis=1))
+    error = np.sqrt(np.nanmean(curve_errors(found, rows) ** 2, axis=1))
     return {
         "median": float(np.median(error)),
         "90 %": float(np.quantile(error, 0.9)),
@@ -81,13 +82,12 @@ def _curve(surrogate: Surrogate, rows: Rows, said: Answers) -> dict[str, float]:
     }
 
 
-def curve_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
+def curve_errors(found: Curves, rows: Rows) -> Array:
     """Return how far curves are off at the stored points in tension, shape (n, 24).
 
     Parts of the pull-off force, at the same travel from zero force, or from a start in tension; nan
     for points in compression. Where zero force is: :func:`travel_errors`.
     """
-    found = surrogate.curves(rows.groups, said)
     travel = rows.trajectory_left[:, :1] - rows.trajectory_left - _to_zero(rows)[:, None]
     error = np.full(travel.shape, np.nan)
     for i in range(len(rows)):
@@ -98,9 +98,8 @@ def curve_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
     return error
 
 
-def travel_errors(surrogate: Surrogate, rows: Rows, said: Answers) -> Array:
+def travel_errors(found: Curves, rows: Rows) -> Array:
     """Return errors of log10 of the travel to zero force, shape (n,); nan for starts in tension."""
-    found = surrogate.curves(rows.groups, said)
     pressed = rows.start_force > 0
     travel = np.where(pressed, found.depth[:, 0] - found.depth[:, PRESSED], 1.0)
     return np.where(pressed, np.log10(travel / np.where(pressed, _to_zero(rows), 1.0)), np.nan)
@@ -128,7 +127,7 @@ class Band:
     forces: list[Future[Networks]]
 
 
-def begin_bands(rows: Rows, limits: Limits, how: Fit, shop: Shop) -> list[Band]:
+def begin_bands(rows: Rows, limits: Surrogate, how: Fit, shop: Shop) -> list[Band]:
     """Begin to learn the force without each band of Tabor number, modulus ratio and exponent."""
     found = []
     for column in BANDED:
@@ -140,13 +139,12 @@ def begin_bands(rows: Rows, limits: Limits, how: Fit, shop: Shop) -> list[Band]:
     return found
 
 
-def score_band(one: Band, limits: Limits) -> dict[str, Any]:
+def score_band(one: Band, limits: Surrogate) -> dict[str, Any]:
     """Return how well the force of a band is told from the other bands, ready for JSON."""
     groups, true = one.held.groups, np.log10(one.held.force)
     networks = together([future.result() for future in one.forces])
-    said = physics.between(
-        *physics.way(groups, limits.fast), networks(physics.scaled(groups))[..., 0]
-    )
+    tests = limits.tests(groups)
+    said = between(tests.slow, tests.fast, networks(tests.told)[..., 0])
     error = said.mean(axis=0) - true
     values = groups[:, one.column]
     return {

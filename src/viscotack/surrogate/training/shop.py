@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import os
+from collections.abc import Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -16,7 +17,7 @@ import numpy as np
 
 from viscotack.files.whole import write_whole
 
-from .. import physics
+from ..contact import LEAST_WAY, STEEP
 from ..network import Networks, from_arrays
 from .fitting import Fit, Task, fit
 
@@ -53,19 +54,21 @@ class Shop:
     ) -> None:
         self._pool.shutdown(cancel_futures=True)
 
-    def fit(
-        self, task: Task, how: Fit, *, seed: int = 0, first: Networks | None = None
-    ) -> Future[Networks]:
+    def fit(self, task: Task, how: Fit, *, seed: int = 0) -> Future[Networks]:
         """Begin to fit a network."""
-        return self._pool.submit(_fitted, task, how, seed, first, self.folder)
+        return self._pool.submit(_fitted, task, how, seed, self.folder)
+
+    def fit_all(self, jobs: Sequence[tuple[Task, Fit, int]]) -> list[Networks]:
+        """Return the networks of several tasks when all are done."""
+        return [one.result() for one in [self.fit(t, how, seed=seed) for t, how, seed in jobs]]
 
 
-def _fitted(task: Task, how: Fit, seed: int, first: Networks | None, folder: Path) -> Networks:
-    path = folder / f"{_name(task, how, seed, first)}.npz"
+def _fitted(task: Task, how: Fit, seed: int, folder: Path) -> Networks:
+    path = folder / f"{_name(task, how, seed)}.npz"
     if path.exists():
         with np.load(path, allow_pickle=False) as file:
             return from_arrays(file)
-    found = fit(task, how, seed=seed, first=first)
+    found = fit(task, how, seed=seed)
     content = io.BytesIO()
     arrays: dict[str, Any] = {**found.arrays()}
     np.savez(content, **arrays)
@@ -73,16 +76,14 @@ def _fitted(task: Task, how: Fit, seed: int, first: Networks | None, folder: Pat
     return found
 
 
-def _name(task: Task, how: Fit, seed: int, first: Networks | None) -> str:
-    meaning = physics.STEEP, physics.LEAST_WAY, task.inputs.shape, task.target.shape
+def _name(task: Task, how: Fit, seed: int) -> str:
+    meaning = STEEP, LEAST_WAY, task.inputs.shape, task.target.shape
     content = hashlib.sha256(repr((how, seed, meaning)).encode())
     arrays = [task.inputs, task.target, task.weight, *(task.between or ())]
     if task.before is not None:
         arrays += [task.before, np.array(task.gain)]
     if task.quantile is not None:
         arrays.append(np.array(task.quantile))
-    if first is not None:
-        arrays += first.arrays().values()
     for array in arrays:
         content.update(np.ascontiguousarray(array).tobytes())
     return content.hexdigest()[:20]

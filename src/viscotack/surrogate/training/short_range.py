@@ -26,11 +26,13 @@ from viscotack.errors import InputError
 from viscotack.methods.by_crack import CrackContact, crack_contacts
 from viscotack.version import __version__
 
-from .. import short_range
+from .. import short_range, store
+from ..model import Surrogate
 from ..network import added, together
-from ..physics import INPUTS, Array
-from ..short_range import HIGH, LOW, STARTS, TIMES, ShortRange
+from ..physics import INPUTS, PRELOAD, RATE, TABOR, Array
+from ..short_range import HIGH, LOW, ShortRangeContact
 from .fitting import Fit, Task, fit
+from .recipe import scaled_task
 
 # Solids, cases of each, and the part of the solids that no network learns from.
 SOLIDS, CASES, _KEPT = 128, 48, 0.125
@@ -52,9 +54,10 @@ def cases(solid: Array, number: int, count: int) -> Array:
     """Return rows of groups of a solid: Tabor number, start and rate drawn in their logarithms."""
     random = np.random.default_rng((_SEED, number))
     u = random.random((count, 3))
-    tabor = LOW[0] * (HIGH[0] / LOW[0]) ** u[:, 0]
-    start = STARTS[0] * (STARTS[1] / STARTS[0]) ** u[:, 1]
-    time = TIMES[0] * (TIMES[1] / TIMES[0]) ** u[:, 2]
+    tabor, start, time = (
+        LOW[i] * (HIGH[i] / LOW[i]) ** part
+        for i, part in zip((TABOR, PRELOAD, RATE), u.T, strict=True)
+    )
     both = np.broadcast_to(solid, (count, 2))
     return np.column_stack([tabor, both, start * tabor, time * tabor])
 
@@ -93,27 +96,49 @@ def simulated(folder: Path, count: int, each: int) -> tuple[Array, Array, npt.ND
     return np.concatenate(groups), np.concatenate(said), np.concatenate(number)
 
 
-def learn(groups: Array, said: Array) -> ShortRange:
-    """Return networks that say what the theory says."""
-    inputs = short_range.told(groups)
-    low, high = short_range.limits(groups)
-    force = Task(inputs, np.log10(said[:, :1]), np.ones_like(said[:, :1]), (low, high))
+def learn(groups: Array, said: Array) -> Surrogate:
+    """Return networks that say what the theory says; their error is not known yet."""
+    tests = Surrogate(ShortRangeContact, {}).tests(groups)
+    target = np.log10(said[:, :1])
+    force = Task(tests.told, target, np.ones_like(target), (tests.slow, tests.fast))
     others = np.column_stack([np.log10(said[:, 1] - 1 + short_range.LEAST), np.log10(said[:, 2])])
-    centre, spread = others.mean(axis=0), others.std(axis=0)
-    state = Task(inputs, (others - centre) / spread, np.ones_like(others))
+    state = scaled_task(tests.told, others)
     forces = []
     for seed in range(_MEMBERS):
         one = fit(force, FIRST, seed=seed)
-        left = replace(force, before=one(inputs)[0], gain=GAIN)
+        left = replace(force, before=one(tests.told)[0], gain=GAIN)
         forces.append(added(one, fit(left, SECOND, seed=seed)))
     how = Fit(FIRST.hidden, steps=FIRST.steps, scale=1.0, penalty=1e-8)
-    return ShortRange(
-        force=together(forces),
-        state=fit(state, how, seed=0),
-        centre=centre,
-        spread=spread,
-        error=np.zeros(2),
-    )
+    networks = {"force": together(forces), "state": state.of(fit(state.task, how, seed=0))}
+    return Surrogate(ShortRangeContact, networks, constants={"error": np.zeros(2)})
+
+
+def measured(made: Surrogate, groups: Array, said: Array) -> tuple[Surrogate, dict[str, Any]]:
+    """Return networks with their error on cases of other solids, and what they are worth.
+
+    Parameters
+    ----------
+    made : Surrogate
+        That has not learned from these cases.
+    groups : ndarray, shape (n, 5)
+    said : ndarray, shape (n, 4)
+        Force, amplification, zones and work by the theory.
+    """
+    tests = made.tests(groups)
+    found = made.evaluate(tests)
+    inside = tests.inside().all(axis=1) & tests.holds(found)
+    ratio = (found.pull_off_force / said[:, 0])[inside]
+    off = np.abs(ratio - 1)
+    error = np.quantile(off, [0.9, 0.98])
+    scores = {
+        "cases": int(inside.sum()),
+        "mse_log10": float(np.mean(np.log10(ratio) ** 2)),
+        "median": float(np.median(off)),
+        "90 %": float(error[0]),
+        "98 %": float(error[1]),
+        "largest": float(off.max()),
+    }
+    return replace(made, constants={"error": error}), scores
 
 
 def main() -> None:
@@ -129,7 +154,7 @@ def main() -> None:
     apart = np.random.default_rng(_SEED).permutation(given.solids)[: round(_KEPT * given.solids)]
     kept = np.isin(number, apart)
     made = learn(groups[known & ~kept], said[known & ~kept])
-    made, scores = short_range.measured(made, groups[known & kept], said[known & kept])
+    made, scores = measured(made, groups[known & kept], said[known & kept])
     facts = {
         "viscotack": __version__,
         "made": datetime.now(UTC).date().isoformat(),
@@ -138,7 +163,7 @@ def main() -> None:
         "answered": int(known.sum()),
         "scores": scores,
     }
-    short_range.save(made, given.out / "short_range.npz", facts)
+    store.save(made, given.out / "short_range.npz", facts)
     print(json.dumps(facts, indent=1))
     print(f"{perf_counter() - began:.0f} s", file=sys.stderr)
 

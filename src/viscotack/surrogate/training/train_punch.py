@@ -13,9 +13,8 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable
-from concurrent.futures import Future
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
@@ -31,17 +30,14 @@ from viscotack.problem.outputs import PLANE
 from viscotack.version import __version__
 
 from .. import punch_physics as physics
-from .. import punch_surrogate
-from ..model import Scaled
-from ..network import Networks, added, together
-from ..punch_physics import Array
-from ..punch_surrogate import PunchSurrogate, told, with_work
-from ..trust import OF, Trust, error_inputs
-from .calibration import HOW, Apart, errors_of, levels_of, reach_task, untested
-from .calibration import scored as of_reach
+from .. import store
+from ..model import Surrogate
+from ..network import Networks
+from ..punch_physics import Array, PunchContact, told
+from .calibration import judged, trusted, worth
 from .fitting import Fit, Task
-from .recipe import scaled_task
-from .recipe import untested as everywhere_alike
+from .recipe import Scaled, scaled_task
+from .refining import Stage, twice
 from .rows import Rows, joined, of_table
 from .shop import Shop
 
@@ -54,28 +50,19 @@ _MEMBERS = 3
 
 @dataclass(frozen=True)
 class Looks:
-    """How a network is fitted, and the one that learns what it leaves over.
-
-    Attributes
-    ----------
-    first, second : Fit
-        Scales of the second are about the errors that are left.
-    gain : float
-        What the outputs of the second are multiplied by before they are added.
-    """
+    """How a network is fitted, and the one that learns what it leaves over."""
 
     first: Fit
-    second: Fit
-    gain: float
+    second: Stage
 
 
 SMALL, LARGE = (20, 20, 20), (32, 32, 32)
-SLOW = Looks(Fit(SMALL, 3000, 1e-9, 0.1), Fit(SMALL, 1500, 1e-6, 1e-3), 0.01)
-FAST = Looks(Fit(SMALL, 4000, 1e-9, 0.1), Fit(SMALL, 2000, 1e-6, 1e-3), 0.01)
-STRESS = Looks(Fit(LARGE, 4000, 1e-9, 0.1), Fit(LARGE, 2500, 1e-6, 1e-3), 0.02)
-WORK = Looks(Fit(LARGE, 4000, 1e-9, 1.0), Fit(LARGE, 2500, 1e-6, 0.01), 0.02)
-GIVE = Looks(Fit(SMALL, 3000, 1e-9, 1.0), Fit(SMALL, 2000, 1e-6, 0.01), 0.02)
-START = Looks(Fit(SMALL, 3000, 1e-9, 1.0), Fit(SMALL, 2000, 1e-6, 0.01), 0.02)
+SLOW = Looks(Fit(SMALL, 3000, 1e-9, 0.1), Stage(Fit(SMALL, 1500, 1e-6, 1e-3), 0.01))
+FAST = Looks(Fit(SMALL, 4000, 1e-9, 0.1), Stage(Fit(SMALL, 2000, 1e-6, 1e-3), 0.01))
+STRESS = Looks(Fit(LARGE, 4000, 1e-9, 0.1), Stage(Fit(LARGE, 2500, 1e-6, 1e-3), 0.02))
+WORK = Looks(Fit(LARGE, 4000, 1e-9, 1.0), Stage(Fit(LARGE, 2500, 1e-6, 0.01), 0.02))
+GIVE = Looks(Fit(SMALL, 3000, 1e-9, 1.0), Stage(Fit(SMALL, 2000, 1e-6, 0.01), 0.02))
+START = Looks(Fit(SMALL, 3000, 1e-9, 1.0), Stage(Fit(SMALL, 2000, 1e-6, 0.01), 0.02))
 LINE = Fit((40, 40, 40), 3000, 1e-8, 1.0)
 Mask = npt.NDArray[np.bool_]
 
@@ -85,59 +72,40 @@ def read(name: str) -> Rows:
     return of_table(datasets.load(name), inputs=physics.INPUTS, kind=PLANE)
 
 
-def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> PunchSurrogate:
+def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> Surrogate:
     """Return a surrogate that learned from rows and from those of the limits, without intervals."""
     elastic = limits.groups[:, physics.MODULUS_RATIO] == 1
     slow, fast = limits.chosen(elastic), limits.chosen(~elastic)
     everything = joined([rows, limits])
-    starting = _begin_scaled(
+    stressed = (everything.groups / physics.unit(everything.groups))[:, physics.PRELOAD]
+    starting = _begin(
         physics.scaled(everything.groups)[:, physics.START],
-        np.log10(everything.start_force) - _log(physics.stressed(everything.groups)),
+        np.log10(everything.start_force) - np.log10(stressed),
         START,
         shop,
         members=1,
     )
     slows = _limit(slow, physics.SLOW, physics.least(slow.groups), SLOW, shop)
     fasts = _limit(fast, physics.FAST, physics.least_fast(fast.groups), FAST, shop)
-    start, fast_networks = starting(), fasts()
-    # what is not learned yet has a place holder
-    made = PunchSurrogate(
-        start=start,
-        slow=slows(),
-        fast=fast_networks,
-        stress=fast_networks,
-        work=start,
-        give=start,
-        line=start,
-        trust=everywhere_alike(),
-    )
+    made = Surrogate(PunchContact, {"start": starting(), "fast": fasts(), "slow": slows()})
     said("limits")
-    log = np.log10(rows.force)
-    low, high = made.way(rows.groups)
-    inputs, target = physics.scaled(rows.groups), log[:, None]
+    tests, log = made.tests(rows.groups), np.log10(rows.force)
+    low, high = tests.slow, tests.fast
     tasks = [
-        Task(inputs, target, np.ones_like(target), (a, b)) for a, b in zip(low, high, strict=True)
+        Task(tests.told, log[:, None], np.ones_like(log[:, None]), (a, b))
+        for a, b in zip(low, high, strict=True)
     ]
-    known = told(rows.groups, low.mean(axis=0), log)
+    known = told(tests.scaled, low.mean(axis=0), log)
+    with_work = np.column_stack([known, np.log10(rows.work)])
     give = np.log10(rows.give * rows.start_force / rows.groups[:, physics.PRELOAD])
     stresses = _twice(tasks, STRESS, shop)
-    works = _begin_scaled(known, np.log10(rows.work) - log, WORK, shop)
-    gives = _begin_scaled(known, give, GIVE, shop)
-    line, *of_line = scaled_task(with_work(known, rows.work), rows.line, rows.known)
-    shapes = shop.fit(line, LINE)
-    made = replace(
-        made,
-        stress=stresses(),
-        work=works(),
-        give=gives(),
-        line=Scaled(shapes.result(), *of_line),
-    )
+    works = _begin(known, np.log10(rows.work) - log, WORK, shop)
+    gives = _begin(known, give, GIVE, shop)
+    line = scaled_task(with_work, rows.line, rows.known)
+    shapes = shop.fit(line.task, LINE)
+    made = made.having(force=stresses(), work=works(), give=gives(), line=line.of(shapes.result()))
     said("stress, work and curve")
     return made
-
-
-def _log(stressed: Array) -> Array:
-    return np.log10(stressed[:, physics.PRELOAD])
 
 
 def _limit(
@@ -150,74 +118,23 @@ def _limit(
     return _twice([task] * _MEMBERS, looks, shop)
 
 
-def _twice(tasks: list[Task], looks: Looks, shop: Shop) -> Callable[[], Networks]:
-    """Begin to learn tasks, a network each; what is returned waits, and looks at each again."""
-    begun = [shop.fit(task, looks.first, seed=i) for i, task in enumerate(tasks)]
-
-    def again(task: Task, first: Networks, seed: int) -> Future[Networks]:
-        left = replace(task, before=first(task.inputs)[0], gain=looks.gain)
-        return shop.fit(left, looks.second, seed=seed)
-
-    def done() -> Networks:
-        firsts = [one.result() for one in begun]
-        seconds = [again(t, f, i) for i, (t, f) in enumerate(zip(tasks, firsts, strict=True))]
-        return together([added(f, s.result()) for f, s in zip(firsts, seconds, strict=True)])
-
-    return done
+def _twice(tasks: Sequence[Task], looks: Looks, shop: Shop) -> Callable[[], Networks]:
+    return twice(tasks, looks.first, looks.second, shop)
 
 
-def _begin_scaled(
+def _begin(
     inputs: Array, target: Array, looks: Looks, shop: Shop, *, members: int = _MEMBERS
-) -> Callable[[], Scaled]:
+) -> Callable[[], Networks]:
     """Begin to learn one output that is scaled by its mean and deviation."""
-    task, centre, spread = scaled_task(inputs, target[:, None])
-    begun = _twice([task] * members, looks, shop)
-    return lambda: Scaled(begun(), centre, spread)
+    task: Scaled = scaled_task(inputs, target[:, None])
+    begun = _twice([task.task] * members, looks, shop)
+    return lambda: task.of(begun())
 
 
-def judged(made: PunchSurrogate, rows: Rows) -> Apart:
-    """Return how far a surrogate is off on some rows."""
-    said = made.evaluate(rows.groups)
-    return Apart(error_inputs(physics.scaled(rows.groups), said), errors_of(made, rows, said))
-
-
-def trusted(made: PunchSurrogate, learned: Apart, kept: Apart, shop: Shop) -> PunchSurrogate:
-    """Return a surrogate with intervals: networks of the reach, and levels of rows kept apart.
-
-    A network learns from the rows that were learned from and from one half of the others, and is
-    judged by the other half, as :mod:`.calibration` has it.
-    """
-    halves = [kept.chosen(np.arange(len(kept.error)) % 2 == half) for half in (0, 1)]
-    begun = [shop.fit(reach_task(learned, [half]), HOW, seed=i) for i, half in enumerate(halves)]
-    members = [one.result() for one in begun]
-    scores = [
-        of_reach(Trust(one, untested()), half)
-        for one, half in zip(members, halves[::-1], strict=True)
-    ]
-    return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
-
-
-def scored(made: PunchSurrogate, rows: Rows) -> dict[str, Any]:
+def scored(made: Surrogate, rows: Rows) -> dict[str, Any]:
     """Return what a surrogate is worth on rows that it has not learned from, ready for JSON."""
-    errors = judged(made, rows)
-    widths = np.column_stack(made.trust.widths(errors.told, 0.9))
-    found: dict[str, Any] = {"rows": len(rows)}
-    for i, name in enumerate(("stress", *OF[1:])):
-        log = np.abs(errors.error[:, i])
-        # errors of curves are parts of the pull-off stress, those of the others of logarithms
-        part, half = (
-            (log, widths[:, i]) if name == "curve" else (10**log - 1, 10 ** widths[:, i] - 1)
-        )
-        found[name] = {
-            "mse_log10": None if name == "curve" else float(np.mean(log**2)),
-            "median": float(np.median(part)),
-            "95 %": float(np.quantile(part, 0.95)),
-            "largest": float(part.max()),
-            "cover": float(np.mean(log <= widths[:, i])),
-            "half width": float(np.median(half)),
-            "worst, half widths": float(np.max(log / widths[:, i])),
-        }
-    return found
+    found = worth(made, judged(made, rows))
+    return {"stress" if name == "force" else name: each for name, each in found.items()}
 
 
 def parts(count: int) -> tuple[Mask, Mask]:
@@ -251,7 +168,7 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
     measuring = joined([measuring, ends.chosen(slice(0, None, 2))])
     with threadpool_limits(1), Shop(folder / "networks", workers) as shop:
         made = learn(learned, read(LIMITS), shop, say)
-        made = trusted(made, judged(made, learned), judged(made, measuring), shop)
+        made = trusted(made, judged(made, learned), [judged(made, measuring)], shop.fit_all)
         say("intervals")
     scores = {"all": scored(made, judging)} | {
         name: scored(made, rows.chosen(j))
@@ -265,7 +182,7 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
         "rows": {"learned": len(learned), "measuring": len(measuring), "judging": len(judging)},
         "scores": scores,
     }
-    punch_surrogate.save(made, folder / "punch.npz", facts)
+    store.save(made, folder / "punch.npz", facts)
     say("done")
     return facts
 

@@ -27,16 +27,15 @@ from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
 from viscotack.version import __version__
 
-from .. import linear_solids, physics, store
+from .. import linear_solids, store
 from ..alike import TIMES, Alike
-from ..linear_solids import BEND_INPUTS, SAMPLES, TRUST_INPUTS, Solids
+from ..contact import between
+from ..linear_solids import BEND_INPUTS, SAMPLES, SolidContact
+from ..model import Surrogate
 from ..network import Networks, together
-from ..trust import OF, Trust
-from . import likeness
-from .calibration import Apart, errors_of, levels_of, reach_task, scored
-from .calibration import untested as untested_levels
-from .fitting import Fit, Task, fit
-from .recipe import untested
+from . import calibration, likeness
+from .calibration import Apart, trusted, worth
+from .fitting import Fit, Task, fit_all
 from .rows import Rows, of_table
 
 Mask = npt.NDArray[np.bool_]
@@ -92,9 +91,9 @@ class Tests:
         some = {f.name: getattr(self, f.name)[which] for f in fields(self) if f.name != "rows"}
         return Tests(rows=self.rows.chosen(which), **some)
 
-    def like(self, made: Solids) -> Alike:
+    def like(self, made: Surrogate) -> Alike:
         """Return the power laws that stand for the solids."""
-        return made.like(self.tabor, self.modulus_ratio, self.preload, self.creep)
+        return linear_solids.like(made, self.tabor, self.modulus_ratio, self.preload, self.creep)
 
 
 def read(table: Any) -> Tests:
@@ -135,19 +134,16 @@ def parts(tests: Tests) -> dict[str, Mask]:
     return {"learn": ~(found["measure"] | found["judge"] | other), **found}
 
 
-def unbent() -> Solids:
-    """Return solids that know what they are like; nothing bends their answers yet."""
-    return Solids(
-        power_law=store.shipped(),
-        begin=likeness.begin(),
-        floor=likeness.FLOOR,
-        usual=np.ones(SAMPLES),
-        force=_none(),
-        work=_none(),
-        trust=untested(TRUST_INPUTS),
-        spread=np.zeros((SAMPLES, SAMPLES)),
-        farthest=np.full(2, np.inf),
-    )
+def unbent() -> Surrogate:
+    """Return a surrogate that knows what solids are like; nothing bends its answers yet."""
+    constants = {
+        "floor": np.array(likeness.FLOOR),
+        "usual": np.ones(SAMPLES),
+        "spread": np.zeros((SAMPLES, SAMPLES)),
+        "farthest": np.full(2, np.inf),
+    }
+    begun = Surrogate(SolidContact, store.shipped().networks, constants=constants)
+    return begun.having(begin=likeness.begin(), bend_force=_none(), bend_work=_none())
 
 
 def _none() -> Networks:
@@ -155,26 +151,25 @@ def _none() -> Networks:
     return Networks((np.zeros((1, BEND_INPUTS, SAMPLES)),), (np.zeros((1, 1, SAMPLES)),))
 
 
-def bent(begun: Solids, tests: Tests) -> Solids:
-    """Return solids that have learned from tests how what is left over bends force and work."""
-    like = tests.like(begun)
-    made = replace(begun, usual=np.sqrt(np.mean(like.over**2, axis=0)), work=_none())
-    groups, power_law = like.groups, made.power_law
-    output = power_law.force(physics.scaled(groups))[..., 0]
-    over = linear_solids.scaled_over(like, made.usual)
+def bent(begun: Surrogate, solids: Tests) -> Surrogate:
+    """Return what has learned from tests how what is left over bends force and work."""
+    like, power_law = solids.like(begun), store.shipped()
+    usual = np.sqrt(np.mean(like.over**2, axis=0))
+    made = replace(begun, constants={**begun.constants, "usual": usual}).having(bend_work=_none())
+    tests = power_law.tests(like.groups)
+    output = power_law.networks["force"](tests.told)[..., 0]
+    over = linear_solids.scaled_over(like, usual)
     inputs = np.column_stack([linear_solids.features(like, output), over])
     factor = linear_solids.felt(output)
-    low, high = physics.way(groups, power_law.fast)
     # one way and one output stand for those of several networks, which hardly differ
-    output, high = output.mean(axis=0), high.mean(axis=0)
-    plainly = physics.between(low, high, output)
-    off = np.log10(tests.rows.force / power_law.evaluate(groups).pull_off_force)
-    limits, before = (low, high), output[:, None]
+    output, limits = output.mean(axis=0), (tests.slow, tests.fast.mean(axis=0))
+    plainly, before = between(*limits, output), output[:, None]
+    off = np.log10(solids.rows.force / power_law.evaluate(tests).pull_off_force)
     force = Task(inputs, plainly + off, _soft(off, _SOFT[0]), limits, before, _GAIN, factors=over)
-    made = replace(made, force=_members(force, FORCE))
-    off = np.log10(tests.rows.work / made.evaluate(like).work_to_pull_off)
+    made = made.having(bend_force=_members(force, FORCE))
+    off = np.log10(solids.rows.work / made.evaluate(like).work_to_pull_off)
     work = Task(inputs, off, _soft(off, _SOFT[1]), gain=_GAIN, factors=over * factor)
-    return replace(made, work=_members(work, WORK))
+    return made.having(bend_work=_members(work, WORK))
 
 
 def _soft(off: Array, usual: float) -> Array:
@@ -184,27 +179,25 @@ def _soft(off: Array, usual: float) -> Array:
 
 def _members(task: Task, how: Fit) -> Networks:
     task = replace(task, target=task.target[:, None], weight=task.weight[:, None])
-    return together([fit(task, how, seed=seed) for seed in range(MEMBERS)])
+    return together(fit_all([(task, how, seed) for seed in range(MEMBERS)]))
 
 
-def with_range(made: Solids, tests: Tests) -> Solids:
-    """Return solids that know how far those learned from are from power laws."""
+def with_range(made: Surrogate, tests: Tests) -> Surrogate:
+    """Return what knows how far the solids learned from are from power laws."""
     like = tests.like(made)
     sizes, axes = np.linalg.eigh(like.over.T @ like.over / len(like.over))
     # directions in which hardly any solid differs are as far as the last ones in which some do
-    made = replace(made, spread=axes / np.sqrt(np.maximum(sizes, 1e-4 * sizes[-1])))
-    return replace(made, farthest=np.array([like.unlike.max(), made.far(like).max()]))
+    spread = axes / np.sqrt(np.maximum(sizes, 1e-4 * sizes[-1]))
+    farthest = np.array([like.unlike.max(), linear_solids.far(like, spread).max()])
+    return replace(made, constants={**made.constants, "spread": spread, "farthest": farthest})
 
 
-def judged(made: Solids, tests: Tests) -> Apart:
+def judged(made: Surrogate, tests: Tests) -> Apart:
     """Return how far answers are off on tests."""
-    like = tests.like(made)
-    said = made.evaluate(like)
-    rows = replace(tests.rows, groups=like.groups)
-    return Apart(made.told(like, said), errors_of(made.power_law, rows, said))
+    return calibration.judged(made, tests.rows, tests.like(made))
 
 
-def across(made: Solids, tests: Tests) -> list[Apart]:
+def across(made: Surrogate, tests: Tests) -> list[Apart]:
     """Return how far answers are off where what they learned from has other tests only."""
     fold = np.arange(len(tests)) % _FOLDS
     return [
@@ -212,54 +205,20 @@ def across(made: Solids, tests: Tests) -> list[Apart]:
     ]
 
 
-def trusted(made: Solids, known: Apart, kept: Apart) -> Solids:
-    """Return solids with intervals: their reach from all, their levels from those kept apart.
-
-    Two networks of the reach learn from a half of those kept apart each, and each is judged by the
-    other half, as in :mod:`viscotack.surrogate.training.calibration`.
-    """
-    halves = [np.arange(len(kept.told)) % 2 == i for i in (0, 1)]
-    members, scores = [], []
-    for seed, half in enumerate(halves):
-        members.append(fit(reach_task(known, [kept.chosen(half)], weight=1.0), HOW, seed=seed))
-        scores.append(scored(Trust(members[-1], untested_levels()), kept.chosen(~half)))
-    return replace(made, trust=Trust(together(members), levels_of(np.concatenate(scores))))
-
-
-def scores(made: Solids, found: Apart, *, confidence: float = 0.9) -> dict[str, Any]:
-    """Return what answers and intervals are worth on rows, ready for JSON."""
-    widths = np.column_stack(made.trust.widths(found.told, confidence))
-    answer: dict[str, Any] = {"rows": len(found.told)}
-    for i, name in enumerate(OF):
-        known = np.isfinite(found.error[:, i])
-        error, width = np.abs(found.error[known, i]), widths[known, i]
-        answer[name] = {
-            "mse": float(np.mean(error**2)),
-            "median": float(np.median(error)),
-            "90 %": float(np.quantile(error, 0.9)),
-            "98 %": float(np.quantile(error, 0.98)),
-            "largest": float(error.max()),
-            "cover": float(np.mean(error <= width)),
-            "half width": float(np.median(width)),
-            "worst in half widths": float(np.max(error / width)),
-        }
-    return answer
-
-
-def make(table: Any) -> tuple[Solids, dict[str, Any]]:
+def make(table: Any) -> tuple[Surrogate, dict[str, Any]]:
     """Return what was learned from a table, and what it is worth."""
     tests = read(table)
     part = {name: tests.chosen(mask) for name, mask in parts(tests).items()}
     made = with_range(bent(unbent(), part["learn"]), part["learn"])
     known = [*across(made, part["learn"]), judged(made, power_laws(_THINNED))]
     both = Apart(*(np.concatenate([getattr(j, f.name) for j in known]) for f in fields(Apart)))
-    made = trusted(made, both, judged(made, part["measure"]))
+    made = trusted(made, both, [judged(made, part["measure"])], fit_all, how=HOW, weight=1.0)
     judge = part["judge"]
     even = judge.number < CHOSEN
     found = {
-        "judged by, drawn evenly": scores(made, judged(made, judge.chosen(even))),
-        "judged by, chosen": scores(made, judged(made, judge.chosen(~even))),
-        "stretched exponentials": scores(made, judged(made, part["other"])),
+        "judged by, drawn evenly": worth(made, judged(made, judge.chosen(even))),
+        "judged by, chosen": worth(made, judged(made, judge.chosen(~even))),
+        "stretched exponentials": worth(made, judged(made, part["other"])),
     }
     counts = {name: len(some) for name, some in part.items()}
     return made, {"rows": counts, "scores": found}
@@ -289,7 +248,7 @@ def main() -> None:
         **found,
     }
     given.out.mkdir(parents=True, exist_ok=True)
-    linear_solids.save(made, given.out / "solids.npz", facts)
+    store.save(made, given.out / "solids.npz", facts)
     print(json.dumps(facts, indent=1))
     print(f"{perf_counter() - began:.0f} s", file=sys.stderr)
 

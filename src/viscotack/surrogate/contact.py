@@ -1,0 +1,230 @@
+r"""The physics that a surrogate stands on: one class for each contact, plugged into one surrogate.
+
+A network never says a pull-off force. It says where between two limits the force is,
+
+.. math:: \log \hat P = (1 - s) \log \hat P_\text{slow} + s \log \hat P_\text{fast} ,
+          \qquad 0 < s < 1 ,
+
+so that no answer leaves them. Which limits, what the networks are told and where they may be asked
+is different for each contact: :mod:`.physics` (a sphere on a power law), :mod:`.linear_solids` (on
+any other linear solid), :mod:`.punch_physics` and :mod:`.short_range` (large Tabor numbers).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import numpy.typing as npt
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from viscotack.arrays import Array
+
+from .answers import Answers
+from .line import Curves, curves
+from .network import Networks
+from .trust import error_inputs
+
+# A network's output is small where the share of the way between two limits is near one half.
+STEEP = 4.0
+LEAST_WAY = 1e-4
+
+
+def share(output: Array) -> Array:
+    """Return the share s of the way between two limits that the output of a network stands for.
+
+    Examples
+    --------
+    >>> share(np.array([-9.0, 0.0, 9.0])).round(6).tolist()
+    [0.0, 0.5, 1.0]
+    """
+    return 1 / (1 + np.exp(-STEEP * output))
+
+
+def between(low: Array, high: Array, output: Array) -> Array:
+    """Return what lies between two logarithms, by the output of a network."""
+    return low + np.maximum(high - low, LEAST_WAY) * share(output)
+
+
+def scaled_logarithms(values: Array, low: Array, high: Array) -> Array:
+    """Return logarithms from -1 to 1 between those of two ends.
+
+    Parameters
+    ----------
+    values : ndarray, shape (n, inputs)
+    low, high : ndarray, shape (inputs,)
+        log10 of the ends.
+    """
+    return (2 * np.log10(values) - (low + high)) / (high - low)
+
+
+@dataclass(frozen=True, eq=False)
+class Further:
+    """What is learned of tests beside the networks of force and work; None for nothing.
+
+    Attributes
+    ----------
+    force, work : ndarray, shape (n,)
+        Added to the output that places the force, and to log10 of work over force.
+    more : mapping of str to ndarray
+        Other numbers, for the :class:`~.answers.Answers`.
+    """
+
+    force: Array | None = None
+    work: Array | None = None
+    more: Mapping[str, Array] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Tests of one contact: what is known of them without learning, and what networks are told.
+
+    Attributes
+    ----------
+    networks : mapping of str to Networks
+        The learned correction by name: ``force`` places the force between its limits; ``work`` says
+        log10 of work over force; ``start`` the relaxed start; ``give`` log10 of the travel to zero
+        force; ``line`` the shapes of a curve. Limits may be learned too.
+    constants : mapping of str to ndarray
+        Numbers that were measured beside them.
+    rows : ndarray, shape (n, inputs)
+        Inputs of the tests in the order of ``inputs``.
+    """
+
+    networks: Mapping[str, Networks]
+    constants: Mapping[str, Array]
+    rows: Array
+
+    # Name in files, the inputs, least and largest of each, and log10 of the ends that are scaled to
+    # -1 and 1.
+    name: ClassVar[str]
+    inputs: ClassVar[tuple[str, ...]]
+    low: ClassVar[Array]
+    high: ClassVar[Array]
+    ends: ClassVar[tuple[Array, Array]]
+    # Inputs and outputs of each network; shapes of the constants; networks of the limits, of which
+    # there is one or as many as of the force; and those of the sphere on power laws, which a file
+    # leaves out.
+    shapes: ClassVar[Mapping[str, tuple[int, int]]]
+    sizes: ClassVar[Mapping[str, tuple[int, ...]]] = {}
+    limiting: ClassVar[tuple[str, ...]] = ()
+    shared: ClassVar[tuple[str, ...]] = ()
+    # Columns that tell a relaxed start, its depth the last; among how many depths it is sought, and
+    # how often between two of these; what is said where there is none.
+    start_inputs: ClassVar[list[int]] = []
+    search: ClassVar[tuple[int, int]]
+    no_start: ClassVar[str]
+    # Whether the networks of the travel to zero force are told the work, and what divides it.
+    give_knows_work: ClassVar[bool] = True
+    work_unit: ClassVar[float] = 1.0
+
+    @classmethod
+    def of(
+        cls, networks: Mapping[str, Networks], constants: Mapping[str, Array], given: Any
+    ) -> Self:
+        """Return the tests with these inputs, rows of numbers."""
+        # what only stands for an array, as where formulas are exported, stays what it is
+        stands = isinstance(given, NDArrayOperatorsMixin)
+        rows: Any = given if stands else np.asarray(given, dtype=float)
+        return cls(networks, constants, rows)
+
+    # Inputs ---------------------------------------------------------------------------------
+
+    @staticmethod
+    def unit(rows: Array) -> Array | None:
+        """Return the units in which inputs have their ranges, shape (n, inputs); None for one."""
+        return None
+
+    @cached_property
+    def ranged(self) -> Array:
+        """Inputs in the units of their ranges."""
+        unit = self.unit(self.rows)
+        return self.rows if unit is None else self.rows / unit
+
+    @cached_property
+    def scaled(self) -> Array:
+        """Logarithms of the inputs, from -1 to 1 over all rows learned from, shape (n, inputs)."""
+        return scaled_logarithms(self.ranged, *self.ends)
+
+    def inside(self) -> npt.NDArray[np.bool_]:
+        """Return which inputs lie in the range learned from, shape (n, inputs)."""
+        # the ends themselves, whichever way they were rounded
+        return (self.ranged >= self.low * (1 - 1e-9)) & (self.ranged <= self.high * (1 + 1e-9))
+
+    def holds(self, said: Answers) -> npt.NDArray[np.bool_]:
+        """Return where in the range what was learned has an answer, shape (n,)."""
+        return np.ones(len(self.rows), dtype=bool)
+
+    def deeper(self, factors: Array) -> Contact:
+        """Return the tests several times with their depths times factors, shape (times, n)."""
+        rows = np.tile(self.rows, (len(factors), 1))
+        rows[:, self.start_inputs[-1]] *= factors.ravel()
+        return replace(self, rows=rows)
+
+    # Force ----------------------------------------------------------------------------------
+
+    @cached_property
+    def slow(self) -> Array:
+        """log10 of the slow limit of the force, (n,), or (m, n) by as many networks."""
+        raise NotImplementedError
+
+    @cached_property
+    def fast(self) -> Array:
+        """log10 of the fast limit of the force, (n,), or (m, n) by as many networks."""
+        raise NotImplementedError
+
+    @cached_property
+    def told(self) -> Array:
+        """What the networks of the force are told, shape (n, columns)."""
+        return self.scaled
+
+    def further(self, output: Array) -> Further:
+        """Return what is learned beside what the networks of the force say, shape (m, n)."""
+        return Further()
+
+    def told_of_errors(self, answers: Answers) -> Array:
+        """Return what the network of the errors is told, shape (n, columns)."""
+        return error_inputs(self.scaled, answers)
+
+    # Start, work and curve ------------------------------------------------------------------
+
+    @property
+    def said_of_start(self) -> Array:
+        """What the networks of the start say, shape (m, n, outputs)."""
+        return self.networks["start"](self.scaled[:, self.start_inputs])
+
+    @cached_property
+    def start(self) -> tuple[Array, Array]:
+        """Force and contact radius of the relaxed starts, shape (n,) each."""
+        return self.started(self.said_of_start.mean(axis=0))
+
+    def started(self, said: Array) -> tuple[Array, Array]:
+        """Return force and radius of starts of which a network says this, shape (n, outputs)."""
+        raise NotImplementedError
+
+    def knowing(self, force: Array) -> Array:
+        """Return what networks are told that know log10 of the force, shape (n, columns)."""
+        raise NotImplementedError
+
+    def give(self, said: Array) -> Array:
+        """Return travel to zero force times radius over force, from its logarithm as learned."""
+        return 10**said
+
+    def curves(self, answers: Answers) -> Curves:
+        """Return the unloading curves that belong to answers."""
+        known = self.knowing(np.log10(answers.pull_off_force))
+        with_work = np.column_stack([known, np.log10(answers.work_to_pull_off)])
+        give = self.networks["give"](with_work if self.give_knows_work else known)
+        force, radius = self.start
+        return curves(
+            self.networks["line"](with_work)[0],
+            give=self.give(give[..., 0].mean(axis=0)),
+            preload=self.rows[:, self.start_inputs[-1]],
+            force=force,
+            radius=radius,
+            pull_off=answers.pull_off_force,
+            work=answers.work_to_pull_off / self.work_unit,
+        )
