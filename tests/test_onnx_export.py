@@ -187,6 +187,11 @@ def test_only_operators_of_the_standard_in_an_old_version(surrogate, tmp_path):
     assert all(constant.data_type != single for constant in read.graph.initializer)
 
 
+def test_a_surrogate_of_another_contact_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="of a sphere on power laws; .* 'punch'"):
+        export(shipped("punch"), tmp_path / "tack.onnx")
+
+
 def test_without_onnx_the_error_says_what_to_install(surrogate, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "onnx", None)
     with pytest.raises(ModuleNotFoundError, match=r"viscotack\[onnx\]"):

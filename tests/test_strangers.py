@@ -203,6 +203,7 @@ def surrogate_with(tmp_path, **arrays):
         ({"trust.levels": np.ones((3, 6))}, r"trust.levels must have the shape \(4, 7\)"),
         ({"trust.levels": None}, "not the file of a surrogate"),
         ({"fast.bias.0": None}, "not the file of a surrogate"),
+        ({"give.spread": None}, "give has a centre alone"),
         ({"give.spread": np.ones(1, dtype=int)}, "give.spread must be finite numbers"),
     ],
 )

@@ -252,6 +252,45 @@ def test_a_surrogate_comes_back_from_its_file(tmp_path):
     assert store.facts(path)["made"] == "today"
 
 
+def test_a_surrogate_of_every_contact_comes_back_from_the_one_form(tmp_path):
+    """Files of the package have four forms of their own; all are written in one."""
+    random = np.random.default_rng(5)
+    for name, file in store.FILES.items():
+        one, path = shipped(name), tmp_path / f"{name}.npz"
+        store.save(one, path, {"made": "today"})
+        again, facts = store.load(path), store.facts(path)
+        assert again.contact is one.contact and facts["contact"] == name
+        assert facts["form"] == "viscotack surrogate 3" != store.facts(file)["form"]
+        assert set(again.networks) == set(one.networks)
+        for each, networks in one.networks.items():
+            inputs = random.normal(size=(3, networks.ends[0]))
+            assert np.array_equal(again.networks[each](inputs), networks(inputs))
+        for each, wanted in one.constants.items():
+            assert np.array_equal(again.constants[each], wanted)
+        if one.trust is not None:
+            assert np.array_equal(again.trust.levels, one.trust.levels)
+
+
+def test_a_correction_of_other_power_laws_is_refused(tmp_path):
+    path = tmp_path / "solids.npz"
+    solids = shipped("solids")
+    store.save(solids.having(work=random_surrogate().networks["work"]), path, {})
+    with pytest.raises(ValueError, match="corrects another surrogate of power laws"):
+        store.load(path)
+
+
+def test_what_is_known_of_tests_is_that_of_their_own_surrogate():
+    groups = random_groups(3)
+    tests = shipped().tests(groups)
+    assert shipped("sphere") is shipped()
+    force = shipped().evaluate(tests).pull_off_force
+    assert np.array_equal(force, shipped().evaluate(groups).pull_off_force)
+    with pytest.raises(ValueError, match="tests of another surrogate"):
+        random_surrogate().evaluate(tests)
+    with pytest.raises(ValueError, match="no intervals were measured for a short range"):
+        shipped("short range").intervals(groups, shipped().evaluate(groups))
+
+
 def test_a_damaged_or_foreign_file_is_refused(tmp_path):
     path = tmp_path / "one.npz"
     store.save(random_surrogate(), path, {})

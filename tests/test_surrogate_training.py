@@ -14,7 +14,7 @@ from viscotack.surrogate.store import shipped  # noqa: E402
 from viscotack.surrogate.training import train_punch as punches  # noqa: E402
 from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
 from viscotack.surrogate.training.refining import Stage  # noqa: E402
-from viscotack.surrogate.training.rows import BANDED, BANDS, band, cells, read  # noqa: E402
+from viscotack.surrogate.training.rows import BANDED, BANDS, band, read  # noqa: E402
 from viscotack.surrogate.training.train_punch import parts  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
 
@@ -54,13 +54,13 @@ def test_areas_are_exact_for_a_parabola():
     assert line.REFINE @ u**3 == pytest.approx(np.linspace(0, 1, trajectory.POINTS) ** 3, abs=1e-12)
 
 
-def test_rows_of_a_cell_are_neighbours(rows):
-    cell = cells(rows)
+def test_bands_are_even_in_the_logarithm(rows):
     for column in BANDED:
-        of_row = band(rows, column)
+        of_row, value = band(rows, column), np.log10(rows.groups[:, column])
         assert 0 <= of_row.min() and of_row.max() == BANDS - 1
-        for one in np.unique(cell)[:20]:
-            assert len(np.unique(of_row[cell == one])) == 1
+        widths = [np.ptp(value[of_row == one]) for one in range(BANDS)]
+        whole = np.log10(physics.HIGH[column] / physics.LOW[column])
+        assert max(widths) <= whole / BANDS * (1 + 1e-9)
 
 
 def test_unknown_numbers_are_not_learned(rows):

@@ -54,6 +54,8 @@ class Surrogate:
     def tests(self, given: Any) -> Contact:
         """Return tests; what is known of them is computed once, for all methods that take them."""
         if isinstance(given, Contact):
+            if given.networks is not self.networks:
+                raise InputError("these are tests of another surrogate; give their inputs")
             return given
         return self.contact.of(self.networks, self.constants, given)
 

@@ -90,7 +90,6 @@ def load(path: str | os.PathLike[str]) -> Surrogate:
     return _read(path)[0]
 
 
-@cache
 def shipped(contact: str = "sphere") -> Surrogate:
     """Return the surrogate of a contact that comes with the package, read once.
 
@@ -101,6 +100,11 @@ def shipped(contact: str = "sphere") -> Surrogate:
     >>> shipped("punch").contact.inputs
     ('size', 'thickness', 'modulus_ratio', 'preload', 'rate')
     """
+    return _shipped(contact)
+
+
+@cache
+def _shipped(contact: str) -> Surrogate:
     return load(FILES[contact])
 
 
@@ -171,9 +175,12 @@ def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> N
         width = weight.shape[-1]
     if width != outputs:
         raise InputError(f"layers of {name} lead from {inputs} inputs to {width}, not {outputs}")
-    for part, scale in (("centre", networks.centre), ("spread", networks.spread)):
-        if scale is not None:
-            _check_shape(f"{name}.{part}", scale, (outputs,))
+    scale = {"centre": networks.centre, "spread": networks.spread}
+    known = {part: each for part, each in scale.items() if each is not None}
+    if len(known) == 1:
+        raise InputError(f"{name} has a {next(iter(known))} alone; give centre and spread")
+    for part, each in known.items():
+        _check_shape(f"{name}.{part}", each, (outputs,))
 
 
 def _check_members(contact: type[Contact], networks: Mapping[str, Networks]) -> None:

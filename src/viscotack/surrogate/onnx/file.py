@@ -11,12 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.errors import InputError
 from viscotack.files.whole import write_whole
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result.trajectory import POINTS
 
 from ...version import __version__
 from ..model import Surrogate
+from ..physics import SphereContact
 from .graph import IR_VERSION, OPSET, Graph
 
 CONFIDENCE = 0.9
@@ -70,8 +72,15 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     ------
     ModuleNotFoundError
         If onnx is not installed.
+    ValueError
+        If the surrogate is not one of a sphere on power laws.
     """
     onnx = _onnx()
+    if surrogate.contact is not SphereContact:
+        raise InputError(
+            "the export is of a sphere on power laws; this surrogate is of another contact, "
+            f"{surrogate.contact.name!r}"
+        )
     graph = Graph()
     row = np.sqrt([low * high for low, high in surrogate.limits.values()])
     for name, found in _outputs(surrogate, graph, graph.input("groups", row[None])).items():

@@ -86,12 +86,6 @@ def certain(name: str) -> npt.NDArray[np.bool_]:
     return (force <= MOST_ERRORS[0]) & (work <= MOST_ERRORS[1])
 
 
-def cells(rows: Rows) -> npt.NDArray[np.intp]:
-    """Return the cell of (Tabor number, modulus ratio, exponent) that each row lies in."""
-    bands = [band(rows, column) for column in BANDED]
-    return np.ravel_multi_index(tuple(bands), (BANDS,) * len(BANDED))
-
-
 def band(rows: Rows, column: int) -> npt.NDArray[np.intp]:
     """Return the band of one input that each row lies in, from 0 to BANDS - 1."""
     place = (physics.scaled(rows.groups)[:, column] + 1) / 2 * BANDS
