@@ -1,6 +1,7 @@
 """How a surrogate is made: ``python -m viscotack.surrogate``, ``pip install 'viscotack[train]'``.
 
 ``rows`` come from the datasets, ``fitting`` fits a network, ``shop`` many; ``recipe`` says which
-network learns what, ``calibration`` measures intervals, ``scores`` what a surrogate is worth;
-``make`` does all of it, and ``choosing`` says what to simulate next.
+network learns what, ``refining`` looks twice, ``calibration`` measures intervals, ``scores`` what a
+surrogate is worth; ``make`` does all of it. ``train_solids``, ``train_punch`` and ``short_range`` do
+it for the other contacts.
 """
