@@ -119,11 +119,8 @@ def predict_table(
     if at.size:
         _put(table, force, at, answers.pull_off_force, held.pull_off_force.T)
         _put(table, WORK, at, answers.work_to_pull_off, held.work_to_pull_off.T)
-        table["method"][at], table["inside"][at], table["band"][at] = (
-            METHOD[kind.name],
-            True,
-            MEASURED,
-        )
+        table["method"][at], table["band"][at] = METHOD[kind.name], MEASURED
+        table["inside"][at] = True
     done = int(table["inside"].sum())
     for case, at in _equal_rows(given, np.flatnonzero(~table["inside"])).items():
         try:

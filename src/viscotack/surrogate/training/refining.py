@@ -41,6 +41,14 @@ class Stage:
     gain: float
 
 
+@dataclass(frozen=True)
+class Looks:
+    """How a network is fitted, and the one that learns what it leaves over."""
+
+    first: Fit
+    second: Stage
+
+
 @dataclass(frozen=True, eq=False)
 class Begun:
     """A network, and the one that is being fitted to what it leaves over."""
@@ -64,13 +72,13 @@ def all_done(begun: Sequence[Begun]) -> Networks:
     return together([one.done() for one in begun])
 
 
-def twice(tasks: Sequence[Task], first: Fit, second: Stage, shop: Shop) -> Callable[[], Networks]:
+def twice(tasks: Sequence[Task], looks: Looks, shop: Shop) -> Callable[[], Networks]:
     """Begin to learn tasks, a network each; what is returned waits, and looks at each again."""
-    begun = [shop.fit(task, first, seed=i) for i, task in enumerate(tasks)]
+    begun = [shop.fit(task, looks.first, seed=i) for i, task in enumerate(tasks)]
 
     def done() -> Networks:
         firsts = zip(tasks, [one.result() for one in begun], strict=True)
-        return all_done([again(f, t, second, shop, i) for i, (t, f) in enumerate(firsts)])
+        return all_done([again(f, t, looks.second, shop, i) for i, (t, f) in enumerate(firsts)])
 
     return done
 

@@ -13,8 +13,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
@@ -36,8 +35,8 @@ from ..network import Networks
 from ..punch_physics import Array, PunchContact, told
 from .calibration import judged, trusted, worth
 from .fitting import Fit, Task
-from .recipe import Scaled, scaled_task
-from .refining import Stage, twice
+from .recipe import scaled_task
+from .refining import Looks, Stage, twice
 from .rows import Rows, joined, of_table
 from .shop import Shop
 
@@ -46,14 +45,6 @@ LEARNED, LIMITS, FACES = ("punch", "punch_starts"), "punch_limits", "punch_faces
 _MEASURING, _JUDGING, _SEED = 0.1, 0.1, 2026
 # Networks of each kind but the line.
 _MEMBERS = 3
-
-
-@dataclass(frozen=True)
-class Looks:
-    """How a network is fitted, and the one that learns what it leaves over."""
-
-    first: Fit
-    second: Stage
 
 
 SMALL, LARGE = (20, 20, 20), (32, 32, 32)
@@ -98,7 +89,7 @@ def learn(rows: Rows, limits: Rows, shop: Shop, said: Callable[[str], None]) -> 
     known = told(tests.scaled, low.mean(axis=0), log)
     with_work = np.column_stack([known, np.log10(rows.work)])
     give = np.log10(rows.give * rows.start_force / rows.groups[:, physics.PRELOAD])
-    stresses = _twice(tasks, STRESS, shop)
+    stresses = twice(tasks, STRESS, shop)
     works = _begin(known, np.log10(rows.work) - log, WORK, shop)
     gives = _begin(known, give, GIVE, shop)
     line = scaled_task(with_work, rows.line, rows.known)
@@ -115,19 +106,15 @@ def _limit(
     target = np.log10(rows.force)[:, None]
     told = physics.scaled(rows.groups)[:, inputs]
     task = Task(told, target, np.ones_like(target), (least, np.zeros(len(least))))
-    return _twice([task] * _MEMBERS, looks, shop)
-
-
-def _twice(tasks: Sequence[Task], looks: Looks, shop: Shop) -> Callable[[], Networks]:
-    return twice(tasks, looks.first, looks.second, shop)
+    return twice([task] * _MEMBERS, looks, shop)
 
 
 def _begin(
     inputs: Array, target: Array, looks: Looks, shop: Shop, *, members: int = _MEMBERS
 ) -> Callable[[], Networks]:
     """Begin to learn one output that is scaled by its mean and deviation."""
-    task: Scaled = scaled_task(inputs, target[:, None])
-    begun = _twice([task.task] * members, looks, shop)
+    task = scaled_task(inputs, target[:, None])
+    begun = twice([task.task] * members, looks, shop)
     return lambda: task.of(begun())
 
 
