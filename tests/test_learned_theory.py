@@ -101,7 +101,7 @@ def test_a_start_by_force_or_radius_is_one_by_depth():
 def test_creep_is_that_of_the_solid():
     rows = drawn(40, seed=3)
     time = np.geomspace(1e-9, 1e6, 40)
-    found = short_range.crept(rows, time)
+    found = short_range.creep_of(rows)(time)
     for row, t, creep in zip(rows, time, found, strict=True):
         solid = vt.RetardationPowerLaw(
             rubbery_modulus=1.0,

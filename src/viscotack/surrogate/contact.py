@@ -1,13 +1,13 @@
-r"""The physics that a surrogate stands on: one class for each contact, plugged into one surrogate.
+r"""The physics of a contact, which is plugged into the one class of surrogates.
 
-A network never says a pull-off force. It says where between two limits the force is,
+No network has a pull-off force as its output, but a share s of the way between two limits,
 
 .. math:: \log \hat P = (1 - s) \log \hat P_\text{slow} + s \log \hat P_\text{fast} ,
           \qquad 0 < s < 1 ,
 
-so that no answer leaves them. Which limits, what the networks are told and where they may be asked
-is different for each contact: :mod:`.physics` (a sphere on a power law), :mod:`.linear_solids` (on
-any other linear solid), :mod:`.punch_physics` and :mod:`.short_range` (large Tabor numbers).
+so that no answer leaves them. A contact defines the limits, the inputs with their ranges, and the
+inputs of the networks: :mod:`.physics` (a sphere on a power law), :mod:`.linear_solids` (on any
+other linear solid), :mod:`.punch_physics` and :mod:`.short_range` (large Tabor numbers).
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def share(output: Array) -> Array:
 
 
 def between(low: Array, high: Array, output: Array) -> Array:
-    """Return what lies between two logarithms, by the output of a network."""
+    """Return the logarithm between two limits at the share that an output stands for."""
     return low + np.maximum(high - low, LEAST_WAY) * share(output)
 
 
@@ -63,7 +63,7 @@ def scaled_logarithms(values: Array, low: Array, high: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Further:
-    """What is learned of tests beside the networks of force and work; None for nothing.
+    """Corrections of force and work, None for none, and further outputs of a contact.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Further:
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """Tests of one contact: what is known of them without learning, and what networks are told.
+    """Tests of one contact: inputs, ranges, limits of the force, and inputs of the networks.
 
     Attributes
     ----------
@@ -117,7 +117,8 @@ class Contact:
     start_inputs: ClassVar[list[int]] = []
     search: ClassVar[tuple[int, int]]
     no_start: ClassVar[str]
-    # Whether the networks of the travel to zero force are told the work, and what divides it.
+    # Whether the work is an input of the networks of the travel to zero force, and the unit of
+    # force times depth in units of the work.
     give_knows_work: ClassVar[bool] = True
     work_unit: ClassVar[float] = 1.0
 
@@ -178,22 +179,22 @@ class Contact:
 
     @cached_property
     def told(self) -> Array:
-        """What the networks of the force are told, shape (n, columns)."""
+        """Inputs of the networks of the force, shape (n, columns)."""
         return self.scaled
 
     def further(self, output: Array) -> Further:
-        """Return what is learned beside what the networks of the force say, shape (m, n)."""
+        """Return corrections, from the outputs of the networks of the force, shape (m, n)."""
         return Further()
 
     def told_of_errors(self, answers: Answers) -> Array:
-        """Return what the network of the errors is told, shape (n, columns)."""
+        """Return the inputs of the networks of the errors, shape (n, columns)."""
         return error_inputs(self.scaled, answers)
 
     # Start, work and curve ------------------------------------------------------------------
 
     @property
     def said_of_start(self) -> Array:
-        """What the networks of the start say, shape (m, n, outputs)."""
+        """Outputs of the networks of the start, shape (m, n, outputs)."""
         return self.networks["start"](self.scaled[:, self.start_inputs])
 
     @cached_property
@@ -202,15 +203,15 @@ class Contact:
         return self.started(self.said_of_start.mean(axis=0))
 
     def started(self, said: Array) -> tuple[Array, Array]:
-        """Return force and radius of starts of which a network says this, shape (n, outputs)."""
+        """Return force and radius of starts, from outputs of shape (n, outputs)."""
         raise NotImplementedError
 
     def knowing(self, force: Array) -> Array:
-        """Return what networks are told that know log10 of the force, shape (n, columns)."""
+        """Return the inputs of networks that depend on log10 of the force, shape (n, columns)."""
         raise NotImplementedError
 
     def give(self, said: Array) -> Array:
-        """Return travel to zero force times radius over force, from its logarithm as learned."""
+        """Return travel to zero force times radius over force, from the output of its networks."""
         return 10**said
 
     def curves(self, answers: Answers) -> Curves:

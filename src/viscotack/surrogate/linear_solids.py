@@ -58,13 +58,13 @@ WIDEST = 2.4
 class SolidContact(SphereContact):
     """A sphere on any linear solid: that on the power law that it is like, bent.
 
-    The networks beside those of power laws are ``begin``, where the search for a power law begins
-    and which samples count in it, and ``bend_force`` and ``bend_work``, how what is left over bends
-    an answer. The constants are ``floor``, what each sample counts at least; ``usual``, the root
-    mean square of what is left over; ``spread``, times which that is of order one for the solids
-    learned from; and ``farthest``, how unlike, and how far out by that measure, solids are for
-    which there is an answer. The answers have ``bends`` (:attr:`.answers.Answers.more`), shape
-    (n, 4): how far force and work were bent, and how far the networks are apart in it.
+    Networks beside those of power laws are ``begin``, for the beginning of the search for a power
+    law and the counts of the samples, and ``bend_force`` and ``bend_work``, for the corrections.
+    Constants are ``floor``, the least count of a sample; ``usual``, the root mean square of the
+    residuals; ``spread``, a matrix that makes the residuals of the solids learned from of order
+    one; and ``farthest``, the largest :attr:`.alike.Alike.unlike` and :attr:`far` of these. A
+    further output (:attr:`.answers.Answers.more`) is ``bends``, shape (n, 4): the sizes of the
+    corrections of force and work, and their deviations among the networks.
     """
 
     like: Alike
@@ -101,7 +101,7 @@ class SolidContact(SphereContact):
         return np.stack([self.like.unlike, self.far], axis=1) <= self.constants["farthest"]
 
     def further(self, output: Array) -> Further:
-        """Return how what is left over bends force and work."""
+        """Return the corrections of force and work, from the residuals of the power law."""
         over = scaled_over(self.like, self.constants["usual"])
         inputs = np.column_stack([features(self.like, output), over])
         ways = ("bend_force", over), ("bend_work", over * felt(output))
@@ -111,7 +111,7 @@ class SolidContact(SphereContact):
         return Further(force, work, {"bends": np.column_stack(bends)})
 
     def told_of_errors(self, answers: Answers) -> Array:
-        """Return what the network of the errors is told, shape (n, TRUST_INPUTS)."""
+        """Return the inputs of the networks of the errors, shape (n, TRUST_INPUTS)."""
         unlike = np.log10(self.like.unlike + _LEAST_UNLIKE) + 3
         far = np.log10(self.far + _LEAST_UNLIKE) + 1
         bends = np.log10(answers.more["bends"] + _LEAST_BEND) + 2

@@ -1,7 +1,6 @@
-"""One surrogate for every contact: physics, a learned correction, intervals, and where it ends.
+"""One surrogate for every contact: physics, a learned correction, intervals and their range.
 
-Evaluated with NumPy alone. What is known without learning, contact by contact:
-:mod:`viscotack.surrogate.contact`.
+It is evaluated with NumPy alone. :mod:`viscotack.surrogate.contact` defines the physics.
 """
 
 from __future__ import annotations
@@ -31,11 +30,11 @@ class Surrogate:
     Attributes
     ----------
     contact : type of Contact
-        Its inputs with their ranges, limits of the force, and what the networks are told.
+        Its inputs with their ranges, limits of the force, and inputs of the networks.
     networks : mapping of str to Networks
-        The learned correction: where between its limits the force is, and what follows from it.
+        The learned correction: where between its limits the force is, then work and curve.
     trust : Trust or None
-        How wide intervals are; None where they were not measured.
+        Widths of the intervals; None where they were not measured.
     constants : mapping of str to ndarray
         Numbers of the contact that were measured beside the networks.
 
@@ -43,7 +42,7 @@ class Surrogate:
     -----
     Methods take rows of inputs in the order of ``contact.inputs``, shape (n, inputs), of solids
     that are no power laws what :func:`.linear_solids.like` returns, or :meth:`tests` of these.
-    :meth:`inside` and :meth:`holds` check whether it has learned of them; the others answer.
+    :meth:`inside` and :meth:`holds` check the range that was learned from; the others do not.
     """
 
     contact: type[Contact]
@@ -52,7 +51,7 @@ class Surrogate:
     constants: Mapping[str, Array] = field(default_factory=dict)
 
     def tests(self, given: Any) -> Contact:
-        """Return tests; what is known of them is computed once, for all methods that take them."""
+        """Return tests, whose limits and starts are computed once for all methods."""
         if isinstance(given, Contact):
             if given.networks is not self.networks:
                 raise InputError("these are tests of another surrogate; give their inputs")
@@ -90,7 +89,7 @@ class Surrogate:
     def inside(self, given: Any) -> npt.NDArray[np.bool_]:
         """Return which inputs lie in the range learned from, shape (n, inputs).
 
-        Of a solid that is no power law, whether it is like those learned from, shape (n, 2).
+        Of solids that are no power laws two columns: how unlike one they are, and in which way.
         """
         with np.errstate(invalid="ignore", divide="ignore"):
             return self.tests(given).inside()

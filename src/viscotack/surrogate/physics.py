@@ -128,9 +128,9 @@ class SphereContact(Contact):
         return between(self.slow, largest_fast_limit(self.rows), said)
 
     def started(self, said: Array) -> tuple[Array, Array]:
-        """Return force and radius of starts of which a network says this, shape (n, 2)."""
+        """Return force and radius of starts, from outputs of shape (n, 2)."""
         return start_force(self.rows, said[:, 0]), 10 ** said[:, 1]
 
     def knowing(self, force: Array) -> Array:
-        """Return what networks are told that know the start and the force, shape (n, 9)."""
+        """Return the inputs of networks that depend on start and force, shape (n, 9)."""
         return with_start(self.scaled, *self.start, force)

@@ -149,11 +149,11 @@ class PunchContact(Contact):
         return np.maximum(self.slow, fast)
 
     def started(self, said: Array) -> tuple[Array, Array]:
-        """Return stress and ligament of starts of which a network says this, shape (n, 1)."""
+        """Return stress and ligament of starts, from outputs of shape (n, 1)."""
         return self.ranged[:, PRELOAD] * 10 ** said[:, 0], self.rows[:, SIZE]
 
     def knowing(self, force: Array) -> Array:
-        """Return what networks are told that know the slow limit and the stress, shape (n, 7)."""
+        """Return the inputs of networks that depend on slow limit and stress, shape (n, 7)."""
         return told(self.scaled, self.slow.mean(axis=0), force)
 
     def give(self, said: Array) -> Array:

@@ -18,6 +18,7 @@ other solids from fewer of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -44,30 +45,35 @@ _LEAST_TABOR, _LEAST_ZONES, _SLOW = 2.2, 1.8, 1.1
 _ZONE, _HALVINGS, _DECADES = 0.3, 25, 4.0
 
 
-def crept(groups: Array, time: Array) -> Array:
-    """Return the creep of the solids at times [tau0] over what they creep at last, shape (n,).
+def creep_of(groups: Array) -> Callable[[Array], Array]:
+    """Return the creep of the solids over the last one as a function of times [tau0], shape (n,).
 
     Examples
     --------
     >>> rows = np.array([[100.0, 0.1, 0.6, 10.0, 1.0]] * 2)
-    >>> crept(rows, np.array([0.0, 1e9])).round(6).tolist()
+    >>> creep_of(rows)(np.array([0.0, 1e9])).round(6).tolist()
     [0.1, 1.0]
     """
     k, n = groups[:, physics.MODULUS_RATIO], groups[:, physics.EXPONENT]
-    with np.errstate(invalid="ignore", over="ignore"):
-        left = 2 / gamma(n) * time ** (n / 2) * kv(n, 2 * np.sqrt(time))
-    # at no time nothing has crept, and K is infinite
-    return 1 - (1 - k) * np.where(np.isfinite(left), np.minimum(left, 1.0), 1.0)
+    front, half, glassy = 2 / gamma(n), n / 2, 1 - k
+
+    def creep(time: Array) -> Array:
+        with np.errstate(invalid="ignore", over="ignore"):
+            left = front * time**half * kv(n, 2 * np.sqrt(time))
+        # at no time nothing has crept, and K is infinite
+        return 1 - glassy * np.where(np.isfinite(left), np.minimum(left, 1.0), 1.0)
+
+    return creep
 
 
 def crack_alone(groups: Array) -> Array:
     """Return ln of the energy of a crack whose zone creeps while it crosses it, shape (n,)."""
-    speed = groups[:, physics.TABOR] * groups[:, physics.RATE]
+    creep, speed = creep_of(groups), groups[:, physics.TABOR] * groups[:, physics.RATE]
     low = np.zeros(len(groups))
     high = -np.log(groups[:, physics.MODULUS_RATIO])
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        above = middle < -np.log(crept(groups, _ZONE * np.exp(middle) / speed))
+        above = middle < -np.log(creep(_ZONE * np.exp(middle) / speed))
         low, high = np.where(above, middle, low), np.where(above, high, middle)
     return low
 
@@ -75,12 +81,11 @@ def crack_alone(groups: Array) -> Array:
 class ShortRangeContact(Contact):
     """A sphere of a large Tabor number on a power law, as the theory of a crack at its edge has it.
 
-    Besides the force it says, as :attr:`.answers.Answers.more`, the ``amplification``, the energy
-    of the crack at the pull-off over the work of adhesion; ``zones``, the way of the edge to the
-    pull-off in zones of the crack; and ``effective``, the Tabor number of an elastic contact whose
-    zone is as large beside it. The constant ``error`` is the part of the force by which the
-    networks differ from the theory in 9 and in 98 of 100 cases of solids that they had not learned
-    from.
+    Further outputs, in :attr:`.answers.Answers.more`, are ``amplification``, the energy of the
+    crack at the pull-off over the work of adhesion; ``zones``, the way of the edge to the pull-off
+    in zones of the crack; and ``effective``, the Tabor number of an elastic contact whose zone is
+    as large beside it. The constant ``error`` is the part of the force by which the networks differ
+    from the theory in 9 and in 98 of 100 cases of solids that they had not learned from.
     """
 
     name, inputs, low, high, ends = "short range", physics.INPUTS, LOW, HIGH, _ENDS
@@ -105,13 +110,13 @@ class ShortRangeContact(Contact):
 
     @cached_property
     def told(self) -> Array:
-        """What the networks are told, shape (n, 10)."""
+        """Inputs of the networks, shape (n, 10)."""
         mu, k, _, depth, rate = self.rows.T
-        energy, most = crack_alone(self.rows), -np.log(k)
+        creep, energy, most = creep_of(self.rows), crack_alone(self.rows), -np.log(k)
         radius = np.sqrt(np.maximum(depth / mu, 1e-3))
         with np.errstate(invalid="ignore", over="ignore"):
-            bulk = crept(self.rows, depth / rate)
-            pulled = crept(self.rows, np.exp(energy * 2 / 3) * mu / rate)
+            bulk = creep(depth / rate)
+            pulled = creep(np.exp(energy * 2 / 3) * mu / rate)
         return np.column_stack(
             [
                 self.scaled,

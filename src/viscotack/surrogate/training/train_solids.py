@@ -135,7 +135,7 @@ def parts(tests: Tests) -> dict[str, Mask]:
 
 
 def unbent() -> Surrogate:
-    """Return a surrogate that knows what solids are like; nothing bends its answers yet."""
+    """Return a surrogate that finds the power law of a solid, without corrections yet."""
     constants = {
         "floor": np.array(likeness.FLOOR),
         "usual": np.ones(SAMPLES),
@@ -152,7 +152,7 @@ def _none() -> Networks:
 
 
 def bent(begun: Surrogate, solids: Tests) -> Surrogate:
-    """Return what has learned from tests how what is left over bends force and work."""
+    """Return a surrogate with corrections of force and work that were learned from tests."""
     like, power_law = solids.like(begun), store.shipped()
     usual = np.sqrt(np.mean(like.over**2, axis=0))
     made = replace(begun, constants={**begun.constants, "usual": usual}).having(bend_work=_none())
@@ -183,7 +183,7 @@ def _members(task: Task, how: Fit) -> Networks:
 
 
 def with_range(made: Surrogate, tests: Tests) -> Surrogate:
-    """Return what knows how far the solids learned from are from power laws."""
+    """Return a surrogate that refuses solids further from power laws than those of tests."""
     like = tests.like(made)
     sizes, axes = np.linalg.eigh(like.over.T @ like.over / len(like.over))
     # directions in which hardly any solid differs are as far as the last ones in which some do
