@@ -11,7 +11,8 @@ from viscotack import solve
 from viscotack.campaign.columns import KINDS
 from viscotack.result import trajectory
 from viscotack.result.observables import pull_off_force, work_to_pull_off
-from viscotack.surrogate import line, physics, store
+from viscotack.surrogate import contact, line, physics, store
+from viscotack.surrogate.contact import Contact
 from viscotack.surrogate.model import Surrogate
 from viscotack.surrogate.network import Networks, added, single, together
 from viscotack.surrogate.physics import INPUTS, SphereContact
@@ -289,6 +290,42 @@ def test_what_is_known_of_tests_is_that_of_their_own_surrogate():
         random_surrogate().evaluate(tests)
     with pytest.raises(ValueError, match="no intervals were measured for a short range"):
         shipped("short range").intervals(groups, shipped().evaluate(groups))
+
+
+class Spring(Contact):
+    """A contact of this test alone: a spring that a rate makes up to ten times as strong."""
+
+    name, inputs = "spring", ("stiffness", "rate")
+    low, high = np.array([1.0, 0.1]), np.array([10.0, 100.0])
+    ends = np.log10(low), np.log10(high)
+    shapes = {"force": (2, 1)}
+
+    @property
+    def slow(self):
+        return np.log10(self.rows[:, 0])
+
+    @property
+    def fast(self):
+        return self.slow + 1.0
+
+
+def test_physics_of_another_contact_is_plugged_in_by_one_class(tmp_path):
+    force = random_networks(np.random.default_rng(6), 2, 5, 1, members=3)
+    made, rows = Surrogate(Spring, {"force": force}), np.array([[2.0, 1.0], [5.0, 1e3]])
+    said = made.evaluate(rows)
+    wanted = contact.share(force(made.tests(rows).scaled)[..., 0])
+    assert said.pull_off_force == pytest.approx(rows[:, 0] * 10 ** wanted.mean(axis=0), rel=1e-12)
+    assert said.way == pytest.approx(1.0) and said.share == pytest.approx(wanted.mean(axis=0))
+    assert np.all(np.isnan(said.work_to_pull_off))
+    assert made.inside(rows).tolist() == [[True, True], [True, False]]
+    assert (
+        made.limits == made.limits_of(rows[0]) == {"stiffness": (1.0, 10.0), "rate": (0.1, 100.0)}
+    )
+    with pytest.raises(ValueError, match="no intervals were measured for a spring"):
+        made.intervals(rows, said)
+    store.save(made, tmp_path / "spring.npz", {})
+    with pytest.raises(ValueError, match="not the file of a surrogate, or damaged: 'spring'"):
+        store.load(tmp_path / "spring.npz")
 
 
 def test_a_damaged_or_foreign_file_is_refused(tmp_path):
