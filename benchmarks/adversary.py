@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from viscotack import Groups, PunchGroups, solve, summary
+from viscotack import Groups, solve, summary
 from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
@@ -91,7 +91,7 @@ class OfPunch:
         return joined([punches.read(name) for name in punches.LEARNED])
 
     @classmethod
-    def problem(cls, row: np.ndarray) -> PunchGroups:
+    def problem(cls, row: np.ndarray) -> Groups:
         """Return the problem of inputs."""
         stated = dict(zip(cls.inputs, row.tolist(), strict=True))
         return KINDS["punch"].problem({"cohesion": 0.05, **stated})

@@ -16,9 +16,10 @@ from viscotack import (
     Dugdale,
     Dwell,
     Exponential,
+    FlatPunch,
     Groups,
+    Layer,
     LennardJones,
-    PunchGroups,
     Retract,
 )
 from viscotack.traction import effective_range
@@ -26,7 +27,7 @@ from viscotack.traction import effective_range
 _PUNCHES, _WITH_SPRING, _WITH_HISTORY = 0.3, 0.25, 0.3
 
 
-def drawn(seed: int, number: int) -> Groups | PunchGroups:
+def drawn(seed: int, number: int) -> Groups:
     """Return a test: a sphere of Tabor number 0.1 to 8, or a punch, with a law, a solid, a spring.
 
     A history, where there is one, presses deeper, waits, or pulls half way before the retraction.
@@ -37,20 +38,23 @@ def drawn(seed: int, number: int) -> Groups | PunchGroups:
     if luck.happens(_PUNCHES):
         thickness = luck.decades(1, 30)
         pushed = thickness / (0.64 * traction.strength)
-        sizes = {"size": luck.decades(5, 80), "thickness": thickness, "cohesion": 0.05}
+        sizes = {
+            "tabor": None,
+            "geometry": FlatPunch(luck.decades(5, 80)),
+            "body": Layer(thickness),
+            "cohesion": 0.05,
+        }
         travel = reach * (1 + np.sqrt(3 * thickness))
         depth = pushed * luck.decades(0.03, 1.5)
-        make, stiff = PunchGroups, 1.0
     else:
         sizes = {"tabor": reach * luck.decades(0.1, 8)}
         travel = sizes["tabor"] + reach
         depth = travel * luck.decades(0.03, 20)
-        make, stiff = Groups, 1.0
     stiffness = None
     if luck.happens(_WITH_SPRING):
-        stiffness = stiff / travel * luck.decades(0.1, 100)
+        stiffness = 1 / travel * luck.decades(0.1, 100)
     speed = travel * luck.decades(1e-2, 1e4)
-    return make(
+    return Groups(
         **sizes,
         material=material,
         traction=traction,

@@ -47,7 +47,6 @@ from viscotack import (
     LennardJones,
     LoadTo,
     MoveTo,
-    PunchGroups,
     Result,
     Retract,
     cycles,
@@ -55,6 +54,7 @@ from viscotack import (
 )
 from viscotack.bem.interface import resolved
 from viscotack.bem.solver import contact_of
+from viscotack.geometry import FlatPunch, Layer
 
 Array = npt.NDArray[np.float64]
 
@@ -68,7 +68,7 @@ _CLOSE = 0.7
 _TIME_LIMIT = 240.0
 
 
-def drawn(seed: int, number: int) -> Groups | PunchGroups:
+def drawn(seed: int, number: int) -> Groups:
     """Return a random problem with a history; those of one seed are always the same."""
     luck = Luck(seed, number)
     material, traction = solid(luck), law(luck)
@@ -77,13 +77,16 @@ def drawn(seed: int, number: int) -> Groups | PunchGroups:
         travel = thickness / (0.64 * traction.strength) + 1
         start = luck.one({AtForce(luck.within(0.02, 0.6)): 1, Apart(luck.within(5, 30)): 1})
         stiffness = luck.decades(1e-3, 10) if luck.happens(0.7) else None
-        return PunchGroups(
-            size=luck.decades(3, 60),
-            thickness=thickness,
+        return Groups(
+            tabor=None,
             cohesion=luck.decades(0.02, 0.1),
-            base=Bonded(poisson_ratio=luck.within(0.3, 0.49))
-            if luck.happens(0.3)
-            else Frictionless(),
+            geometry=FlatPunch(luck.decades(3, 60)),
+            body=Layer(
+                thickness,
+                Bonded(poisson_ratio=luck.within(0.3, 0.49))
+                if luck.happens(0.3)
+                else Frictionless(),
+            ),
             material=material,
             traction=traction,
             stiffness=stiffness,
@@ -188,8 +191,10 @@ def _interface(result: Result, i: int) -> float:
     """
     groups, (x, gap, _) = result.groups, _profile(result, i)
     law = groups.traction
-    if isinstance(groups, PunchGroups) and resolved(law):
-        return float(law.energy(gap) @ _areas(x, True)) / (2 * groups.size * law.strength)
+    if groups.in_plane_strain and resolved(law):
+        return float(law.energy(gap) @ _areas(x, True)) / (
+            2 * groups.geometry.half_width * law.strength
+        )
     if resolved(law):
         inner = float(law.energy(gap) @ _areas(x, False)) / (2 * np.pi)
         return 4 / 3 * (groups.tabor * inner + float(law.energy_beyond(gap[-1])))
@@ -197,8 +202,8 @@ def _interface(result: Result, i: int) -> float:
     h = np.diff(x)
     points = x[:-1, None] + h[:, None] * (at + 1) / 2
     energy = groups.traction.energy(CubicSpline(x, gap)(points)) * (weight * h[:, None] / 2)
-    if isinstance(groups, PunchGroups):
-        return float(np.sum(energy)) / (groups.size * groups.traction.strength)
+    if groups.in_plane_strain:
+        return float(np.sum(energy)) / (groups.geometry.half_width * groups.traction.strength)
     flank = float(groups.traction.energy_beyond(gap[-1]))
     return 4 / 3 * (groups.tabor * float(np.sum(points * energy)) + flank)
 
@@ -213,7 +218,7 @@ def _of_solid(result: Result) -> tuple[Array, Array, Array]:
     places = np.unique(np.concatenate([x for x, _, _ in steps]))
     finest = min(float(np.min(np.diff(x))) for x, _, _ in steps)
     grid = _apart_by(places, _CLOSE * finest)
-    plane = isinstance(groups, PunchGroups)
+    plane = groups.in_plane_strain
     area = _areas(grid, plane)
     surface, known = None, np.empty(0)
     edges = result.contact_radius * contact.edge_unit
@@ -332,7 +337,7 @@ def _step(
 # --- how far they are from what is booked -------------------------------------------------------
 
 
-def compared(groups: Groups | PunchGroups, accuracy: float) -> dict[str, float]:
+def compared(groups: Groups, accuracy: float) -> dict[str, float]:
     """Return by what derived terms differ from booked ones, over the work; and what is missing."""
     result = solve(
         groups, accuracy=accuracy, estimate_error=False, fields=True, time_limit=_TIME_LIMIT
@@ -359,7 +364,7 @@ def compared(groups: Groups | PunchGroups, accuracy: float) -> dict[str, float]:
     }
 
 
-def loops(groups: Groups | PunchGroups, accuracy: float) -> list[dict[str, Any]]:
+def loops(groups: Groups, accuracy: float) -> list[dict[str, Any]]:
     """Return stated and true errors of the hysteresis of each cycle."""
     found = cycles(solve(groups, accuracy=accuracy, time_limit=_TIME_LIMIT))
     true = cycles(
@@ -377,12 +382,14 @@ def loops(groups: Groups | PunchGroups, accuracy: float) -> list[dict[str, Any]]
     ]
 
 
-def cyclic(seed: int, number: int) -> Groups | PunchGroups:
+def cyclic(seed: int, number: int) -> Groups:
     """Return a random problem of which a cycle closes."""
     luck = Luck(seed, number, 1)
     groups = drawn(seed, number)
-    punch = isinstance(groups, PunchGroups)
-    travel = 1 + (groups.thickness / (0.64 * groups.traction.strength) if punch else groups.tabor)
+    punch = groups.in_plane_strain
+    travel = 1 + (
+        groups.body.thickness / (0.64 * groups.traction.strength) if punch else groups.tabor
+    )
     lost = 0.0 if groups.stiffness is None else 1 / (groups.stiffness * travel)
 
     def speed() -> float:

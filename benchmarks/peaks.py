@@ -14,7 +14,7 @@ from typing import Any
 from cases import case, spread, spread_out, standard_solid
 from random_problems import Luck
 
-from viscotack import AtDepth, Groups, PunchGroups, peaks, pull_off_force, solve
+from viscotack import AtDepth, FlatPunch, Groups, Layer, peaks, pull_off_force, solve
 from viscotack.bem import SimulationError
 from viscotack.bem.books import Lowest
 from viscotack.errors import InputError
@@ -36,21 +36,22 @@ def fast(seed: int, number: int) -> Groups:
     return case(tabor, ratio, luck.within(1.0, 2.0), depth, rate)
 
 
-def punch(seed: int, number: int) -> PunchGroups:
+def punch(seed: int, number: int) -> Groups:
     """Return a punch of a standard solid."""
     luck = Luck(seed, number)
     depth = luck.decades(0.1, 30)
-    return PunchGroups(
-        size=luck.decades(5, 200),
-        thickness=luck.decades(0.3, 300),
+    return Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=FlatPunch(luck.decades(5, 200)),
+        body=Layer(luck.decades(0.3, 300)),
         material=standard_solid(luck.decades(1e-3, 0.1)),
         start=AtDepth(depth),
         rate=depth * luck.decades(0.2, 30),
     )
 
 
-def looked_at(groups: Groups | PunchGroups) -> dict[str, Any] | None:
+def looked_at(groups: Groups) -> dict[str, Any] | None:
     """Return both forces, the number of peaks, and steps to where the force had risen by 3 %."""
     try:
         ended, whole = (

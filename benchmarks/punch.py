@@ -27,7 +27,6 @@ from viscotack import (
     Bonded,
     Elastic,
     Frictionless,
-    PunchGroups,
     StandardSolid,
     crack_speed_at_pull_off,
     draw_regimes,
@@ -39,6 +38,8 @@ from viscotack import (
     work_of_separation,
 )
 from viscotack.bem.twins.plain_punch import plain_solve
+from viscotack.geometry import FlatPunch, Layer
+from viscotack.problem import Groups
 from viscotack.theory.punch import Pad, regime_map
 from viscotack.theory.punch import crossover as exact_curve
 
@@ -65,7 +66,7 @@ PROTOCOLS = (
 class Work(NamedTuple):
     """A case, and how it is solved."""
 
-    groups: PunchGroups
+    groups: Groups
     until: str = "pull-off"
     accuracy: float = 2e-3
     estimate: bool = False
@@ -84,12 +85,13 @@ class Answer(NamedTuple):
     error: float
 
 
-def case(thickness: float, rate: float, **changes: Any) -> PunchGroups:
+def case(thickness: float, rate: float, **changes: Any) -> Groups:
     """Return a case of the thesis."""
-    standard = PunchGroups(
-        size=SIZE,
-        thickness=thickness,
+    standard = Groups(
+        tabor=None,
         cohesion=COHESION,
+        geometry=FlatPunch(SIZE),
+        body=Layer(thickness),
         material=standard_solid(K),
         start=AtDepth(1.0),
         rate=rate,
@@ -97,12 +99,12 @@ def case(thickness: float, rate: float, **changes: Any) -> PunchGroups:
     return replace(standard, **changes)
 
 
-def relaxed(thickness: float, size: float = SIZE) -> PunchGroups:
+def relaxed(thickness: float, size: float = SIZE) -> Groups:
     """Return the elastic layer of the rubbery modulus, the slowest retraction."""
-    return case(thickness, 1.0, size=size, material=ELASTIC)
+    return case(thickness, 1.0, geometry=FlatPunch(size), material=ELASTIC)
 
 
-def glassy(thickness: float, size: float = SIZE) -> PunchGroups:
+def glassy(thickness: float, size: float = SIZE) -> Groups:
     """Return the elastic layer of the glassy modulus: a0 is 1/k times as long for it."""
     slow = relaxed(K * thickness, K * size)
     return replace(slow, cohesion=K * COHESION)
@@ -115,7 +117,7 @@ def measure(work: Work) -> Answer:
         work.groups, accuracy=work.accuracy, until=work.until, estimate_error=work.estimate
     )
     seconds = perf_counter() - began
-    thin = work.groups.thickness < 4 / np.pi * work.groups.size
+    thin = work.groups.body.thickness < 4 / np.pi * work.groups.geometry.half_width
     return Answer(
         stress=pull_off_stress(result),
         ligament=ligament_at_pull_off(result),
@@ -210,7 +212,7 @@ def enhancement() -> None:
     sizes = (32.42, 64.84, 129.69)
     ratios = np.array([1.5, 2.0, 3.0, 5.0, 8.0, 12.7, 20.0, 32.42])
     for rate in (100.0, 1e4):
-        works = [Work(case(float(b), rate, size=s)) for s in sizes for b in ratios]
+        works = [Work(case(float(b), rate, geometry=FlatPunch(s))) for s in sizes for b in ratios]
         found = table(works)
         energy = found[:, 3].reshape(len(sizes), -1)
         whole = energy * found[:, 1].reshape(len(sizes), -1) ** 2

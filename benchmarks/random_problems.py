@@ -34,7 +34,6 @@ from viscotack import (
     MoveTo,
     PowerLawProfile,
     Prony,
-    PunchGroups,
     RelaxationPowerLaw,
     RetardationPowerLaw,
     Retract,
@@ -42,6 +41,7 @@ from viscotack import (
     StandardSolid,
     Tabulated,
 )
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.traction import effective_range
 
 sys.path.append(str(Path(__file__).parents[1] / "examples" / "own"))
@@ -85,7 +85,7 @@ class Luck:
         return bool(self._random.random() < share)
 
 
-def problem(seed: int, number: int) -> Groups | PunchGroups:
+def problem(seed: int, number: int) -> Groups:
     """Return one problem; those of one seed are the same however many are asked for."""
     luck = Luck(seed, number)
     material = solid(luck)
@@ -225,7 +225,7 @@ def geometry(luck: Luck, shape: str) -> Any:
     return RoundedCone(float(np.hypot(1, rounding)), rounding)
 
 
-def punch(luck: Luck, material: Any, *, with_history: bool) -> PunchGroups:
+def punch(luck: Luck, material: Any, *, with_history: bool) -> Groups:
     """Return a flat punch on a layer, free to slide or bonded."""
     while True:
         traction = law(luck)
@@ -244,11 +244,14 @@ def punch(luck: Luck, material: Any, *, with_history: bool) -> PunchGroups:
 
     scene = Scene(travel, 10 * effective_range(traction) + pushed, 0.1, press)
     stiffness, machine = driven(luck, material, scene, with_history)
-    return PunchGroups(
-        size=size,
-        thickness=thickness,
+    return Groups(
+        tabor=None,
         cohesion=luck.decades(0.01, 0.1),
-        base=Bonded(poisson_ratio=luck.within(0.3, 0.49)) if luck.happens(0.3) else Frictionless(),
+        geometry=FlatPunch(size),
+        body=Layer(
+            thickness,
+            Bonded(poisson_ratio=luck.within(0.3, 0.49)) if luck.happens(0.3) else Frictionless(),
+        ),
         material=material,
         traction=traction,
         stiffness=stiffness,
@@ -309,13 +312,13 @@ def deeper(scene: Scene) -> Any:
             return state
 
 
-def words(groups: Groups | PunchGroups) -> str:
+def words(groups: Groups) -> str:
     """Return a problem in a few words."""
     material: Any = groups.material
     traction: Any = groups.traction
-    if isinstance(groups, PunchGroups):
+    if groups.in_plane_strain:
         what = (
-            f"punch {groups.size:.3g} on {groups.thickness:.3g} "
+            f"punch {groups.geometry.half_width:.3g} on {groups.body.thickness:.3g} "
             f"{type(groups.base).__name__.lower()}, cohesion {groups.cohesion:.2g}"
         )
     else:

@@ -30,13 +30,13 @@ from viscotack import (
     Dwell,
     Elastic,
     Groups,
-    PunchGroups,
     pull_off_force,
     pull_off_stress,
     solve,
 )
 from viscotack.bem import Settings
 from viscotack.bem.twins.plain_sphere import plain_solve
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import RetardationPowerLaw
 
 PAGE = Path(__file__).resolve().parents[1] / "docs/verification.md"
@@ -230,10 +230,11 @@ def punch_rows() -> list[Row]:
     """Return the flat punch against another program and the exact elastic crossover."""
     rows: list[Row] = []
     for thickness, rate, expected in ((3.24, 1.0, 0.947), (32.42, 10.0, 0.4465)):
-        groups = PunchGroups(
-            size=64.85,
-            thickness=thickness,
+        groups = Groups(
+            tabor=None,
             cohesion=0.05,
+            geometry=FlatPunch(64.85),
+            body=Layer(thickness),
             material=standard_solid(0.1),
             start=AtDepth(1.0),
             rate=rate,

@@ -25,6 +25,7 @@ from viscotack.operations.declare.cards import File, Known, Named, Spelled, Swit
 from viscotack.operations.declare.options import options, spelled
 from viscotack.operations.declare.statement import Stated
 from viscotack.operations.parts.json_data import plain
+from viscotack.problem.nouns import own_nouns
 
 # What two runs of one question do not share.
 OF_A_RUN = ("wall_time_s",)
@@ -44,6 +45,8 @@ class Question:
 
     word: str
     given: dict = field(default_factory=dict)
+    # files with nouns of the user's own
+    own: tuple = ()
 
     @property
     def kind(self):
@@ -60,7 +63,8 @@ class Told:
 
 def by_python(question):
     try:
-        return Told(without_times(plain(ask(question.word, **question.given).record())))
+        also = own_nouns(question.own)
+        return Told(without_times(plain(ask(question.word, also=also, **question.given).record())))
     except (InputError, OSError) as error:
         return Told(refused=words_of(error))
 
@@ -116,6 +120,7 @@ def arguments(question):
     unknown = question.given.keys() - {option.name for option in options(question.kind)}
     for name in unknown:
         flags += [f"--{name.replace('_', '-')}", question.given[name]]
+    flags += [part for path in question.own for part in ("--with", path)]
     return [*word, *flags, "--json", *(["--"] if places else []), *places]
 
 
@@ -140,6 +145,8 @@ def problem_flags(card, value):
 class InProcess(Engine):
     """An engine that computes in this process: what it answers is what its processes answer."""
 
+    own = ()
+
     async def begin(self):
         pass
 
@@ -149,7 +156,9 @@ class InProcess(Engine):
     async def ask(self, task, asked, **more):
         assert task == "operation"
         try:
-            return json.loads(json.dumps(run_operation(asked, lambda told: None, ())))
+            return json.loads(
+                json.dumps(run_operation(asked, lambda told: None, own_nouns(self.own)))
+            )
         except InputError as error:
             raise Refused(str(error)) from None
 
@@ -157,9 +166,11 @@ class InProcess(Engine):
 class Http:
     """A client of the application in this process."""
 
-    def __init__(self):
+    def __init__(self, own=()):
         self.loop = asyncio.new_event_loop()
-        transport = httpx.ASGITransport(app=application(InProcess()), raise_app_exceptions=False)
+        engine = InProcess()
+        engine.own = own
+        transport = httpx.ASGITransport(app=application(engine), raise_app_exceptions=False)
         self.client = httpx.AsyncClient(transport=transport, base_url="http://localhost")
 
     def __call__(self, path, **more):
@@ -247,7 +258,8 @@ def by_study(question):
     lines += [f"{name} = {toml_value(value)}" for name, value in question.given.items()]
     study = Path("asked.toml")
     study.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    status, out, err = run(["study", study, "--json"])
+    own = [part for path in question.own for part in ("--with", path)]
+    status, out, err = run(["study", study, "--json", *own])
     if status in (0, 1, 4):
         return Told(without_times(json.loads(out)))
     _, _, words = f"\n{err}".rpartition("\nviscotack: ")

@@ -9,16 +9,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-from viscotack.bem import equilibrium
-from viscotack.bem.bodies import halfspace
-from viscotack.bem.contacts import punch
+from viscotack.bem import equilibrium, surface
 
 
 @contextmanager
 def noise(seed, size=1e-14):
     """Put noise of this relative size into all that simulations in this block work out."""
     random = np.random.default_rng(seed)
-    factor, at, stiffness = equilibrium._factor, equilibrium._Elastic.at, halfspace.stiffness
+    factor, at, stiffness = equilibrium._factor, equilibrium._Elastic.at, surface.stiffness
 
     def noisy(value):
         return value * (1 + size * random.uniform(-1, 1, np.shape(value)))
@@ -39,8 +37,7 @@ def noise(seed, size=1e-14):
         for owner, name, function in (
             (equilibrium, "_factor", noisy_factor),
             (equilibrium._Elastic, "at", noisy_at),
-            (halfspace, "stiffness", noisy_stiffness),
-            (punch, "stiffness", noisy_stiffness),
+            (surface, "stiffness", noisy_stiffness),
         ):
             stack.enter_context(patch.object(owner, name, function))
         yield

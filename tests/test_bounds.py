@@ -8,15 +8,16 @@ import pytest
 from cases import STANDARD, case_text
 from command_line import exit_status
 from effort import calls
+from punches import resized
 from viscotack.bem import Settings
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.jumps import _MOST_MESHES
 from viscotack.bem.mesh import MOST_NODES, Grading
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Frictionless
+from viscotack.geometry import Bonded, FlatPunch, Layer
 from viscotack.materials import Prony, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.problem.case_file import read_case
 from viscotack.protocol import (
     MOST_MOVES,
@@ -36,8 +37,14 @@ from viscotack.traction import Exponential, LennardJones, Tabulated
 
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 SPHERE = Groups(tabor=1.0, material=SOLID, start=AtDepth(1.0), rate=10.0)
-PUNCH = PunchGroups(
-    size=20.0, thickness=3.0, cohesion=0.05, material=SOLID, start=AtDepth(1.0), rate=10.0
+PUNCH = Groups(
+    tabor=None,
+    cohesion=0.05,
+    geometry=FlatPunch(20.0),
+    body=Layer(3.0),
+    material=SOLID,
+    start=AtDepth(1.0),
+    rate=10.0,
 )
 WORDS = "simulate sphere --tabor 3 --modulus-ratio 0.1 --exponent 0.8 --preload 5".split()
 MOVES = 'moves = ["approach 10 um/s to 1 um", "retract 10 um/s to -20 um"]'
@@ -102,8 +109,8 @@ def test_tables_have_a_bound(tmp_path, capsys):
 def test_a_mesh_of_too_many_nodes_is_refused_before_there_is_a_matrix():
     tracemalloc.start()
     for punch in (
-        replace(PUNCH, size=2000.0, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
-        replace(PUNCH, size=1e9, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
+        resized(PUNCH, size=2000.0, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
+        resized(PUNCH, size=1e9, thickness=1.0, base=Bonded(poisson_ratio=0.5)),
     ):
         with pytest.raises(InputError, match="nodes, and a simulation takes up to 4000: ask for"):
             solve(punch)
@@ -118,7 +125,7 @@ def test_a_mesh_of_too_many_nodes_is_refused_before_there_is_a_matrix():
 
 
 def test_a_punch_narrower_than_its_cohesive_zone_has_few_nodes():
-    contact = PunchContact(1e-9, 3.0, Frictionless(), LennardJones(1.0, 1.0))
+    contact = PunchContact(1e-9, Layer(3.0), LennardJones(1.0, 1.0))
     settings = Settings.for_accuracy(2e-3)
     assert len(contact.grading(settings, 1.0).nodes(1e-9, 1e-9)) < 20
 
@@ -168,9 +175,9 @@ def test_a_wide_punch_on_a_thin_glued_layer_answers():
             "move 2 begins with steps of 1e-06 time units when about .* have passed",
         ),
         (replace(SPHERE, traction=Exponential(1.0, 1.0, 1e-300)), "range of the traction law"),
-        (replace(PUNCH, size=1e300), "size must lie between 1e-09 and 1e.09 .* got 1e.300"),
-        (replace(PUNCH, thickness=1e-300), "thickness must lie between .* got 1e-300"),
-        (replace(PUNCH, size=1e-8, thickness=1e8), "thickness over size must .* got 1e.16"),
+        (resized(PUNCH, size=1e300), "size must lie between 1e-09 and 1e.09 .* got 1e.300"),
+        (resized(PUNCH, thickness=1e-300), "thickness must lie between .* got 1e-300"),
+        (resized(PUNCH, size=1e-8, thickness=1e8), "thickness over size must .* got 1e.16"),
     ],
 )
 def test_a_number_that_no_simulation_takes_is_named(problem, said):

@@ -11,8 +11,9 @@ from viscotack.campaign.cases import Case, Cases
 from viscotack.campaign.columns import KINDS, has_relaxed_contact, kind_of_problem
 from viscotack.campaign.design import METHODS, Tally, accepted, fill, grid
 from viscotack.campaign.running import expected_costs
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.operations.declare import questions
-from viscotack.problem import PunchGroups
+from viscotack.problem import Groups
 from viscotack.problem.record import from_dict, run_id, to_dict
 
 INPUTS = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
@@ -95,8 +96,14 @@ def test_a_punch_is_a_kind_of_its_own(tmp_path):
     plan = read_plan(path)
     (case,) = plan.cases
     solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
-    punch = PunchGroups(
-        size=64.85, thickness=3.24, cohesion=0.05, material=solid, start=AtDepth(1.0), rate=10.0
+    punch = Groups(
+        tabor=None,
+        cohesion=0.05,
+        geometry=FlatPunch(64.85),
+        body=Layer(3.24),
+        material=solid,
+        start=AtDepth(1.0),
+        rate=10.0,
     )
     assert plan.kind.name == "punch" and plan.kind.problem(case.inputs) == punch
     assert has_relaxed_contact(punch)

@@ -296,8 +296,14 @@ def test_the_depth_at_pull_off_has_an_interval():
 
 def test_the_depth_of_a_predicted_punch_holds_the_simulated_one():
     solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
-    pad = vt.PunchGroups(
-        size=64.85, thickness=3.24, cohesion=0.05, material=solid, start=vt.AtDepth(1.0), rate=10.0
+    pad = vt.Groups(
+        tabor=None,
+        cohesion=0.05,
+        geometry=vt.FlatPunch(64.85),
+        body=vt.Layer(3.24),
+        material=solid,
+        start=vt.AtDepth(1.0),
+        rate=10.0,
     )
     low, high = vt.predict(pad).depth_interval
     depth = vt.depth_at_pull_off(vt.solve(pad, until="pull-off", estimate_error=False))

@@ -382,10 +382,11 @@ def test_a_force_that_relaxes_behind_a_spring_that_stops_is_no_pull_off():
 
 @pytest.mark.parametrize("steps_left", [1, 4])
 def test_the_edge_of_a_punch_that_runs_out_soon_is_not_interpolated_by_a_line(steps_left):
-    punch = vt.PunchGroups(
-        size=60.0,
-        thickness=3.0,
+    punch = vt.Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=vt.FlatPunch(60.0),
+        body=vt.Layer(3.0),
         material=vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
         start=vt.AtDepth(1.0),
         rate=1.0,
@@ -407,10 +408,11 @@ def test_moves_that_do_not_fit_the_steps_are_refused():
 
 def test_a_pull_off_is_not_drawn_below_steps_between_which_the_force_breaks_off():
     solid = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=19.2, tau0=1.0, poisson_ratio=0.0)
-    punch = vt.PunchGroups(
-        size=4.0,
-        thickness=20.0,
+    punch = vt.Groups(
+        tabor=None,
         cohesion=0.03,
+        geometry=vt.FlatPunch(4.0),
+        body=vt.Layer(20.0),
         material=solid,
         start=vt.AtForce(0.0),
         rate=2e5,

@@ -274,13 +274,13 @@ def test_a_word_or_a_name_that_is_taken_is_refused():
     taken = type("Sphere", (SHAPE,), {"word": "mine"})
     with pytest.raises(ValueError, match="a name or a word that is taken"):
         known((taken,))
-    with pytest.raises(ValueError, match="'int' is no law, material or shape"):
+    with pytest.raises(ValueError, match="'int' is no law, material, shape or body"):
         known((int,))
 
 
 def test_a_file_that_defines_nothing_or_fails_is_refused(tmp_path):
     (tmp_path / "empty.py").write_text("x = 1\n")
-    with pytest.raises(ValueError, match="defines no law, material, shape or observable"):
+    with pytest.raises(ValueError, match="defines no law, material, shape, body or observable"):
         own_nouns([tmp_path / "empty.py"])
     (tmp_path / "wrong.py").write_text("import nothing_of_the_kind\n")
     with pytest.raises(ValueError, match="cannot be read: ModuleNotFoundError"):
@@ -312,7 +312,7 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
     for missing in ("symmetry", "flank"):
         members = {k: v for k, v in vars(SHAPE).items() if k not in (missing, "__dict__")}
         poor = type("Poor", (), members | {"word": "poor"})
-        with pytest.raises(ValueError, match="'Poor' is no law, material or shape"):
+        with pytest.raises(ValueError, match="'Poor' is no law, material, shape or body"):
             known((poor,))
     bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
     with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):

@@ -107,10 +107,10 @@ def test_the_material_is_a_standard_solid_unless_it_is_said():
 
 def test_the_layer_slides_unless_it_is_bonded_and_the_start_is_by_depth_or_stress():
     flags = {"size": 60, "thickness": 3, "cohesion": 0.05, "material": "elastic"}
-    assert questions.stated(questions.PUNCH, flags | {"preload": -1}).base == Frictionless()
+    assert questions.stated(questions.PUNCH, flags | {"preload": -1}).body.base == Frictionless()
     assert questions.stated(questions.PUNCH, flags | {"preload": -1}).start == AtDepth(-1)
     glued = questions.stated(questions.PUNCH, flags | {"preload-force": 0.2, "bonded": 0.4})
-    assert glued.base == Bonded(poisson_ratio=0.4)
+    assert glued.body.base == Bonded(poisson_ratio=0.4)
     assert glued.start == AtForce(0.2)
 
 

@@ -7,6 +7,7 @@ import pytest
 from scipy.interpolate import PchipInterpolator
 
 import viscotack as vt
+from punches import resized
 from viscotack.forecast.tiers import AT_ONCE, SOON
 from viscotack.result.trajectory import PRESSED, TENSILE
 from viscotack.surrogate import punch_physics as physics
@@ -87,7 +88,8 @@ def punch_of(size=64.85, thickness=3.24, ratio=0.1, start=None, rate=10.0, **oth
         rubbery_modulus=1.0, glassy_modulus=1 / ratio, tau0=1.0, poisson_ratio=0.0
     )
     parts = {"material": solid, "cohesion": 0.05, "start": start or vt.AtDepth(1.0), "rate": rate}
-    return vt.PunchGroups(size=size, thickness=thickness, **(parts | others))
+    punch = vt.Groups(tabor=None, geometry=vt.FlatPunch(size), body=vt.Layer(thickness), **parts)
+    return resized(punch, **others)
 
 
 # by construction

@@ -8,10 +8,10 @@ import pytest
 from viscotack.bem import Settings, SimulationError
 from viscotack.bem.mesh import Grading
 from viscotack.bem.twins.plain_sphere import plain_solve
-from viscotack.geometry import Cone, PowerLawProfile
+from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile
 from viscotack.materials import Elastic, Material, RelaxationPowerLaw, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, AtRadius, Dwell, LoadTo
 from viscotack.result.observables import (
     depth_at_pull_off,
@@ -84,8 +84,15 @@ def test_a_start_that_presses_harder_than_the_law_repels_is_told_so(start, words
 )
 def test_a_punch_that_presses_harder_than_the_law_repels_is_told_so(start, words):
     law = Exponential(1.0, 1.0, 0.5)
-    groups = PunchGroups(
-        size=20.0, thickness=3.0, cohesion=0.05, material=SOLID, start=start, rate=5.0, traction=law
+    groups = Groups(
+        tabor=None,
+        cohesion=0.05,
+        geometry=FlatPunch(20.0),
+        body=Layer(3.0),
+        material=SOLID,
+        start=start,
+        rate=5.0,
+        traction=law,
     )
     with pytest.raises(ValueError, match=words + ".*repels with 29.56 dg0/h0 at most"):
         solve(groups)
@@ -272,8 +279,14 @@ def test_plain_twin_starts_by_depth_only_and_says_when_newton_fails():
     [
         case(AtDepth(20.0), tabor=3.0, rate=30.0),
         case(AtDepth(3.0), tabor=0.5, rate=300.0),
-        PunchGroups(
-            size=64.85, thickness=3.24, cohesion=0.05, material=SOLID, start=AtDepth(1), rate=10
+        Groups(
+            tabor=None,
+            cohesion=0.05,
+            geometry=FlatPunch(64.85),
+            body=Layer(3.24),
+            material=SOLID,
+            start=AtDepth(1),
+            rate=10,
         ),
     ],
     ids=["sphere", "small Tabor number", "punch"],

@@ -90,10 +90,11 @@ def test_a_tier_that_covers_a_problem_answers_it_with_an_interval_around_the_val
 
 
 def punch():
-    return vt.PunchGroups(
-        size=64.85,
-        thickness=3.24,
+    return vt.Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=vt.FlatPunch(64.85),
+        body=vt.Layer(3.24),
         material=standard(0.1),
         start=vt.AtDepth(1.0),
         rate=10.0,

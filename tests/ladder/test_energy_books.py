@@ -11,10 +11,10 @@ from viscotack.bem import Settings, jumps
 from viscotack.bem.body import Body, State
 from viscotack.bem.machine import Hold
 from viscotack.bem.solver import contact_of
-from viscotack.geometry import Cone
+from viscotack.geometry import Cone, FlatPunch, Layer
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.traction import Exponential
 
@@ -36,10 +36,11 @@ def sphere(*moves, tabor=0.5, material=ELASTIC, **more):
 
 
 def punch(*moves, material=ELASTIC, stiffness=None):
-    return PunchGroups(
-        size=64.85,
-        thickness=3.24,
+    return Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=FlatPunch(64.85),
+        body=Layer(3.24),
         material=material,
         start=AtForce(0.5),
         rate=None,

@@ -7,9 +7,10 @@ import pytest
 
 from viscotack.bem import Settings, SimulationError
 from viscotack.bem.solver import contact_of
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import Elastic, RelaxationPowerLaw, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -49,10 +50,11 @@ def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, stiffness=None):
 
 
 def punch(start, *moves, rate=None, thickness=3.24, material=SOLID, stiffness=None):
-    return PunchGroups(
-        size=64.85,
-        thickness=thickness,
+    return Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=FlatPunch(64.85),
+        body=Layer(thickness),
         material=material,
         start=start,
         rate=rate,

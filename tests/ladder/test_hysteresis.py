@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from viscotack.geometry import FlatPunch, Layer
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import crack_contact, solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, Retract
 from viscotack.result import load, save
 from viscotack.result.cycles import cycle_rows, cycles
@@ -29,10 +30,11 @@ def only_cycle(groups, accuracy=0.01):
 
 
 LOOP = (Approach(1.0, AtForce(4.0)), Retract(1.0, AtForce(2.0)))
-PUNCH = PunchGroups(
-    size=64.85,
-    thickness=3.24,
+PUNCH = Groups(
+    tabor=None,
     cohesion=0.05,
+    geometry=FlatPunch(64.85),
+    body=Layer(3.24),
     material=ELASTIC,
     start=AtForce(0.5),
     rate=None,

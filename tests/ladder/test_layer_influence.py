@@ -7,8 +7,9 @@ import pytest
 from scipy.special import sici, xlogy
 
 from reference_data import VALUES
-from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.geometry import Bonded, Frictionless
+from viscotack.geometry.hats import hat_areas
+from viscotack.geometry.layer import layer_influence
 from viscotack.theory.punch import crossover
 
 BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
@@ -22,7 +23,7 @@ def crowded(count, shortest=1e-4):
 
 
 def compliance(x, thickness, base):
-    B = layer_influence(x, thickness, base) / nodal_lengths(x)
+    B = layer_influence(x, thickness, base) / hat_areas(x, "plane")
     return (B + B.T) / 2
 
 
@@ -83,7 +84,7 @@ def test_nodes_added_on_a_straight_line_of_pressure_change_nothing(thickness, ba
 @pytest.mark.parametrize("thickness", [0.02, 0.3, 5.0])
 def test_equal_hats_are_reciprocal(thickness):
     x = np.linspace(0, 1, 41)
-    B = layer_influence(x, thickness, Frictionless()) / nodal_lengths(x)
+    B = layer_influence(x, thickness, Frictionless()) / hat_areas(x, "plane")
     inner = B[:-1, :-1]  # the last hat is half a hat
     assert inner == pytest.approx(inner.T, abs=1e-12, rel=0)
 
@@ -95,11 +96,11 @@ def test_the_unit_of_length_does_not_matter():
         assert scaled == pytest.approx(1e-3 * layer_influence(x, 0.2, base), rel=1e-9, abs=1e-16)
 
 
-def test_nodal_lengths_add_up_to_the_width():
+def test_hats_add_up_to_the_width():
     x = crowded(30)
-    assert np.sum(nodal_lengths(x)) == pytest.approx(2.0, rel=1e-14)
+    assert np.sum(hat_areas(x, "plane")) == pytest.approx(2.0, rel=1e-14)
     pair = np.array([0.0, 0.5, 2.0])
-    assert nodal_lengths(pair).tolist() == [0.5, 2.0, 1.5]
+    assert hat_areas(pair, "plane").tolist() == [0.5, 2.0, 1.5]
 
 
 # limit
@@ -158,7 +159,7 @@ def test_differences_of_displacement_tend_to_the_half_plane_as_the_square_of_a_o
 def test_a_thick_layer_sinks_by_the_logarithm_of_its_thickness():
     x = np.linspace(0, 1, 11)
     for base in BASES:
-        low, high = (layer_influence(x, b, base) / nodal_lengths(x) for b in (300.0, 900.0))
+        low, high = (layer_influence(x, b, base) / hat_areas(x, "plane") for b in (300.0, 900.0))
         assert high - low == pytest.approx(2 / np.pi * np.log(3), abs=1e-4, rel=0)
 
 
@@ -168,7 +169,7 @@ def test_a_stiffer_base_makes_a_stiffer_layer():
         stiffness = [punch_stiffness(x, thickness, base) for base in BASES]
         assert np.all(np.diff(stiffness) > 0)
         loose, held = compliance(x, thickness, BASES[0]), compliance(x, thickness, BASES[2])
-        pressure = nodal_lengths(x) * np.cos(9 * x)
+        pressure = hat_areas(x, "plane") * np.cos(9 * x)
         assert pressure @ held @ pressure < pressure @ loose @ pressure
 
 

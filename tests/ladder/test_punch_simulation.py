@@ -7,15 +7,16 @@ import pytest
 from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
+from punches import resized
 from reference_data import VALUES
 from viscotack.bem import Settings
-from viscotack.bem.bodies.layer import layer_influence
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.twins.plain_punch import plain_solve, triangle_matrix
 from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer
+from viscotack.geometry.layer import layer_influence
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Problem, PunchGroups
+from viscotack.problem import Groups, Problem
 from viscotack.protocol import Approach, AtDepth, AtForce, AtRadius, Dwell, Retract, Retraction
 from viscotack.result.observables import (
     crack_speed_at_pull_off,
@@ -36,14 +37,20 @@ pytestmark = pytest.mark.march
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
 LAW = LennardJones(1.0, 1.0)
-THESIS = PunchGroups(
-    size=64.85, thickness=3.24, cohesion=0.05, material=SOLID, start=AtDepth(1.0), rate=1.0
+THESIS = Groups(
+    tabor=None,
+    cohesion=0.05,
+    geometry=FlatPunch(64.85),
+    body=Layer(3.24),
+    material=SOLID,
+    start=AtDepth(1.0),
+    rate=1.0,
 )
 
 
 def run(groups=THESIS, *, settings=None, accuracy=2e-3, until="pull-off", **changes):
     return solve(
-        dataclasses.replace(groups, **changes),
+        resized(groups, **changes),
         accuracy=accuracy,
         settings=settings,
         until=until,
@@ -115,7 +122,7 @@ def test_cohesion_changes_crack_speeds_and_nothing_else():
 def test_surface_energy_is_equation_3_30_of_the_thesis():
     # with alpha_LJ = 9 sqrt(3)/16 and the thickness in h0
     result = run()
-    in_h0 = THESIS.thickness * THESIS.fracture_length
+    in_h0 = THESIS.body.thickness * THESIS.fracture_length
     s, a = pull_off_stress(result), ligament_at_pull_off(result)
     printed = s**2 * THESIS.cohesion * in_h0 / (2 * 9 * 3**0.5 / 16) / a**2
     assert effective_surface_energy(result) == pytest.approx(printed, rel=1e-12)
@@ -124,7 +131,7 @@ def test_surface_energy_is_equation_3_30_of_the_thesis():
 @pytest.mark.parametrize("base", [Frictionless(), Bonded(poisson_ratio=0.49)], ids=repr)
 @pytest.mark.parametrize("factor", [1.0, 4.0, 16.0])
 def test_nodes_end_with_the_punch_however_long_the_crack(factor, base):
-    contact = PunchContact(64.85, 3.24, base, LAW)
+    contact = PunchContact(64.85, Layer(3.24, base), LAW)
     grading = contact.grading(Settings.for_accuracy(2e-3), 1.0).widened(factor)
     for edge in (64.85, 64.6, 60.0, 20.0, 1.0, 0.01):
         nodes = grading.nodes(edge, 64.85)
@@ -149,8 +156,7 @@ def test_a_thin_layer_tends_to_a_foundation_linearly_in_its_thickness(base):
     pressure = -LAW.traction(brentq(balance, 0.7, 1.1)) / LAW.strength
     sizes, errors = np.array([20.0, 40.0, 80.0]), []
     for size in sizes:
-        groups = dataclasses.replace(THESIS, size=float(size), thickness=b, base=base)
-        contact = PunchContact(groups.size, groups.thickness, base, LAW)
+        contact = PunchContact(float(size), Layer(b, base), LAW)
         force = contact.relaxed(AtDepth(depth), Settings.for_accuracy(5e-4)).force
         errors.append(force / float(pressure) - 1)
     assert slope(b / sizes, errors) == pytest.approx(1, abs=0.05), errors
@@ -290,7 +296,7 @@ def test_triangles_of_the_plain_twin_are_the_reference_ones():
 
 def test_the_plain_twin_tends_to_the_fast_solver_as_its_triangles_multiply():
     # its end triangles reach beyond the punch: too high by a part of order 1/M
-    groups = dataclasses.replace(THESIS, size=16.0)
+    groups = resized(THESIS, size=16.0)
     exact = pull_off_stress(run(groups, accuracy=2e-4))
     counts, errors = np.array([50, 100, 200]), []
     for count in counts.tolist():

@@ -5,10 +5,10 @@ import pytest
 
 from noise import noise
 from viscotack.bem import jumps
-from viscotack.geometry import PowerLawProfile
+from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell, LoadTo, Retract
 from viscotack.result.dead_load import time_to_detachment
 from viscotack.result.observables import pull_off_force
@@ -38,10 +38,11 @@ def sphere(start, *moves, rate=None, tabor=2.0, material=SOLID, **options):
 
 
 def punch(start, *moves, rate=None, thickness=3.24, material=SOLID, **options):
-    return PunchGroups(
-        size=64.85,
-        thickness=thickness,
+    return Groups(
+        tabor=None,
         cohesion=0.05,
+        geometry=FlatPunch(64.85),
+        body=Layer(thickness),
         material=material,
         start=start,
         rate=rate,

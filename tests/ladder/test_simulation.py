@@ -7,14 +7,15 @@ import pytest
 
 from reference_data import VALUES
 from viscotack.bem import Settings
-from viscotack.bem.bodies.halfspace import half_space, influence, nodal_areas
-from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.sphere import SphereContact
 from viscotack.bem.memory import Memory, step
 from viscotack.bem.surface import stiffness
 from viscotack.bem.twins.plain_sphere import hat_matrix, mean_compliance, plain_solve
 from viscotack.geometry import Frictionless
+from viscotack.geometry.half_space import influence
+from viscotack.geometry.hats import hat_areas
+from viscotack.geometry.layer import layer_influence
 from viscotack.materials import Elastic, Modes, Prony, RetardationPowerLaw, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups, Problem
@@ -67,14 +68,14 @@ def test_uniform_pressure_dents_the_centre_by_twice_pressure_times_radius_over_m
 
 def test_far_displacement_is_that_of_a_point_force():
     r = np.array([0.0, 0.1, 0.2, 400.0])
-    G, area = influence(r), nodal_areas(r)
+    G, area = influence(r), hat_areas(r, "revolution")
     assert G[3, 0] == pytest.approx(area[0] / (np.pi * 400.0), rel=1e-7, abs=0)
 
 
 @pytest.mark.parametrize("law", [LennardJones(1.0, 1.0), Dugdale(1.0, 1.0, fall=0.1)])
 def test_stiffness_is_symmetric_and_positive_definite(law):
     nodes = np.concatenate([np.linspace(0, 2, 40), np.geomspace(2.1, 60, 30)])
-    S = half_space(nodes, 3.24, law).stiffness
+    S = SphereContact(3.24, law).surface(nodes).stiffness
     assert np.array_equal(S, S.T)
     assert np.linalg.eigvalsh(S)[0] > 0
 
@@ -489,7 +490,7 @@ def test_mended_lines_meet_a_smooth_pressure_at_third_order():
     def displacement(intervals, distant):
         x = np.linspace(0.0, 1.0, intervals + 1)
         S = stiffness(layer_influence(x, 2.0, Frictionless()), 2 * np.diff(x), 24.0, distant)
-        u = np.linalg.solve(S, nodal_lengths(x) * (1 - x * x) ** 3)
+        u = np.linalg.solve(S, hat_areas(x, "plane") * (1 - x * x) ** 3)
         return u[:: intervals // 10][1:10]
 
     best, sizes = displacement(1280, 1.0), (20, 40, 80, 160)

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from viscotack.bem.contacts.contact import Contact, Relaxed
+from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.legs import lasting
 from viscotack.bem.machine import Hold, Leg
 from viscotack.cards import cards
 from viscotack.errors import InputError
-from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.problem import Case, Groups, Problem
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -49,7 +50,7 @@ _MOVED = 1e-2
 _TICKS = 1e14
 
 
-def check_bounds(problem: Case, groups: Groups | PunchGroups, contact: Contact) -> None:
+def check_bounds(problem: Case, groups: Groups, contact: Contact) -> None:
     """Refuse a problem with a number that no simulation takes, naming it.
 
     Raises
@@ -64,11 +65,11 @@ def check_bounds(problem: Case, groups: Groups | PunchGroups, contact: Contact) 
             f"the range of the traction law must lie between {_SHORTEST:g} and {_LONGEST:g} of "
             f"that of Lennard-Jones for a simulation, got {reach:g} for {groups.traction}"
         )
-    if isinstance(groups, PunchGroups):
+    if isinstance(contact, PunchContact):
         sizes = {
-            "size": groups.size,
-            "thickness": groups.thickness,
-            "thickness over size": groups.thickness / groups.size,
+            "size": contact.size,
+            "thickness": contact.thickness,
+            "thickness over size": contact.thickness / contact.size,
         }
         for name, value in sizes.items():
             if not _NARROWEST <= value <= _WIDEST:
@@ -114,7 +115,7 @@ def check_clock(
             elapsed += lasting(depths[number], depths[number + 1], moves[number], contact)
 
 
-def _check_numbers(problem: Case, groups: Groups | PunchGroups) -> None:
+def _check_numbers(problem: Case, groups: Groups) -> None:
     """Refuse numbers of the test that are out of the range of arithmetic."""
     stated = problem.protocol if isinstance(problem, Problem) else groups
     for (name, value, measure), (_, given, _) in zip(
@@ -153,10 +154,10 @@ def _of(whose: str, noun: Any) -> Iterator[tuple[str, float, str]]:
         yield f"{name.replace('_', ' ')} of {whose}", getattr(noun, name), field.card.measure
 
 
-def _check_depths(groups: Groups | PunchGroups, contact: Contact) -> None:
+def _check_depths(groups: Groups, contact: Contact) -> None:
     """Refuse a contact that is pressed too deep."""
     deepest = _DEEPEST_PUNCH
-    if isinstance(groups, Groups):
+    if not groups.in_plane_strain:
         deepest = contact.deepest(AtRadius(LARGEST_RADIUS))
     for whose, state in _states(groups):
         depth = contact.deepest(state)
@@ -167,7 +168,7 @@ def _check_depths(groups: Groups | PunchGroups, contact: Contact) -> None:
             )
 
 
-def _states(groups: Groups | PunchGroups) -> Iterator[tuple[str, Start]]:
+def _states(groups: Groups) -> Iterator[tuple[str, Start]]:
     """Yield the states to which a test presses."""
     if not isinstance(groups.start, Apart):
         yield "the start", groups.start

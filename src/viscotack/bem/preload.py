@@ -35,9 +35,9 @@ import numpy.typing as npt
 from viscotack.bem.contacts.contact import Contact
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
-from viscotack.geometry import Cone, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Material
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Apart
 from viscotack.result import Result, ShallowStart
 from viscotack.result.observables import pull_off, work_to_pull_off
@@ -89,7 +89,7 @@ class _End:
 
 
 def shallower(
-    groups: Groups | PunchGroups,
+    groups: Groups,
     contact: Contact,
     settings: Settings,
     light: Callable[[float], Result],
@@ -98,7 +98,7 @@ def shallower(
 
     Parameters
     ----------
-    groups : Groups or PunchGroups
+    groups : Groups
         The test.
     contact : Contact
         Its contact.
@@ -130,15 +130,17 @@ def shallower(
     return None
 
 
-def _asked(groups: Groups | PunchGroups, contact: Contact) -> float:
+def _asked(groups: Groups, contact: Contact) -> float:
     """Return the depth [h0] at which a test begins, about; 0 where it must be marched as it is.
 
-    That are tests with moves before the retraction, or without one, of punches, of shapes that may
-    have several contacts at one depth, and of interfaces that grow with the opening speed.
+    That are tests with moves before the retraction, or without one, of punches, of other bodies
+    than the half-space, of shapes that may have several contacts at one depth, and of interfaces
+    that grow with the opening speed.
     """
-    if not isinstance(groups, Groups) or isinstance(groups.start, Apart):
+    if isinstance(groups.start, Apart):
         return 0.0
     known = isinstance(groups.geometry, Sphere | Cone | PowerLawProfile)
+    known &= isinstance(groups.body, HalfSpace)
     if groups.moves or groups.rate is None or not known or grows(groups.traction):
         return 0.0
     return contact.deepest(groups.start)
@@ -169,7 +171,7 @@ def _will_do(start: ShallowStart, end: _End, contact: Contact, settings: Setting
     return pressed and max(shares) <= settings.accuracy and start.shift <= far
 
 
-def _shift(groups: Groups | PunchGroups, end: _End, asked: float) -> float:
+def _shift(groups: Groups, end: _End, asked: float) -> float:
     """Return by how much the indentation that is left of the way before shifts the pull-off [h0].
 
     A spring only makes the contact slower.

@@ -26,9 +26,9 @@ from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.errors import InputError
-from viscotack.geometry import Cone, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, FlatPunch, HalfSpace, PowerLawProfile, Sphere
 from viscotack.materials import Material, Modes
-from viscotack.problem import Case, Groups, PunchGroups
+from viscotack.problem import Case, Groups
 from viscotack.problem.revolution import SIMULATED_TABOR
 from viscotack.protocol import AtDepth
 from viscotack.result import Energies, Outcome, Result, receding_speed
@@ -60,7 +60,7 @@ class SimulationError(RuntimeError):
 
 def simulate(
     problem: Case,
-    groups: Groups | PunchGroups,
+    groups: Groups,
     *,
     settings: Settings,
     until: str,
@@ -81,9 +81,7 @@ def simulate(
     contact = contact_of(groups)
     check_bounds(problem, groups, contact)
 
-    def light(
-        marched: Groups | PunchGroups, seen: Progress = None, *, whole: bool = False
-    ) -> Result:
+    def light(marched: Groups, seen: Progress = None, *, whole: bool = False) -> Result:
         # after moves the force may have a minimum before the pull-off: one end for both then
         end = until if groups.moves else "detached" if whole else "pull-off"
         return _run(problem, marched, settings.coarser(COARSER), end, False, seen)
@@ -135,7 +133,7 @@ def _part(progress: Progress, begin: float, end: float) -> Progress:
 
 def _run(
     problem: Case,
-    groups: Groups | PunchGroups,
+    groups: Groups,
     settings: Settings,
     until: str,
     fields: bool,
@@ -176,9 +174,7 @@ def _run(
     return replace(result, accuracy=settings.accuracy).posed(groups)
 
 
-def begun(
-    groups: Groups | PunchGroups, contact: Contact, settings: Settings
-) -> tuple[Relaxed, tuple[Leg, ...]]:
+def begun(groups: Groups, contact: Contact, settings: Settings) -> tuple[Relaxed, tuple[Leg, ...]]:
     """Return the relaxed state in which a test begins, and its legs: the first one holds it."""
     start = contact.relaxed(groups.start, settings)
     legs = legs_of(groups.moves, groups.rate, groups.stiffness, contact, settings)
@@ -186,26 +182,28 @@ def begun(
     return start, legs
 
 
-def contact_of(groups: Groups | PunchGroups) -> Contact:
+def contact_of(groups: Groups) -> Contact:
     """Return the contact that dimensionless groups describe, its law being the one at rest."""
     law = _at_rest(groups.traction)
-    if isinstance(groups, PunchGroups):
-        return PunchContact(groups.size, groups.thickness, groups.base, law)
+    if isinstance(groups.geometry, FlatPunch):
+        return PunchContact(groups.geometry.half_width, groups.body, law)
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high:
         span = effective_range(groups.traction)
         over = "" if span == 1 else f" over the range of the traction law ({span:.3g} h0)"
         raise InputError(
             f"the Tabor number{over} must be between {low:g} and {high:g} for a simulation, got "
-            f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr"
+            f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr on a "
+            "half-space"
         )
-    match groups.geometry:
-        case Sphere():
+    assert groups.tabor is not None
+    match groups.geometry, groups.body:
+        case Sphere(), HalfSpace():
             return SphereContact(groups.tabor, law)
-        case Cone() | PowerLawProfile():
-            return ProfileContact(groups.tabor, law, groups.geometry.exponent)
-        case shape:
-            return ShapeContact(groups.tabor, law, shape)
+        case Cone() | PowerLawProfile() as tip, HalfSpace():
+            return ProfileContact(groups.tabor, law, tip.exponent)
+        case shape, body:
+            return ShapeContact(groups.tabor, law, shape, body=body)
 
 
 def _at_rest(law: Any) -> Any:
@@ -236,7 +234,7 @@ def _modes(material: Material, legs: tuple[Leg, ...], longest: float, settings: 
 
 def _result(
     problem: Case,
-    groups: Groups | PunchGroups,
+    groups: Groups,
     contact: Contact,
     history: History,
     modes: Modes,
@@ -301,15 +299,15 @@ def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, n
 
 
 def _beginning(
-    groups: Groups | PunchGroups,
+    groups: Groups,
     contact: Contact,
     settings: Settings,
-    light: Callable[[Groups | PunchGroups], Result],
+    light: Callable[[Groups], Result],
 ) -> Beginning | None:
     """Return where the march begins instead of at a start that is too deep; None for the start."""
     return shallower(groups, contact, settings, lambda depth: light(_from(groups, depth)))
 
 
-def _from(groups: Groups | PunchGroups, depth: float) -> Groups | PunchGroups:
+def _from(groups: Groups, depth: float) -> Groups:
     """Return the test from a relaxed contact at this depth [h0]."""
     return replace(groups, start=AtDepth(depth))

@@ -10,8 +10,7 @@ from viscotack.bem.books import History
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.shut import why
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
-from viscotack.problem import Groups
+from viscotack.geometry import HalfSpace, Sphere
 from viscotack.protocol import Apart
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import pull_off_force
@@ -52,12 +51,12 @@ def _unresolved(result: Result) -> str:
 def _out_of_bounds(result: Result) -> str:
     """Return what theory has against a pull-off force; nothing where it allows that.
 
-    Of a sphere that starts in a relaxed contact. An elastic one pulls off with 1 to 4/3 of the
-    force of JKR, unless it starts beyond the force minimum; of a viscoelastic one the solid may
-    answer as stiffly as it can, and what the crack takes is that over k.
+    Of a sphere on a half-space that starts in a relaxed contact. An elastic one pulls off with 1 to
+    4/3 of the force of JKR, unless it starts beyond the force minimum; of a viscoelastic one the
+    solid may answer as stiffly as it can, and what the crack takes is that over k.
     """
     groups = result.groups
-    sphere = isinstance(groups, Groups) and isinstance(groups.geometry, Sphere)
+    sphere = isinstance(groups.geometry, Sphere) and isinstance(groups.body, HalfSpace)
     if not sphere or isinstance(groups.start, Apart) or groups.moves or groups.rate is None:
         return ""
     try:

@@ -13,11 +13,11 @@ from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.geometry import PowerLawProfile
+from viscotack.geometry import FlatPunch, Layer, PowerLawProfile
 from viscotack.materials import RetardationPowerLaw, StandardSolid
 from viscotack.materials.constants import ModulusRatio
 from viscotack.methods import has_start
-from viscotack.problem import Groups, Problem, PunchGroups, revolution
+from viscotack.problem import Groups, Problem, plane, revolution
 from viscotack.problem.record import to_dict
 from viscotack.protocol import AtDepth, AtForce, AtRadius
 from viscotack.units import positive
@@ -96,9 +96,14 @@ def _solid(inputs: Inputs) -> Groups:
     )
 
 
-def _punch(inputs: Inputs) -> PunchGroups:
-    sizes = {name: inputs[name] for name in ("size", "thickness", "cohesion")}
-    return PunchGroups(**sizes, **_test(inputs, StandardSolid))
+def _punch(inputs: Inputs) -> Groups:
+    return Groups(
+        tabor=None,
+        cohesion=inputs["cohesion"],
+        geometry=FlatPunch(inputs["size"]),
+        body=Layer(inputs["thickness"]),
+        **_test(inputs, StandardSolid),
+    )
 
 
 def _test(inputs: Inputs, solid: Any) -> dict[str, Any]:
@@ -118,7 +123,7 @@ def _start(inputs: Inputs) -> Any:
 
 def _inputs() -> dict[str, Input]:
     """Return the inputs of all kinds, with their cards and units."""
-    of, punch = cards(Groups), cards(PunchGroups)
+    of = cards(Groups)
     units = revolution.GROUPS
     found = {
         "tabor": (of["tabor"].card, "1"),
@@ -131,8 +136,8 @@ def _inputs() -> dict[str, Input]:
             "1",
         ),
     }
-    found |= {name: (punch[name].card, punch[name].card.unit) for name in ("size", "thickness")}
-    found["cohesion"] = (punch["cohesion"].card, "1")
+    found |= {name: (card, card.unit) for name, card in plane.SIZES.items()}
+    found["cohesion"] = (of["cohesion"].card, "1")
     for name, start in _STARTS.items():
         (entry,) = cards(start).values()
         found[name] = (entry.card, units[entry.card.measure])

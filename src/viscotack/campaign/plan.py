@@ -145,7 +145,7 @@ def space_filling(
 
     Parameters
     ----------
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         Shape, body, solid, law and history that all cases have; the numbers that are not varied.
     over : mapping
         Ranges by the paths of numbers, as in a file: ``{"geometry.radius": {"log": ["1 mm", "1

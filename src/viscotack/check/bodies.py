@@ -1,69 +1,119 @@
-r"""What the body under the indenter must satisfy: reciprocity, a positive energy, the thick limit.
+r"""What the body under the indenter must satisfy: reciprocity, a positive energy, units, limits.
 
 The compliance of a body, the displacement of node i under a unit force on node j for E* = 1, is
-symmetric (Betti) and positive definite.
+symmetric (Betti) and positive definite. What is stiff beside the forces across the gap lets go like
+a rigid body, whatever it is: a sphere with :math:`2 \pi R \Delta\gamma_0` (Derjaguin), a punch with
+the strength of the interface.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from viscotack.bem.bodies.halfspace import influence, nodal_areas
-from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
-from viscotack.geometry import HalfSpace, Layer
+from viscotack.cards import check_carded
+from viscotack.forecast.simulation import SIMULATION
+from viscotack.forecast.tiers import TIERS
+from viscotack.geometry import BODIES, FlatPunch, HalfSpace, Layer, Sphere
+from viscotack.geometry.hats import hat_areas
+from viscotack.materials import Elastic
+from viscotack.problem import Problem
+from viscotack.protocol import AtDepth, Retraction
+from viscotack.result.observables import pull_off_force, pull_off_stress
+from viscotack.theory.elastic import indenter
+from viscotack.traction import LennardJones
 
-from . import doors
+from . import doors, simulated, tiers
 from .findings import Finding, Report, holds, report, rises, same
 
 # What collocation may be off from its symmetric part, and hats from a point of a node.
 _DISCRETE = 0.05
+_SYMMETRIES = ("revolution", "plane")
+_WORK = 0.05
 
 
-def check_body(body: Any) -> Report:
-    """Check a body: symmetry and sign of its compliance, and its limits.
+def check_body(body: Any, *, size: float = 1e-4, thorough: bool = True) -> Report:
+    """Check a body against what the package relies on.
 
     Parameters
     ----------
-    body : HalfSpace, Layer, or an object with ``compliance(nodes)``
-        The last gives the displacement at node i of a unit force on node j, for E* = 1 and nodes
-        that ascend from 0. A body with a ``base`` has its transfer function checked as well.
+    body : Body
+        In SI, of the package or of one's own. One with a ``base`` has its transfer function checked
+        as well.
+    size : float
+        A contact radius, or half width of a punch, about which it is checked [m].
+    thorough : bool
+        Whether to simulate contacts and to plan a campaign too: seconds.
 
     Examples
     --------
     >>> from viscotack.geometry import HalfSpace
-    >>> check_body(HalfSpace()).passed
+    >>> check_body(HalfSpace(), thorough=False).passed
     True
     """
-    return report(body, (_compliance, _transfer, _record))
+    checks = (_symmetries, _compliance, _units, _theory, _transfer, _record, _case_file, _tiers)
+    more = (_campaign, _contact) if thorough else ()
+    return report(body, checks + more, size)
 
 
-def _matrix(body: Any, nodes: npt.NDArray[np.float64]) -> Any:
-    if hasattr(body, "compliance"):
-        return np.asarray(body.compliance(nodes))
-    if isinstance(body, HalfSpace):
-        return influence(nodes) / nodal_areas(nodes)
-    return layer_influence(nodes, body.thickness, body.base) / nodal_lengths(nodes)
+def _symmetries(body: Any, size: float) -> Iterator[Finding]:
+    """Check the card, the symmetries and the decay length."""
+    if type(body) not in BODIES.values():
+        check_carded(type(body))
+    given = body.symmetries
+    known = bool(given) and set(given) <= set(_SYMMETRIES)
+    yield holds("symmetries are of 'revolution' and 'plane'", known, _SYMMETRIES, given)
+    length = body.decay_length
+    yield holds("decay_length is not negative", length >= 0, ">= 0 m", length)
 
 
-def _compliance(body: Any) -> Iterator[Finding]:
+def _compliance(body: Any, size: float) -> Iterator[Finding]:
     """Check the compliance of the body."""
-    unit = body.thickness if isinstance(body, Layer) else 1.0
-    nodes = unit * np.linspace(0.0, 3.0, 61)
-    B = _matrix(body, nodes)
-    yield holds("compliance is finite", bool(np.all(np.isfinite(B))), "numbers", "inf or nan")
-    even = (B + B.T) / 2
-    # the hat at the axis is half a cone, and the last is cut off
-    off = float(np.max(np.abs((B - B.T)[2:-1, 2:-1])) / np.max(np.abs(even)))
-    yield holds("reciprocity: compliance is symmetric", off < _DISCRETE, f"< {_DISCRETE}", off)
-    least = float(np.min(np.linalg.eigvalsh(even)) / np.max(np.abs(even)))
-    yield holds("energy is positive: compliance is positive definite", least > 0, "> 0", least)
-    own = float(np.min(np.diag(B)))
-    yield holds("a force moves its own node into the body", own > 0, "> 0", own)
+    nodes = size * np.linspace(0.0, 3.0, 61)
+    for symmetry in body.symmetries:
+        B = np.asarray(body.influence(nodes, symmetry)) / hat_areas(nodes, symmetry)
+        yield holds("compliance is finite", bool(np.all(np.isfinite(B))), "numbers", "inf or nan")
+        even = (B + B.T) / 2
+        # the hat at the axis is half a cone, and the last is cut off
+        off = float(np.max(np.abs((B - B.T)[2:-1, 2:-1])) / np.max(np.abs(even)))
+        name = "reciprocity: compliance is symmetric"
+        yield holds(name, off < _DISCRETE, f"< {_DISCRETE}", off)
+        least = float(np.min(np.linalg.eigvalsh(even)) / np.max(np.abs(even)))
+        yield holds("energy is positive: compliance is positive definite", least > 0, "> 0", least)
+        own = float(np.min(np.diag(B)))
+        yield holds("a force moves its own node into the body", own > 0, "> 0", own)
 
 
-def _transfer(body: Any) -> Iterator[Finding]:
+def _units(body: Any, size: float) -> Iterator[Finding]:
+    """Check the body in other units of length."""
+    nodes, along = size * np.linspace(0.0, 2.0, 21), 0.3 * size
+    other = body.reduced(along)
+    for symmetry in body.symmetries:
+        G, found = body.influence(nodes, symmetry), other.influence(nodes / along, symmetry)
+        scale = float(np.max(np.abs(G)))
+        name = "reduced: influence with lengths in another unit"
+        yield same(name, along * np.asarray(found), G, rtol=1e-9, atol=1e-9 * scale)
+    length = body.decay_length
+    yield same(
+        "reduced: decay_length in another unit", along * other.decay_length, length, rtol=1e-9
+    )
+
+
+def _theory(body: Any, size: float) -> Iterator[Finding]:
+    """Check the contact of a sphere without adhesion."""
+    if "revolution" not in body.symmetries:
+        return
+    a = size * np.linspace(0.5, 1.0, 17)
+    sphere: Any = {"shape": Sphere(20 * size), "body": body}
+    solid: Any = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
+    depth = np.asarray(indenter.bare_depth(a, **sphere))
+    force = np.asarray(indenter.force(a, **sphere, **solid))
+    yield rises("depth of a sphere rises with the contact radius", depth)
+    yield rises("force of a sphere rises with the contact radius", force)
+
+
+def _transfer(body: Any, size: float) -> Iterator[Finding]:
     """Check the transfer function of a layer."""
     base = getattr(body, "base", None)
     if base is None:
@@ -84,7 +134,81 @@ def _transfer(body: Any) -> Iterator[Finding]:
     yield rises("transfer rises with the thickness where the layer is thin", kappa[t < 0.5])
 
 
-def _record(body: Any) -> Iterator[Finding]:
+def _record(body: Any, size: float) -> Iterator[Finding]:
     """Check the round trip through a record."""
-    if isinstance(body, HalfSpace | Layer):
-        yield from doors.through_record(body)
+    return doors.through_record(body)
+
+
+def _tables(body: Any, size: float) -> dict[str, Any]:
+    numbers = doors.numbers_of(body)
+    material: dict[str, Any] = {"model": "elastic", "rubbery_modulus": "1 MPa"}
+    nu = getattr(body, "poisson_ratio", None)
+    if isinstance(body, Layer):
+        numbers["base"] = body.base.word
+    tables: dict[str, Any] = {"material": material | {"poisson_ratio": 0.5 if nu is None else nu}}
+    if "revolution" not in body.symmetries:
+        tables |= {"sphere": {}, "punch": {"half_width": f"{size!r} m"}}
+    return tables | {body.word: numbers}
+
+
+def _case_file(body: Any, size: float) -> Iterator[Finding]:
+    """Check the round trip through a case file."""
+    yield doors.through_case_file(body, "body", _tables(body, size))
+
+
+def _tiers(body: Any, size: float) -> Iterator[Finding]:
+    """Check that tiers refuse the body in words, but the simulation and those that list it."""
+    if type(body) in BODIES.values():
+        return
+    for tier in TIERS:
+        if tier.name == SIMULATION:
+            continue
+        case = next(case for case in tiers.problems() if tier.covers(case) == "")
+        if case.geometry.symmetry in body.symmetries:
+            reason = tier.covers(replace(case, body=body.reduced(size)))
+            yield holds(f"{tier.name} refuses the body", "body" in reason, "its name", reason)
+
+
+def _campaign(body: Any, size: float) -> Iterator[Finding]:
+    """Check a plan of a campaign."""
+    if isinstance(body, HalfSpace):
+        return iter(())
+    return doors.through_campaign(body, _tables(body, size))
+
+
+def _contact(body: Any, size: float) -> Iterator[Finding]:
+    """Check simulated contacts."""
+    for problem, pull_off, name in _stiff(body, size):
+        result = simulated.run(problem)
+        found = pull_off(result)
+        yield holds(name, 0.96 < found < 1.04, "1 within 4 %", f"{found:.4g}")
+        residual = result.energy_residual
+        closes = residual is not None and abs(residual) < 0.01
+        yield holds("simulation: the energy audit closes", closes, "below 0.01", residual)
+        yield from simulated.saved(problem, doors.classes_of(body))
+
+
+def _stiff(body: Any, size: float) -> Iterator[tuple[Problem, Any, str]]:
+    """Yield contacts so stiff that they let go like rigid ones: problem, pull-off over that, name.
+
+    A pressure like the strength on an area like the contact moves the surface by a hundredth of the
+    range h_0 of the forces, where they begin without a depth.
+    """
+    nu = getattr(body, "poisson_ratio", None)
+    nodes = size * np.linspace(0.0, 1.0, 33)
+    for symmetry in body.symmetries:
+        sphere, h0 = symmetry == "revolution", 1e-3 * size
+        shape = Sphere(0.5 * size**2 / h0) if sphere else FlatPunch(size)
+        moved = float(np.sum(np.asarray(body.influence(nodes, symmetry))[0]))
+        modulus = 100 * moved * _WORK / h0**2
+        ratio = 0.5 if nu is None else nu
+        solid = Elastic(rubbery_modulus=modulus * (1 - ratio**2), poisson_ratio=ratio)
+        law = LennardJones(_WORK, h0)
+        test = Retraction(AtDepth(0.0), 1e-6)
+        problem = Problem(solid, law, shape, test, body)
+        if sphere:
+            name = "simulation: a stiff body lets a sphere go with 2 pi R dg"
+            yield problem, lambda result: pull_off_force(result) * 0.75, name
+        else:
+            name = "simulation: a stiff body lets a punch go with the strength"
+            yield problem, pull_off_stress, name

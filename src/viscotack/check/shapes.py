@@ -75,7 +75,7 @@ def _units(shape: Any, size: float) -> Iterator[Finding]:
 def _theory(shape: Any, size: float) -> Iterator[Finding]:
     """Check the contact without adhesion."""
     a = size * np.linspace(0.5, 1.0, 33)
-    solid = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
+    solid: Any = {"contact_modulus": 1e6, "work_of_adhesion": 0.0}
     depth = np.asarray(indenter.bare_depth(a, shape=shape))
     force = np.asarray(indenter.force(a, shape=shape, **solid))
     yield rises("contact without adhesion: depth rises with the radius", depth)

@@ -9,7 +9,7 @@ import numpy as np
 from viscotack.errors import OutOfRange
 from viscotack.forecast import Prediction
 from viscotack.forecast.prediction import MEASURED, NOT_MEASURED
-from viscotack.geometry import Sphere
+from viscotack.geometry import FlatPunch, HalfSpace, Layer, Sphere
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.problem import Groups
 from viscotack.protocol import AtForce
@@ -65,17 +65,34 @@ class UnknownShape(Sphere):
     word: ClassVar[str] = "unknown-shape"
 
 
+@dataclass(frozen=True)
+class UnknownBody(HalfSpace):
+    """A body that no tier was verified for."""
+
+    word: ClassVar[str] = "unknown-body"
+    symmetries: ClassVar[tuple[str, ...]] = ("revolution", "plane")
+
+
 _SOLID = {"rubbery_modulus": 1.0, "glassy_modulus": 10.0, "tau0": 1.0, "poisson_ratio": 0.0}
 
 
 def problems() -> tuple[Groups, ...]:
-    """Return spheres over the range of the tiers: Tabor numbers, solids and rates."""
+    """Return spheres over the range of the tiers, Tabor numbers, solids and rates; and a punch."""
     solids = (StandardSolid(**_SOLID), RetardationPowerLaw(**_SOLID, exponent=0.6))
     soft = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
     elastic = tuple(Groups(tabor, soft, AtForce(1.0), 1.0) for tabor in (0.2, 1.5, 8.0))
     # a heavy start, from which a fast pull finds the solid glassy
     fast = Groups(1.5, solids[0], AtForce(300.0), 1e7)
-    return (*elastic, fast) + tuple(
+    punch = Groups(
+        None,
+        solids[0],
+        AtForce(0.1),
+        10.0,
+        geometry=FlatPunch(60.0),
+        body=Layer(3.0),
+        cohesion=0.05,
+    )
+    return (*elastic, fast, punch) + tuple(
         Groups(tabor, solid, AtForce(2.0 * max(tabor, 1.0)), rate)
         for tabor, rate in ((0.05, 1.0), (1.5, 10.0), (4.0, 100.0), (60.0, 1e3), (1e7, 1.0))
         for solid in solids
@@ -98,8 +115,8 @@ def check_tier(
     cases : iterable of Problem or Groups
         Asked beside those of this module.
     takes : iterable of str
-        Kinds of nouns, of "solid", "law" and "shape", of which it answers any: those that it
-        compares by their functions, as the simulation does, and not by their class.
+        Kinds of nouns, of "solid", "law", "shape" and "body", of which it answers any: those that
+        it compares by their functions, as the simulation does, and not by their class.
     digits : float
         Relative agreement of a problem in SI with the same one without dimensions. A simulation
         chooses steps by comparisons that rounding may turn: 1e-4.
@@ -127,7 +144,8 @@ def _answers(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Findi
     answered = any(_answered(tier, case) for case in _covered(tier, cases))
     yield holds("answers one of the cases", answered, "one case or more", "none")
     for case, reason in zip(cases, reasons, strict=True):
-        where = f"Tabor number {getattr(case, 'tabor', 0):g}, {type(case.material).__name__}"
+        name = case.geometry.word if case.tabor is None else f"Tabor number {case.tabor:g}"
+        where = f"{name}, {type(case.material).__name__}"
         if reason == "":
             yield from _answer(tier, case, where)
         else:
@@ -155,7 +173,8 @@ def _answer(tier: Any, case: Any, where: str) -> Iterator[Finding]:
     )
     yield holds(f"{where}: method says who answers", bool(found.method), "a name", found.method)
     yield holds(f"{where}: why says it in words", len(found.why.split()) > 2, "words", found.why)
-    if isinstance(case, Groups) and case.effective_tabor < 100:
+    sphere = isinstance(case, Groups) and not case.in_plane_strain
+    if sphere and case.effective_tabor < 100:
         least, most = simulated.bounds(case)
         meets = low <= most and high >= least
         yield holds(
@@ -190,7 +209,7 @@ def _units(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Finding
     groups = [case for case in _covered(tier, cases) if isinstance(case, Groups)]
     for case in [case for case in groups if _answered(tier, case)][:2]:
         problem = case.in_si(
-            radius=1e-3,
+            radius=None if case.in_plane_strain else 1e-3,
             contact_modulus=2e6,
             work_of_adhesion=0.05,
             time_unit=0.3,
@@ -216,8 +235,10 @@ def _unknown(tier: Any, cases: Any, takes: Any, digits: float) -> Iterator[Findi
     strangers = {
         "solid": replace(case, material=UnknownSolid(**_SOLID)),
         "law": replace(case, traction=UnknownLaw(1.0, 1.0)),
-        "shape": replace(case, geometry=UnknownShape(1.0)),
+        "body": replace(case, body=UnknownBody()),
     }
+    if not case.in_plane_strain:
+        strangers["shape"] = replace(case, geometry=UnknownShape(1.0))
     for noun, stranger in strangers.items():
         if noun in takes:
             continue

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from viscotack.geometry import FlatPunch, HalfSpace
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 
 # Of `Verified.solids`: any linear solid.
 ANY: tuple[type, ...] = ()
@@ -42,21 +41,20 @@ class Verified:
     springs: bool = False
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
-    def refuses(self, groups: Groups | PunchGroups) -> str:
+    def refuses(self, groups: Groups) -> str:
         """Return the reason why a problem is not on the list, or an empty string."""
-        punch = isinstance(groups, PunchGroups)
         nouns = (
-            ("shape", FlatPunch if punch else type(groups.geometry), self.shapes),
-            ("body", type(groups.base) if punch else HalfSpace, self.bodies),
+            ("shape", type(groups.geometry), self.shapes),
+            ("body", type(getattr(groups.body, "base", groups.body)), self.bodies),
             ("traction law", type(groups.traction), self.laws),
             ("solid", type(groups.material), self.solids or (type(groups.material),)),
         )
         for what, given, allowed in nouns:
             if given not in allowed:
                 return f"the {what} is {given.__name__}, verified for {_names(allowed)} only"
-        return self._refuses_test(groups, "sigma0/h0" if punch else "x 1.5 pi R dg0/h0")
+        return self._refuses_test(groups, groups.units["stiffness"])
 
-    def _refuses_test(self, groups: Groups | PunchGroups, unit: str) -> str:
+    def _refuses_test(self, groups: Groups, unit: str) -> str:
         if type(groups.start) not in self.starts:
             return f"the test begins {groups.start!r}, verified for {_names(self.starts)} only"
         if groups.moves and not self.moves:

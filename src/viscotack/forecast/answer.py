@@ -29,7 +29,7 @@ def predict(
 
     Parameters
     ----------
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         In SI or dimensionless.
     confidence : float
         Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for

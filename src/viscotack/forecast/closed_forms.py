@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
+from viscotack.geometry import HalfSpace, Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.problem.ranges import at_least, at_most
 from viscotack.protocol import AtDepth, Start
@@ -282,9 +282,12 @@ _JKR_FORCE = 1.5 * np.pi
 
 def check_retraction(groups: Groups) -> None:
     """Raise an InputError for tests that the closed forms do not treat."""
-    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
-        shape = groups.geometry.word if isinstance(groups, Groups) else "punch"
-        raise InputError(f"advice is for spheres, got a {shape}; simulate others")
+    if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
+        shape, body = groups.geometry.word, groups.body.word
+        where = "" if isinstance(groups.body, HalfSpace) else f" on a {body}"
+        raise InputError(
+            f"advice is for spheres on a half-space, got a {shape}{where}; simulate others"
+        )
     check_of_gap_alone(groups.traction, "advice")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:

@@ -72,7 +72,7 @@ class Prediction:
         Between which it lies with that confidence [h0].
     depth_interval : tuple of float, or None
         Between which the depth at pull-off, the last of the curve, lies [h0]; None without a curve.
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         What was asked.
     """
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import FlatPunch, Frictionless
+from viscotack.geometry import FlatPunch, Frictionless, numbers
 from viscotack.materials import Prony, StandardSolid
-from viscotack.problem import Case, PunchGroups, PunchScales
+from viscotack.problem import Case, Groups, PunchScales
 from viscotack.protocol import AtDepth, AtForce
 from viscotack.traction import LennardJones
 
@@ -56,9 +56,10 @@ def by_punches(asked: Question) -> Prediction:
     return within(asked, learned, tests, LEARNED_PUNCH, INSIDE)
 
 
-def inputs_of(groups: PunchGroups) -> dict[str, float]:
+def inputs_of(groups: Groups) -> dict[str, float]:
     """Return the inputs of a campaign's case for a learned test, its rate in h0/tau0."""
     assert groups.rate is not None, "a test without moves ends with a retraction"
+    assert groups.cohesion is not None, "a punch has one"
     start: dict[str, float] = {}
     match groups.start:
         case AtDepth(depth=depth):
@@ -66,8 +67,8 @@ def inputs_of(groups: PunchGroups) -> dict[str, float]:
         case AtForce(force=force):
             start["preload_force"] = force
     return start | {
-        "size": groups.size,
-        "thickness": groups.thickness,
+        **numbers(groups.geometry),
+        **numbers(groups.body),
         "cohesion": groups.cohesion,
         "modulus_ratio": groups.modulus_ratio,
         "rate": groups.rate * _time(groups),
@@ -80,7 +81,7 @@ def _learned() -> Surrogate:
     return store.shipped("punch")
 
 
-def _row(groups: PunchGroups, learned: Surrogate) -> Array:
+def _row(groups: Groups, learned: Surrogate) -> Array:
     """Return the inputs of a test; the depth of a start by stress is nan where sizes are out.
 
     Raises
@@ -97,7 +98,7 @@ def _row(groups: PunchGroups, learned: Surrogate) -> Array:
     return row
 
 
-def _time(groups: PunchGroups) -> float:
+def _time(groups: Groups) -> float:
     """Return the retardation time of a solid that has one, in the groups' unit of time."""
     material = groups.material
     if isinstance(material, Prony):
@@ -107,7 +108,7 @@ def _time(groups: PunchGroups) -> float:
     return material.tau0
 
 
-def _out(row: Array, problem: Case, groups: PunchGroups, learned: Surrogate) -> list[str]:
+def _out(row: Array, problem: Case, groups: Groups, learned: Surrogate) -> list[str]:
     """Return in words which inputs are out of the range, with their values and the range."""
     inside, limits = learned.inside(row[None])[0], learned.limits_of(row)
     sized, units = inside[0] and inside[1], _si(problem, groups)
@@ -121,7 +122,7 @@ def _out(row: Array, problem: Case, groups: PunchGroups, learned: Surrogate) -> 
     return found
 
 
-def _si(problem: Case, groups: PunchGroups) -> dict[str, tuple[float, str]]:
+def _si(problem: Case, groups: Groups) -> dict[str, tuple[float, str]]:
     """Return what one unit of each input is in SI, nothing for a problem without dimensions."""
     scales = problem.scales()
     if not isinstance(scales, PunchScales):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.problem import Case, Groups, Problem
 from viscotack.protocol import Start
 
 _T = TypeVar("_T")
@@ -18,7 +18,7 @@ class Question:
 
     Attributes
     ----------
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         As the user stated it.
     confidence : float
         Part of the cases that intervals hold.
@@ -29,7 +29,7 @@ class Question:
     _known: dict[Callable[[Question], Any], Any] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.problem, Problem | Groups | PunchGroups):
+        if not isinstance(self.problem, Problem | Groups):
             raise TypeError(
                 f"predict takes a Problem or Groups, got {self.problem!r}; for a file give "
                 "viscotack.read_case(path)"
@@ -37,7 +37,7 @@ class Question:
 
     @property
     def groups(self) -> Any:
-        """The dimensionless problem, Groups or PunchGroups."""
+        """The dimensionless problem."""
         return self.once(_groups)
 
     @property

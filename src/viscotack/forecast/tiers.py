@@ -14,7 +14,7 @@ from functools import partial
 
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Elastic, RetardationPowerLaw
-from viscotack.problem import Case, PunchGroups
+from viscotack.problem import Case
 
 from .allow_list import Verified
 from .learned import (
@@ -196,7 +196,7 @@ def _answers(
 
 def _reason_of_surrogates(asked: Question, refused: dict[str, str]) -> str:
     """Return why the surrogate that is closest to a problem does not answer it."""
-    if isinstance(asked.groups, PunchGroups):
+    if asked.groups.in_plane_strain:
         return refused[LEARNED_PUNCH]
     power_law = isinstance(asked.groups.material, RetardationPowerLaw)
     return refused[SURROGATE if power_law else SOLIDS]

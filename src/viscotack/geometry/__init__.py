@@ -13,8 +13,10 @@ from .shapes import (
 
 # Word in a file -> class.
 SHAPES = {shape.word: shape for shape in (Sphere, Cone, PowerLawProfile, FlatPunch)}
+BODIES = {body.word: body for body in (HalfSpace, Layer)}
 
 __all__ = [
+    "BODIES",
     "SHAPES",
     "Base",
     "Body",

@@ -1,5 +1,9 @@
 r"""Bodies: the half-space, and a layer that rests on a rigid body below it.
 
+A body answers :meth:`Body.influence`, how far pressures on its surface move it, for the symmetries
+that it was made for, and its twin in other units of length, :meth:`Body.reduced`; `word` names it
+in files. A class with these names is a body, wherever it was written; docs/own.md goes through one.
+
 A pressure :math:`\cos \xi x` on a layer of the thickness b moves its surface by
 :math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, plane strain. The transfer function kappa
 rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to 0, of a thin layer, which sinks by
@@ -8,8 +12,9 @@ rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to 0, of a thin layer
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -19,11 +24,58 @@ from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
 
 
+class Body(Protocol):
+    """What is pressed, for the type checker.
+
+    Attributes
+    ----------
+    symmetries : tuple of str
+        Of the shapes that may press it, "revolution" and "plane".
+    decay_length : float
+        Length along the surface over which the displacement beside a pressure dies out [m]: inf of
+        a half-space, the thickness of a layer, 0 of springs side by side.
+    """
+
+    word: ClassVar[str]
+    symmetries: ClassVar[tuple[str, ...]]
+
+    @property
+    def decay_length(self) -> float: ...  # noqa: D102
+
+    def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:
+        """Return G[i, j], the displacement at node i under hat j (:mod:`.hats`), for E* = 1.
+
+        Nodes ascend from 0, in the unit of length of the body. Displacement into the body is
+        positive under pressure.
+        """
+        ...
+
+    def reduced(self, along: float) -> Body:
+        """Return the body with lengths in `along` [m]."""
+        ...
+
+
 @dataclass(frozen=True)
 class HalfSpace:
     """A body without an end: as thick as the contact is small."""
 
     word: ClassVar[str] = "half-space"
+    symmetries: ClassVar[tuple[str, ...]] = ("revolution",)
+
+    @property
+    def decay_length(self) -> float:
+        """A pressure is felt everywhere: inf."""
+        return float("inf")
+
+    def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:
+        """Return the displacement at node i under hat j, for E* = 1, in the unit of the nodes."""
+        from viscotack.geometry.half_space import influence
+
+        return influence(nodes)
+
+    def reduced(self, along: float) -> HalfSpace:
+        """Return the half-space, which has no length of its own."""
+        return self
 
 
 @dataclass(frozen=True)
@@ -118,6 +170,7 @@ class Layer:
     """
 
     word: ClassVar[str] = "layer"
+    symmetries: ClassVar[tuple[str, ...]] = ("plane",)
 
     thickness: Annotated[
         float, Quantity("m", "b", "thickness of the layer", above=0, example="50 um")
@@ -131,5 +184,27 @@ class Layer:
                 f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
             )
 
+    @property
+    def decay_length(self) -> float:
+        """The thickness [m]."""
+        return self.thickness
 
-Body = HalfSpace | Layer
+    @property
+    def poisson_ratio(self) -> float | None:
+        """The Poisson ratio that it was made for, which must be the material's; None for any."""
+        return getattr(self.base, "poisson_ratio", None)
+
+    @property
+    def numbers(self) -> Mapping[str, float]:
+        """What a dimensionless problem says of the body."""
+        return {"thickness": self.thickness}
+
+    def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:
+        """Return the displacement at node i under hat j, for E* = 1, in the unit of the nodes."""
+        from viscotack.geometry.layer import layer_influence
+
+        return layer_influence(nodes, self.thickness, self.base)
+
+    def reduced(self, along: float) -> Layer:
+        """Return the layer with lengths in `along` [m]."""
+        return Layer(self.thickness / along, self.base)

@@ -9,7 +9,7 @@ follows from `symmetry`: "revolution", or "plane" for the flat punch in plane st
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import log
-from typing import Annotated, ClassVar, Protocol
+from typing import Annotated, Any, ClassVar, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -107,6 +107,15 @@ class FlatPunch:
 
     def __post_init__(self) -> None:
         conform(self)
+
+    def reduced(self, along: float, height: float) -> "FlatPunch":
+        """Return the punch with distances in `along` [m]; it has no height."""
+        return FlatPunch(self.half_width / along)
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """What a dimensionless problem says of the shape."""
+        return {"size": self.half_width}
 
 
 @dataclass(frozen=True)
@@ -264,9 +273,9 @@ def equivalent_radius(shape: Shape, length: float) -> float:
     return beta / float(shape.flank(beta))
 
 
-def numbers(shape: Shape) -> Mapping[str, float]:
-    """Return what a dimensionless problem says of a shape beside the Tabor number."""
-    return getattr(shape, "numbers", {})
+def numbers(noun: Any) -> Mapping[str, float]:
+    """Return what a dimensionless problem says of a shape or a body."""
+    return getattr(noun, "numbers", {})
 
 
 def _radius_of_power_law(coefficient: float, exponent: float, length: float) -> float:

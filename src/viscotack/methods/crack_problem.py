@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import OutOfRange
-from viscotack.problem import Groups, Problem, PunchGroups
+from viscotack.geometry import HalfSpace
+from viscotack.problem import Groups, Problem
 from viscotack.protocol import (
     Apart,
     Approach,
@@ -38,17 +39,22 @@ LOAD, ROOT = 1.5 * np.pi, np.pi ** (1 / 3)
 
 def groups_of(problem: Any) -> Groups:
     """Return the groups of a problem, or the reason why the theory does not know it."""
-    if not isinstance(problem, Problem | Groups | PunchGroups):
+    if not isinstance(problem, Problem | Groups):
         raise TypeError(
             f"crack_contact takes a Problem or Groups, got {problem!r}; for a file give "
             "viscotack.read_case(path)"
         )
     groups = problem.groups()
-    if not isinstance(groups, Groups):
+    if groups.in_plane_strain:
         raise OutOfRange(
             "the theory of a contact with a crack for its edge is one of shapes of revolution, got "
             "a flat punch on a layer; theory.punch.pull_off takes its bulk as relaxed, and "
             "`viscotack simulate` answers it"
+        )
+    if not isinstance(groups.body, HalfSpace):
+        raise OutOfRange(
+            "the theory of a contact with a crack for its edge is one of the half-space, got a "
+            f"{groups.body.word}; `viscotack simulate` answers it"
         )
     return groups
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.geometry import HalfSpace
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.result import Outcome, Result
@@ -14,8 +15,15 @@ from .by_crack import LARGEST_TABOR, METHOD, crack_contact
 from .crack_problem import start_of
 
 
+def knows(groups: Groups) -> bool:
+    """Return whether the theory knows shape and body: any shape of revolution on a half-space."""
+    return not groups.in_plane_strain and isinstance(groups.body, HalfSpace)
+
+
 def too_short(groups: Groups) -> bool:
-    """Return whether the range of the forces is too short to be simulated."""
+    """Return whether the theory answers because the forces are too short to be simulated."""
+    if not knows(groups):
+        return False
     least = ELASTIC_TABOR if groups.modulus_ratio >= 1 else SIMULATED_TABOR[1]
     return least < groups.effective_tabor <= LARGEST_TABOR
 

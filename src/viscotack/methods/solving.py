@@ -14,7 +14,7 @@ from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.methods import handover
 from viscotack.methods.crack_problem import largest_radius
-from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.problem import Case, Groups, Problem
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, LOOSEST_ACCURACY, TimeLimit
 from viscotack.result import Result
 
@@ -47,7 +47,7 @@ def solve(
 
     Parameters
     ----------
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         What is tested, in SI or in dimensionless groups.
     accuracy : float
         Wanted relative error of the pull-off force, from 1e-6 to 0.02; the work to pull-off, whose
@@ -126,13 +126,12 @@ def solve(
     # The matrices are small: a second BLAS thread costs many times what it brings.
     with threadpool_limits(limits=1, user_api="blas"), limited(time_limit):
         groups = problem.groups()
-        if isinstance(groups, Groups) and _too_short(groups, chosen):
+        if _too_short(groups, chosen):
             if fields:
                 raise InputError(
                     "profiles are known of simulations only, and the Tabor number of "
                     f"{groups.effective_tabor:.4g} is too large for one; ask for none"
                 )
-            assert not isinstance(problem, PunchGroups)
             return _handed_over(problem, chosen.accuracy, began)
         return simulate(
             problem,
@@ -156,7 +155,7 @@ def has_start(problem: Case) -> bool:
     with threadpool_limits(limits=1, user_api="blas"):
         try:
             groups = problem.groups()
-            if isinstance(groups, Groups) and handover.too_short(groups):
+            if handover.too_short(groups):
                 return handover.has_start(groups)
             begun(groups, contact_of(groups), Settings.for_accuracy(LOOSEST_ACCURACY))
         except InputError:
@@ -168,7 +167,7 @@ def _too_short(groups: Groups, settings: Settings) -> bool:
     """Return whether the range of the forces is too short for a simulation, or for its digits."""
     if handover.too_short(groups):
         return True
-    if groups.effective_tabor < _FINE_TABOR:
+    if not handover.knows(groups) or groups.effective_tabor < _FINE_TABOR:
         return False
     spacing = contact_of(groups).grading(settings, 0.0).spacing
     try:

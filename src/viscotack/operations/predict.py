@@ -184,10 +184,9 @@ class Advise(Operation):
     def answer(self, caller: Caller) -> Answer:
         """Ask every tier."""
         from viscotack.forecast.advice import advise
-        from viscotack.problem import PunchGroups
 
         problem = self.problem.problem
-        if isinstance(problem, PunchGroups):
+        if problem.groups().in_plane_strain:
             raise InputError("advice is for a sphere, got a punch; viscotack predict answers it")
         advice = advise(problem)
         return Answer(

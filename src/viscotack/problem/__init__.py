@@ -1,7 +1,8 @@
-"""A problem: material, traction law, geometry and protocol, in SI, in groups and in files."""
+"""A problem: material, traction law, shape, body and protocol, in SI, in groups and in files."""
 
+from .older import PunchGroups
 from .plane import PunchScales
-from .problem import Case, Groups, Problem, PunchGroups
+from .problem import Case, Groups, Problem
 from .revolution import Scales
 
 __all__ = ["Case", "Groups", "Problem", "PunchGroups", "PunchScales", "Scales"]

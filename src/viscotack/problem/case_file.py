@@ -45,7 +45,7 @@ def read_case(
         [cone], [profile], or [punch] and [layer]. Quantities are texts with units, such as
         ``radius = "5.19 mm"``.
     also : iterable of classes
-        Laws, materials and shapes of the user's own that the file may name by their words.
+        Laws, materials, shapes and bodies of the user's own that the file may name by their words.
     temperature : float, optional
         Of the material [K], instead of that in the file; only of a passport, and within the range
         in which it was measured.
@@ -77,7 +77,7 @@ def case_of_tables(
     where : str
         What errors call it.
     also : iterable of classes
-        Laws, materials and shapes of the user's own that it may name by their words.
+        Laws, materials, shapes and bodies of the user's own that it may name by their words.
 
     Raises
     ------
@@ -116,7 +116,10 @@ def _stated(
     """Return the problem of tables that stand in a file, or were sent."""
     shape = _shape_table(path, tables, nouns)
     plain = nouns.shapes[shape].symmetry == "plane"
-    names = (*_COMMON, shape, *(("layer",) if plain or "layer" in tables else ()))
+    bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
+    if len(bodies) > 1:
+        raise InputError(f"{path}: one body at a time, got [{'] and ['.join(bodies)}]")
+    names = (*_COMMON, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
     refuse_unknown(f"{path}", tables, names, "table", more)
     if len(missing := [f"[{name}]" for name in names if name not in tables]) > 1:
@@ -125,7 +128,7 @@ def _stated(
             "docs/input.md"
         )
     found = {name: Table(path, name, tables, beside) for name in names}
-    if "layer" in found and not plain:
+    if not plain and Layer.word in bodies:
         raise InputError(
             f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
             "under it is not known: leave the table out"
@@ -137,7 +140,9 @@ def _stated(
         "material": material,
         "traction": law,
         "geometry": _shape(found[shape], nouns.shapes[shape]),
-        "body": _layer(found["layer"], material) if plain else HalfSpace(),
+        "body": _body(found[bodies[0]], nouns.bodies[bodies[0]], material)
+        if bodies
+        else HalfSpace(),
         "protocol": protocol_from_table(found["protocol"], kind.SI, law.equilibrium_gap),
     }
     for table in found.values():
@@ -178,8 +183,10 @@ def _shape(table: Table, kind: Any) -> Any:
     return table.make(PowerLawProfile, coefficient=height / radius**exponent, exponent=exponent)
 
 
-def _layer(table: Table, material: Material) -> Layer:
-    """Return the layer that a table states; a bonded one is as its material is."""
+def _body(table: Table, kind: Any, material: Material) -> Any:
+    """Return the body that a table states; a bonded layer is as its material is."""
+    if kind is not Layer:
+        return table.make(kind, **table.numbers(kind))
     bonded = table.word("base", (Frictionless.word, Bonded.word)) == Bonded.word
     base = Bonded(poisson_ratio=material.poisson_ratio) if bonded else Frictionless()
     return table.make(Layer, **table.numbers(Layer), base=base)

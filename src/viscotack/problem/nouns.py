@@ -1,4 +1,4 @@
-"""What a problem may be made of: the laws, materials and shapes that are known, and a user's own.
+"""What a problem may be made of: laws, materials, shapes and bodies that are known, and own ones.
 
 Nothing is registered: a class says itself what it is, by what it answers, and `word` names it in
 files and flags.
@@ -16,7 +16,7 @@ from typing import Any
 from viscotack import geometry, materials, problem, protocol
 from viscotack.cards import check_carded
 from viscotack.errors import InputError
-from viscotack.geometry import SHAPES
+from viscotack.geometry import BODIES, SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.traction import LAWS
 
@@ -40,6 +40,7 @@ _SIGNS = {
         "reduced",
     ),
     "shapes": ("gap", "flank", "symmetry", "reduced"),
+    "bodies": ("influence", "decay_length", "symmetries", "reduced"),
 }
 _ROOMS = (materials, geometry, protocol, problem)
 
@@ -50,7 +51,7 @@ class Nouns:
 
     Attributes
     ----------
-    laws, materials, shapes : mapping
+    laws, materials, shapes, bodies : mapping
         Word in files and flags -> class.
     types : mapping
         Name -> class, of everything that a record may hold.
@@ -61,6 +62,7 @@ class Nouns:
     laws: Mapping[str, Any]
     materials: Mapping[str, Any]
     shapes: Mapping[str, Any]
+    bodies: Mapping[str, Any]
     types: Mapping[str, Any]
     observables: tuple[Any, ...] = ()
 
@@ -71,10 +73,12 @@ def known(also: Iterable[Any] = ()) -> Nouns:
     Raises
     ------
     ValueError
-        If one is no law, material, shape or observable, or has a name or a word that is taken.
+        If one is no law, material, shape, body or observable, or has a name or a word that is
+        taken.
     """
     also = tuple(also)
-    own = {"laws": dict(LAWS), "materials": dict(MODELS), "shapes": dict(SHAPES)}
+    nouns = {"laws": LAWS, "materials": MODELS, "shapes": SHAPES, "bodies": BODIES}
+    own = {room: dict(classes) for room, classes in nouns.items()}
     types = dict(_types())
     observables = []
     for noun in also:
@@ -94,7 +98,7 @@ def known(also: Iterable[Any] = ()) -> Nouns:
 
 
 def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
-    """Return the laws, materials, shapes and observables that Python files define.
+    """Return the laws, materials, shapes, bodies and observables that Python files define.
 
     The files are executed: they are programs of the user's own.
 
@@ -127,7 +131,8 @@ def _defined(path: Path, content: str) -> tuple[Any, ...]:
     found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
     if not found:
         raise InputError(
-            f"{path} defines no law, material, shape or observable; docs/own.md shows how one looks"
+            f"{path} defines no law, material, shape, body or observable; docs/own.md shows how "
+            "one looks"
         )
     return found
 
@@ -149,8 +154,8 @@ def _room(noun: Any) -> str:
                 return room
     wanted = "; ".join(f"{room}: {', '.join(signs)}" for room, signs in _SIGNS.items())
     raise InputError(
-        f"{getattr(noun, '__name__', noun)!r} is no law, material or shape: a frozen dataclass "
-        f"with a `word` and ({wanted}), or an Observable"
+        f"{getattr(noun, '__name__', noun)!r} is no law, material, shape or body: a frozen "
+        f"dataclass with a `word` and ({wanted}), or an Observable"
     )
 
 

@@ -1,12 +1,16 @@
-"""Records and names of older versions as this one writes them.
+"""Records and names of older versions as this one has them.
 
 Version 0.1 had a class for each indenter: PunchProblem with `punch` and `layer`, ProfileProblem
-with `profile`, and ProfileGroups with `profile_exponent`.
+with `profile`, ProfileGroups with `profile_exponent`, and PunchGroups with `size`, `thickness` and
+`base`.
 """
 
+import warnings
 from typing import Any
 
 from viscotack.errors import InputError
+from viscotack.geometry import Base, FlatPunch, Frictionless, Layer
+from viscotack.problem.problem import Groups
 
 # What numbers of an answer were called -> are called, as in `outputs`; in SI too.
 _OUTPUTS = {
@@ -19,7 +23,41 @@ _OUTPUTS = {
 }
 OUTPUTS = frozenset(_OUTPUTS)
 # What numbers of a problem were called -> are called, by the beginning of their path.
-_PATHS = {"punch.": "geometry.", "layer.": "body.", "profile.": "geometry."}
+_PATHS = {
+    "punch.": "geometry.",
+    "layer.": "body.",
+    "profile.": "geometry.",
+    "size": "geometry.half_width",
+    "thickness": "body.thickness",
+    "base.": "body.base.",
+}
+_SLIDING = Frictionless()
+
+
+def PunchGroups(  # noqa: N802
+    size: float, thickness: float, cohesion: float, *, base: Base = _SLIDING, **parts: Any
+) -> Groups:
+    """Return the dimensionless punch on a layer: an older name of :class:`viscotack.Groups`.
+
+    Parameters
+    ----------
+    size, thickness : float
+        Half width and thickness of the layer [a_0].
+    cohesion : float
+        sigma_0/E_0*.
+    base : Frictionless or Bonded
+        How the layer rests on the rigid body below.
+    **parts
+        Those of Groups: material, start, rate, ...
+    """
+    warnings.warn(
+        "PunchGroups(size, thickness, cohesion, ...) is Groups(tabor=None, cohesion=..., "
+        "geometry=FlatPunch(size), body=Layer(thickness, base), ...) now",
+        DeprecationWarning,
+        stacklevel=2,
+    )
+    body = Layer(thickness, base)
+    return Groups(tabor=None, cohesion=cohesion, geometry=FlatPunch(size), body=body, **parts)
 
 
 def upgraded(record: Any) -> Any:
@@ -40,6 +78,11 @@ def upgraded(record: Any) -> Any:
                 raise InputError(f"profile_exponent must lie between 1 and 10, got {q!r}")
             renamed["type"] = "Groups"
             renamed["geometry"] = {"type": "PowerLawProfile", "coefficient": 1 / q, "exponent": q}
+        case "PunchGroups" if {"size", "thickness"} <= record.keys():
+            layer = {name: renamed.pop(name) for name in ("thickness", "base") if name in record}
+            renamed["type"], renamed["tabor"] = "Groups", None
+            renamed["geometry"] = {"type": "FlatPunch", "half_width": renamed.pop("size")}
+            renamed["body"] = {"type": "Layer", **layer}
     return renamed
 
 
@@ -58,19 +101,18 @@ def upgraded_output(name: str) -> str:
 
 def naming(record: dict[str, Any]) -> dict[str, Any]:
     """Return a record as version 0.1 wrote it: names by content are made from that for ever."""
-    shape = record.get("geometry", {})
-    kind = shape.get("type")
+    shape, body = record.get("geometry", {}), record.get("body", {})
     renamed = {name: value for name, value in record.items() if name not in ("geometry", "body")}
-    match record["type"], kind:
-        case "Problem", "FlatPunch":
-            return renamed | {
-                "type": "PunchProblem",
-                "punch": shape,
-                "layer": record["body"],
-            }
-        case "Problem", "Cone" | "PowerLawProfile":
+    match record["type"], shape.get("type"), body.get("type"):
+        case "Problem", "FlatPunch", _:
+            return renamed | {"type": "PunchProblem", "punch": shape, "layer": body}
+        case "Problem", "Cone" | "PowerLawProfile", None:
             return renamed | {"type": "ProfileProblem", "profile": shape}
-        case "Groups", "Cone" | "PowerLawProfile":
+        case "Groups", "Cone" | "PowerLawProfile", None:
             q = shape.get("exponent", 1.0)
             return renamed | {"type": "ProfileGroups", "profile_exponent": q}
+        case "Groups", "FlatPunch", "Layer":
+            layer = {name: value for name, value in body.items() if name != "type"}
+            del renamed["tabor"]
+            return renamed | {"type": "PunchGroups", "size": shape["half_width"], **layer}
     return record

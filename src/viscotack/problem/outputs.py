@@ -179,7 +179,7 @@ def _tension(groups: Any) -> float:
 
 
 def _per_half_width(groups: Any) -> float:
-    return 1 / groups.size
+    return 1 / groups.geometry.half_width
 
 
 def _crack_speed(groups: Any) -> float:

@@ -15,12 +15,14 @@ from typing import Any
 
 import numpy as np
 
+from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Layer
-from viscotack.problem.units import time_unit
+from viscotack.problem.outputs import PLANE
+from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import Apart, AtRadius, Start, Units
 from viscotack.protocol.words import PUNCH_UNITS
 
+OUTPUTS = PLANE
 # What a protocol's numbers are in, in SI and dimensionless: forces are mean stresses.
 SI = PUNCH_UNITS | {"stiffness": "Pa/m"}
 GROUPS = {
@@ -30,6 +32,11 @@ GROUPS = {
     "speed": "h0/tau0",
     "time": "tau0",
     "stiffness": "sigma0/h0",
+}
+# What the numbers of its shape and its body are called without dimensions.
+SIZES = {
+    "size": Quantity("a0", "a/a0", "half width of the punch", above=0),
+    "thickness": Quantity("a0", "b/a0", "thickness of the layer", above=0),
 }
 
 
@@ -99,21 +106,43 @@ def check_start(start: Start | Apart) -> None:
 
 
 def check(problem: Any) -> None:
-    """Refuse a punch without a layer, and a bonded one of another Poisson ratio than its material.
-
-    Raises
-    ------
-    ValueError
-        In these cases, and if it starts at a contact radius.
-    """
-    if not isinstance(problem.body, Layer):
-        raise InputError(
-            f"a flat punch presses a layer, got {problem.body}; try body=Layer(thickness=1e-4)"
-        )
+    """Refuse a start at a contact radius."""
     check_start(problem.protocol.start)
-    base, nu = problem.body.base, problem.material.poisson_ratio
-    if isinstance(base, Bonded) and base.poisson_ratio != nu:
+
+
+def lengths(problem: Any) -> tuple[float, float]:
+    """Return the units of distances along the surface and of heights [m]: a_0 and h_0."""
+    return fracture_length(problem), problem.traction.equilibrium_gap
+
+
+def ratios(problem: Any) -> dict[str, float | None]:
+    """Return the group that no shape, body or test has: the cohesion."""
+    return {"tabor": None, "cohesion": problem.cohesion}
+
+
+def check_groups(groups: Any) -> None:
+    """Refuse a dimensionless punch without cohesion, with a Tabor number, or begun at a radius."""
+    if groups.cohesion is None or groups.tabor is not None:
         raise InputError(
-            f"a bonded layer has the Poisson ratio of its material, {nu:g}, got "
-            f"{base.poisson_ratio:g}"
+            "a punch has a cohesion, sigma_0/E_0*, and no Tabor number: give cohesion=0.05, say, "
+            f"and tabor=None, got cohesion={groups.cohesion} and tabor={groups.tabor}"
         )
+    check_start(groups.start)
+
+
+def si_units(
+    groups: Any,
+    contact_modulus: float,
+    radius: float | None,
+    *,
+    equilibrium_gap: float = 0.0,
+    work_of_adhesion: float = 0.0,
+) -> InSI:
+    """Return the units of dimensionless groups in SI, of one of gap and work of adhesion."""
+    if radius is not None:
+        raise InputError(f"a punch has no radius, got {radius:g} m; leave it out")
+    strength, E = groups.cohesion * contact_modulus, contact_modulus
+    w = work_of_adhesion or equilibrium_gap * strength / groups.traction.strength
+    h0 = equilibrium_gap or groups.traction.strength * w / strength
+    a0 = np.pi * E * w / (2 * strength**2)
+    return InSI(h0, w, strength, contact_radius=a0, along=a0, height=h0)

@@ -1,8 +1,9 @@
 r"""A problem: material, traction law, geometry and protocol, in SI or in dimensionless groups.
 
-A shape on a body is one of two kinds, an indenter of revolution (:mod:`.revolution`) or a punch in
-plane strain (:mod:`.plane`); these say what its scales, groups, limits and outputs are. With
-:math:`E_0^* = E_0/(1-\nu^2)` the five groups of the sphere are
+A problem is a shape on a body, with a traction law, a material and a protocol. By the symmetry of
+the shape it is one of two kinds, an indenter of revolution (:mod:`.revolution`) or a punch in plane
+strain (:mod:`.plane`); these say what its scales, groups, limits and outputs are. With
+:math:`E_0^* = E_0/(1-\nu^2)` the five groups of the sphere on a half-space are
 
 .. math:: \mu = \left(\frac{R \Delta\gamma_0^2}{E_0^{*2} h_0^3}\right)^{1/3}, \quad
           k = \frac{E_0}{E_\infty}, \quad n, \quad
@@ -16,28 +17,18 @@ Tabor number as corrected in Eq. 31.
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
 from viscotack.cards import Quantity, conform
 from viscotack.errors import InputError
-from viscotack.geometry import (
-    Base,
-    Body,
-    FlatPunch,
-    Frictionless,
-    HalfSpace,
-    Layer,
-    Shape,
-    Sphere,
-    numbers,
-)
+from viscotack.geometry import Body, FlatPunch, HalfSpace, Shape, Sphere, numbers
 from viscotack.materials import Material
 from viscotack.materials.checks import rests
 from viscotack.materials.constants import poisson_ratio as checked_poisson_ratio
 from viscotack.problem import plane, revolution
-from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
+from viscotack.problem.outputs import Kind
 from viscotack.problem.plane import PunchScales
 from viscotack.problem.revolution import Scales
 from viscotack.problem.units import material_in_si
@@ -46,6 +37,17 @@ from viscotack.traction import LennardJones, Traction, effective_range
 from viscotack.traction.growing import reduced, scaled
 from viscotack.units import positive
 
+Tabor = Annotated[
+    float,
+    Quantity("1", "mu", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)", above=0, example="3.24"),
+]
+if TYPE_CHECKING:
+    _TaborOrNone = Any  # code of one symmetry need not ask for None again
+else:
+    _TaborOrNone = Tabor | None
+Cohesion = Annotated[
+    float, Quantity("1", "Sigma0", "strength of the interface, sigma0/E0*", above=0)
+]
 Rate = Annotated[
     float,
     Quantity("h0 per time unit", "r", "retraction speed", above=0, measure="speed"),
@@ -66,15 +68,15 @@ class Problem:
         The soft body's.
     traction : LennardJones, Dugdale, Exponential, Tabulated, GentSchultz or Eyring
         The forces across the gap.
-    geometry : Sphere, Cone, PowerLawProfile or FlatPunch
+    geometry : Sphere, Cone, PowerLawProfile, FlatPunch or a shape of the user's
         The rigid indenter.
     protocol : Retraction
         A relaxed start and the retraction from it, and what the machine does between. Of a punch
         AtForce and LoadTo are mean stresses [Pa], positive in compression, and a stiffness is per
         area [Pa/m].
-    body : HalfSpace or Layer
+    body : HalfSpace, Layer or a body of the user's
         What is pressed; a half-space when left out. A flat punch needs a layer, the others a
-        half-space.
+        half-space, or a body that was made for their symmetry.
 
     Raises
     ------
@@ -110,7 +112,7 @@ class Problem:
     ...     body=Layer(thickness=50e-6),
     ...     protocol=Retraction(start=AtDepth(1.5e-6), speed=100e-6),
     ... )
-    >>> f"{problem.groups().size:.1f}"
+    >>> f"{problem.groups().geometry.half_width:.1f}"
     '22.4'
     """
 
@@ -125,20 +127,15 @@ class Problem:
         _check_traction(self.traction)
         for name, wanted, example in (
             ("geometry", ("symmetry",), "Sphere(radius=5e-3)"),
-            ("body", ("word",), "Layer(thickness=1e-4)"),
             ("protocol", ("start", "moves"), "Retraction(start=AtForce(force=1e-3), speed=1e-4)"),
         ):
             part = getattr(self, name)
             if isinstance(part, type) or not all(hasattr(part, name) for name in wanted):
                 given = part.__name__ if isinstance(part, type) else type(part).__name__
                 raise InputError(f"{name} cannot be a {given}; try {example}")
-        if self.geometry.symmetry not in ("revolution", "plane") or (
-            self.geometry.symmetry == "plane" and not isinstance(self.geometry, FlatPunch)
-        ):
-            raise InputError(
-                "a shape has the symmetry 'revolution', and only a FlatPunch is 'plane', got "
-                f"{self.geometry.symmetry!r} of {self.geometry!r}"
-            )
+        _check_shape(self.geometry)
+        _check_body(self.geometry, self.body)
+        _check_poisson_ratio(self.body, self.material)
         with np.errstate(over="ignore", under="ignore"):
             self._check_digits()
             self._kind.check(self)
@@ -165,8 +162,15 @@ class Problem:
     def radius(self) -> float:
         """Radius R [m] of the sphere with the Tabor number and scales of a shape of revolution."""
         if self._kind is plane:
-            raise InputError("a flat punch has no radius and no Tabor number; see PunchGroups")
+            raise InputError("a flat punch has no radius and no Tabor number; see its cohesion")
         return revolution.radius_of(self)
+
+    @property
+    def cohesion(self) -> float:
+        """Strength of the interface of a punch over the contact modulus, Sigma_0."""
+        if self._kind is not plane:
+            raise InputError(f"the cohesion is one of a punch, and this is a {self.geometry}")
+        return self.traction.strength / self.material.contact_modulus
 
     @property
     def fracture_length(self) -> float:
@@ -178,7 +182,7 @@ class Problem:
     @property
     def outputs(self) -> Kind:
         """What the numbers of its answer are called and given in."""
-        return PLANE if self._kind is plane else REVOLUTION
+        return self._kind.OUTPUTS
 
     @property
     def units(self) -> Mapping[str, str]:
@@ -189,58 +193,48 @@ class Problem:
         """Return what one unit of each dimensionless output is in SI, Scales or PunchScales."""
         return self._scales
 
-    def groups(self) -> Any:
-        """Return the dimensionless problem, Groups or PunchGroups, in the material's time unit."""
+    def groups(self) -> "Groups":
+        """Return the dimensionless problem, in the material's time unit."""
         unit: Any = self._scales
         units: Units = self._kind.to_groups(unit)
         protocol = self.protocol
-        parts: dict[str, Any] = {
-            "material": self.material.reduced(),
-            "start": units.start(protocol.start),
-            "rate": units.speed(protocol.speed),
-            "traction": reduced(self.traction, unit.time),
-            "moves": units.moves(protocol.moves),
-            "stiffness": units.stiffness(protocol.stiffness),
-        }
-        if isinstance(self.geometry, FlatPunch):
-            assert isinstance(self.body, Layer)
-            return PunchGroups(
-                size=self.geometry.half_width / unit.width,
-                thickness=self.body.thickness / unit.width,
-                cohesion=unit.stress / self.material.contact_modulus,
-                base=self.body.base,
-                **parts,
-            )
-        R, law = self.radius, self.traction
-        along = (R**2 * law.work_of_adhesion / self.material.contact_modulus) ** (1 / 3)
-        shape = self.geometry.reduced(along, along**2 / R)
-        return Groups(tabor=self.tabor, geometry=shape, **parts)
+        along, height = self._kind.lengths(self)
+        return Groups(
+            **self._kind.ratios(self),
+            material=self.material.reduced(),
+            start=units.start(protocol.start),
+            rate=units.speed(protocol.speed),
+            traction=reduced(self.traction, unit.time),
+            moves=units.moves(protocol.moves),
+            stiffness=units.stiffness(protocol.stiffness),
+            geometry=self.geometry.reduced(along, height),
+            body=self.body.reduced(along),
+        )
 
     @property
     def _kind(self) -> Any:
-        return {"revolution": revolution, "plane": plane}[self.geometry.symmetry]
+        return _KINDS[self.geometry.symmetry]
 
     @cached_property
     def _scales(self) -> Scales | PunchScales:
-        if self._kind is plane:
-            return plane.scales_of(self)
-        return revolution.scales_of(self.radius, self.material, self.traction)
+        return self._kind.scales_of(self)
 
 
 @dataclass(frozen=True)
 class Groups:
-    """A dimensionless problem: an indenter of revolution on a half-space.
+    """A dimensionless problem: a reduced shape on a reduced body.
 
     Parameters
     ----------
-    tabor : float
-        Tabor number mu; positive.
+    tabor : float or None
+        Tabor number mu of a shape of revolution; positive. None for a punch.
     material : like that of a Problem
         Reduced material: rubbery modulus 1, Poisson ratio 0, times in the time unit of the case.
         ``material.reduced()`` makes one whose time unit is tau_0 (Prony: its longest time).
-    start : AtDepth, AtForce or AtRadius
-        Depth in h_0, force in 1.5 pi R Delta-gamma_0, radius in
-        (pi R^2 Delta-gamma_0/E_0*)^(1/3).
+    start : AtDepth, AtForce, AtRadius or Apart
+        Depth and gap in h_0, force in 1.5 pi R Delta-gamma_0, radius in
+        (pi R^2 Delta-gamma_0/E_0*)^(1/3); of a punch mean stress in sigma_0 (positive in
+        compression), and no radius.
     rate : float or None
         Retraction speed in h_0 per time unit; positive. None if the test ends with its moves.
     traction : LennardJones
@@ -248,10 +242,16 @@ class Groups:
     moves : tuple of Approach, Retract, MoveTo, Dwell and LoadTo
         What the machine does before the retraction, in the same units.
     stiffness : float or None
-        Of the machine [1.5 pi R Delta-gamma_0/h_0]; None for a rigid one.
-    geometry : Sphere, Cone, PowerLawProfile or a shape of revolution of the user's
-        Reduced shape, of slope 1 at distance 1: leave it out for the sphere. Then R is the
-        equivalent radius.
+        Of the machine [1.5 pi R Delta-gamma_0/h_0], of a punch [sigma_0/h_0]; None for a rigid one.
+    geometry : Sphere, Cone, PowerLawProfile, FlatPunch or a shape of revolution of the user's
+        Reduced shape. One of revolution has slope 1 at distance 1; leave it out for the sphere.
+        Then R is the equivalent radius. The half width of a punch is in a_0.
+    body : HalfSpace, Layer or a body of the user's
+        Lengths in beta = (R^2 Delta-gamma_0/E_0*)^(1/3), under a punch in a_0; leave it out for the
+        half-space.
+    cohesion : float or None
+        Of a punch: strength of the interface over the relaxed contact modulus, sigma_0/E_0*;
+        positive. None for a shape of revolution.
 
     Notes
     -----
@@ -264,42 +264,45 @@ class Groups:
 
     Examples
     --------
-    >>> from viscotack.materials import RetardationPowerLaw
+    >>> from viscotack.materials import RetardationPowerLaw, StandardSolid
     >>> from viscotack.protocol import AtDepth
-    >>> material = RetardationPowerLaw(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
-    ... )
+    >>> plateaus = {"rubbery_modulus": 1.5e6, "glassy_modulus": 15e6, "poisson_ratio": 0.5}
+    >>> material = RetardationPowerLaw(**plateaus, exponent=0.8, tau0=0.1)
     >>> groups = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
     >>> groups.modulus_ratio
     0.1
+
+    A punch on a sliding layer:
+
+    >>> punch = Groups(
+    ...     tabor=None, cohesion=0.05, geometry=FlatPunch(64.85), body=Layer(3.24),
+    ...     material=StandardSolid(**plateaus, tau0=0.1).reduced(), start=AtDepth(1.0), rate=10.0,
+    ... )
+    >>> f"{punch.fracture_length:.1f} h0"
+    '30.6 h0'
     """
 
-    tabor: Annotated[
-        float,
-        Quantity("1", "mu", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)", above=0, example="3.24"),
-    ]
+    tabor: _TaborOrNone
     material: Material
     start: Start | Apart
     rate: Rate | None
     traction: Traction = LennardJones(1.0, 1.0)
     moves: tuple[Move, ...] = ()
     stiffness: Spring | None = None
-    geometry: Shape = Sphere(1.0)
+    geometry: Shape | FlatPunch = Sphere(1.0)
+    body: Body = HalfSpace()
+    cohesion: Cohesion | None = None
 
     def __post_init__(self) -> None:
-        bare = isinstance(self.geometry, type)
-        if bare or getattr(self.geometry, "symmetry", "") != "revolution":
-            raise InputError(
-                f"geometry must be a reduced shape of revolution, got {self.geometry!r}; leave it "
-                "out for a sphere"
-            )
-        slope = float(self.geometry.flank(1.0))
-        if abs(slope - 1) > 1e-6:
-            raise InputError(
-                "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
-                f"got {self.geometry!r} of slope {slope:g}; problem.groups().geometry is so"
-            )
+        _check_shape(self.geometry)
+        _check_body(self.geometry, self.body)
         _check_reduced(self)
+        self._kind.check_groups(self)
+
+    @property
+    def in_plane_strain(self) -> bool:
+        """Whether the shape is a flat punch in plane strain."""
+        return self._kind is plane
 
     @property
     def modulus_ratio(self) -> float:
@@ -309,28 +312,37 @@ class Groups:
     @property
     def effective_tabor(self) -> float:
         """Tabor number over the effective range of the law: how near the contact is to JKR."""
+        if self.tabor is None:
+            raise InputError("a flat punch has no Tabor number; see its cohesion")
         return self.tabor / effective_range(self.traction)
+
+    @property
+    def fracture_length(self) -> float:
+        r"""Length a_0 of a punch over h_0, Eq. 3.5.
+
+        .. math:: \frac{a_0}{h_0} = \frac{\pi}{2} \frac{\Delta\gamma_0}{\sigma_0 h_0 \Sigma_0}
+        """
+        if self.cohesion is None:
+            raise InputError(f"the length a_0 is one of a punch, and this is a {self.geometry}")
+        return np.pi / (2 * self.traction.strength * self.cohesion)
 
     @property
     def outputs(self) -> Kind:
         """What the numbers of its answer are called and given in."""
-        return REVOLUTION
+        return self._kind.OUTPUTS
 
     @property
     def units(self) -> Mapping[str, str]:
         """What its protocol is measured in."""
-        return revolution.GROUPS
+        return self._kind.GROUPS
 
     @property
     def inputs(self) -> dict[str, float | None]:
         """The numbers that a summary repeats."""
-        shape = dict(numbers(self.geometry))
-        return {
-            "tabor": self.tabor,
-            **shape,
-            "modulus_ratio": self.modulus_ratio,
-            "rate": self.rate,
-        }
+        found: dict[str, float | None] = {} if self.tabor is None else {"tabor": self.tabor}
+        found |= {**numbers(self.geometry), **numbers(self.body)}
+        found |= {} if self.cohesion is None else {"cohesion": self.cohesion}
+        return found | {"modulus_ratio": self.modulus_ratio, "rate": self.rate}
 
     def groups(self) -> "Groups":
         """Return itself, so that a problem in SI and one in groups can be treated alike."""
@@ -342,8 +354,8 @@ class Groups:
     def in_si(
         self,
         *,
-        radius: float,
         contact_modulus: float,
+        radius: float | None = None,
         equilibrium_gap: float | None = None,
         work_of_adhesion: float | None = None,
         time_unit: float,
@@ -353,181 +365,93 @@ class Groups:
 
         Parameters
         ----------
-        radius : float
-            Sphere radius R [m]; of another shape its equivalent radius.
         contact_modulus : float
             E_0* = E_0/(1 - nu^2) [Pa].
+        radius : float, optional
+            Sphere radius R [m], of another shape of revolution its equivalent radius; a punch has
+            none.
         equilibrium_gap, work_of_adhesion : float, optional
-            h_0 [m] or Delta-gamma_0 [J/m^2]: exactly one, the Tabor number fixes the other.
+            h_0 [m] or Delta-gamma_0 [J/m^2]: exactly one, the Tabor number, or the cohesion of a
+            punch, fixes the other.
         time_unit : float
             What one unit of the groups' time is [s], tau_0 for a reduced material.
         poisson_ratio : float
-            Poisson ratio of the half-space.
+            Poisson ratio of the body.
 
         Raises
         ------
         ValueError
-            If both or neither of the last two are given, or the contact is too large.
-        """
-        R, E = positive("radius", radius, "m"), positive("contact_modulus", contact_modulus, "Pa")
-        if (equilibrium_gap is None) == (work_of_adhesion is None):
-            raise InputError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
-        if equilibrium_gap is not None:
-            h0 = positive("equilibrium_gap", equilibrium_gap, "m")
-            w = float(np.sqrt(self.tabor**3 * E**2 * h0**3 / R))
-        else:
-            w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
-            h0 = (R * w**2 / (E**2 * self.tabor**3)) ** (1 / 3)
-        T = positive("time_unit", time_unit, "s")
-        nu = checked_poisson_ratio(poisson_ratio)
-        units = Units(h0, 1.5 * np.pi * R * w, (np.pi * R**2 * w / E) ** (1 / 3), T)
-        along = (R**2 * w / E) ** (1 / 3)
-        own = isinstance(self.geometry, Sphere)
-        return Problem(
-            material=material_in_si(self.material, E * (1 - nu**2), T, nu),
-            traction=scaled(self.traction, w, h0, T),
-            geometry=Sphere(R) if own else self.geometry.reduced(1 / along, R / along**2),
-            protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
-        )
-
-
-@dataclass(frozen=True)
-class PunchGroups:
-    """The dimensionless punch on a layer.
-
-    Parameters
-    ----------
-    size : float
-        Half width a/a_0; positive.
-    thickness : float
-        Thickness b/a_0; positive.
-    cohesion : float
-        Strength of the interface over the relaxed contact modulus, sigma_0/E_0*; positive.
-    material : like that of a Problem
-        Reduced material, see :class:`viscotack.Groups`.
-    start : AtDepth, AtForce or Apart
-        Depth and gap in h_0, mean stress in sigma_0 (positive in compression).
-    rate : float or None
-        Retraction speed in h_0 per time unit; positive. None if the test ends with its moves.
-    base : Frictionless or Bonded
-        How the layer rests on the rigid body below it.
-    traction : LennardJones
-        Reduced law; leave it out for Lennard-Jones.
-    moves : tuple of Approach, Retract, MoveTo, Dwell and LoadTo
-        What the machine does before the retraction, in the same units.
-    stiffness : float or None
-        Of the machine [sigma_0/h_0]; None for a rigid one.
-
-    Examples
-    --------
-    >>> from viscotack.materials import StandardSolid
-    >>> from viscotack.protocol import AtDepth
-    >>> material = StandardSolid(
-    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, tau0=0.1, poisson_ratio=0.5
-    ... )
-    >>> PunchGroups(
-    ...     size=64.85, thickness=3.24, cohesion=0.05, material=material.reduced(),
-    ...     start=AtDepth(1.0), rate=10.0,
-    ... ).modulus_ratio
-    0.1
-    """
-
-    size: Annotated[float, Quantity("a0", "a/a0", "half width of the punch", above=0)]
-    thickness: Annotated[float, Quantity("a0", "b/a0", "thickness of the layer", above=0)]
-    cohesion: Annotated[
-        float, Quantity("1", "Sigma0", "strength of the interface, sigma0/E0*", above=0)
-    ]
-    material: Material
-    start: Start | Apart
-    rate: Rate | None
-    base: Base = Frictionless()
-    traction: Traction = LennardJones(1.0, 1.0)
-    moves: tuple[Move, ...] = ()
-    stiffness: Spring | None = None
-
-    def __post_init__(self) -> None:
-        _check_reduced(self)
-        if not isinstance(self.base, Base):
-            raise InputError(
-                f"base must be Frictionless() or Bonded(poisson_ratio=...), got {self.base!r}"
-            )
-        plane.check_start(self.start)
-
-    @property
-    def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus, k, in (0, 1]; no unit."""
-        return self.material.modulus_ratio
-
-    @property
-    def fracture_length(self) -> float:
-        r"""Length a_0 over h_0, Eq. 3.5.
-
-        .. math:: \frac{a_0}{h_0} = \frac{\pi}{2} \frac{\Delta\gamma_0}{\sigma_0 h_0 \Sigma_0}
-        """
-        return np.pi / (2 * self.traction.strength * self.cohesion)
-
-    @property
-    def outputs(self) -> Kind:
-        """What the numbers of its answer are called and given in."""
-        return PLANE
-
-    @property
-    def units(self) -> Mapping[str, str]:
-        """What its protocol is measured in."""
-        return plane.GROUPS
-
-    @property
-    def inputs(self) -> dict[str, float | None]:
-        """The numbers that a summary repeats."""
-        names = ("size", "thickness", "cohesion", "modulus_ratio", "rate")
-        return {name: getattr(self, name) for name in names}
-
-    def groups(self) -> "PunchGroups":
-        """Return itself, so that a problem in SI and one in groups can be treated alike."""
-        return self
-
-    def scales(self) -> None:
-        """Return None: there is nothing to go back to."""
-
-    def in_si(
-        self,
-        *,
-        contact_modulus: float,
-        work_of_adhesion: float,
-        time_unit: float,
-        poisson_ratio: float,
-    ) -> Problem:
-        """Return the problem in SI with these scales; the cohesion fixes strength and gap.
-
-        Parameters
-        ----------
-        contact_modulus : float
-            E_0* = E_0/(1 - nu^2) [Pa].
-        work_of_adhesion : float
-            Delta-gamma_0 [J/m^2].
-        time_unit : float
-            What one unit of the groups' time is [s].
-        poisson_ratio : float
-            Poisson ratio of the layer.
+            If both or neither of gap and work are given, a radius is missing or too much, or the
+            contact is too large.
         """
         E = positive("contact_modulus", contact_modulus, "Pa")
-        w = positive("work_of_adhesion", work_of_adhesion, "J/m^2")
+        if (equilibrium_gap is None) == (work_of_adhesion is None):
+            raise InputError("give exactly one of equilibrium_gap [m] and work_of_adhesion [J/m^2]")
+        given = {
+            "equilibrium_gap": (equilibrium_gap, "m"),
+            "work_of_adhesion": (work_of_adhesion, "J/m^2"),
+        }
+        scale = {
+            name: positive(name, x, unit) for name, (x, unit) in given.items() if x is not None
+        }
         T = positive("time_unit", time_unit, "s")
         nu = checked_poisson_ratio(poisson_ratio)
-        strength = self.cohesion * E
-        h0 = self.traction.strength * w / strength
-        a0 = np.pi * E * w / (2 * strength**2)
-        units = Units(h0, strength, a0, T)
+        unit = self._kind.si_units(self, E, radius, **scale)
+        units = Units(unit.length, unit.force, unit.contact_radius, T)
+        shape = self.geometry.reduced(1 / unit.along, 1 / unit.height)
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
-            traction=scaled(self.traction, w, h0, T),
-            geometry=FlatPunch(half_width=self.size * a0),
-            body=Layer(thickness=self.thickness * a0, base=self.base),
+            traction=scaled(self.traction, unit.work, unit.length, T),
+            # a sphere has its radius to the last digit
+            geometry=Sphere(radius) if isinstance(shape, Sphere) and radius else shape,
+            body=self.body.reduced(1 / unit.along),
             protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
         )
 
+    @property
+    def _kind(self) -> Any:
+        return _KINDS[self.geometry.symmetry]
 
-Case = Problem | Groups | PunchGroups
+
+Case = Problem | Groups
+# By the symmetry of the shape: scales, groups, limits and outputs.
+_KINDS: Mapping[str, Any] = {"revolution": revolution, "plane": plane}
+
+
+def _check_shape(shape: Any) -> None:
+    """Refuse what is no shape, or has no symmetry that is known."""
+    symmetry = None if isinstance(shape, type) else getattr(shape, "symmetry", None)
+    if symmetry not in _KINDS or (symmetry == "plane" and not isinstance(shape, FlatPunch)):
+        raise InputError(
+            "a shape has the symmetry 'revolution', and only a FlatPunch is 'plane', got "
+            f"{symmetry!r} of {shape!r}"
+        )
+
+
+def _check_body(shape: Any, body: Any) -> None:
+    """Refuse a body that was not made for the symmetry of a shape."""
+    if isinstance(body, type) or not hasattr(body, "influence"):
+        given = body.__name__ if isinstance(body, type) else type(body).__name__
+        raise InputError(f"body cannot be a {given}; try Layer(thickness=1e-4)")
+    if shape.symmetry in body.symmetries:
+        return
+    if shape.symmetry == "plane":
+        raise InputError(
+            f"a flat punch presses a layer, got {body}; try body=Layer(thickness=1e-4)"
+        )
+    raise InputError(
+        f"a {shape.word} presses a half-space, got {body}; a {body.word} under it is not known: "
+        "leave it out, or take a FlatPunch"
+    )
+
+
+def _check_poisson_ratio(body: Any, material: Any) -> None:
+    """Refuse a body that was made for another Poisson ratio than its material has."""
+    own, nu = getattr(body, "poisson_ratio", None), material.poisson_ratio
+    if own is not None and own != nu:
+        raise InputError(
+            f"a bonded layer has the Poisson ratio of its material, {nu:g}, got {own:g}"
+        )
 
 
 def _check_material(material: Any) -> None:

@@ -26,12 +26,14 @@ from scipy.optimize import brentq
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
 from viscotack.materials import Material
-from viscotack.problem.units import time_unit
+from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import contact
 from viscotack.traction import Traction
+from viscotack.units import positive
 
 # Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
 # sphere's and strains are of order a/R: linear elasticity of the half-space ends about here. For
@@ -43,6 +45,7 @@ SIMULATED_TABOR = (1e-6, 200.0)
 ELASTIC_TABOR = 30.0
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
+OUTPUTS = REVOLUTION
 # What a protocol's numbers are in, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
@@ -98,7 +101,64 @@ def tabor_number(radius: float, material: Material, traction: Traction) -> float
     return (radius * w**2 / (material.contact_modulus**2 * h0**3)) ** (1 / 3)
 
 
-def scales_of(radius: float, material: Material, traction: Traction) -> Scales:
+def lengths(problem: Any) -> tuple[float, float]:
+    """Return the units of distances along the surface, beta, and of heights, beta^2/R [m]."""
+    R = problem.radius
+    along = (R**2 * problem.traction.work_of_adhesion / problem.material.contact_modulus) ** (1 / 3)
+    return along, along**2 / R
+
+
+def ratios(problem: Any) -> dict[str, float | None]:
+    """Return the group that no shape, body or test has: the Tabor number."""
+    return {"tabor": problem.tabor, "cohesion": None}
+
+
+def check_groups(groups: Any) -> None:
+    """Refuse dimensionless groups without a Tabor number, or of a shape that is not reduced."""
+    if groups.tabor is None or groups.cohesion is not None:
+        raise InputError(
+            f"a {groups.geometry.word} has a Tabor number and no cohesion: give tabor=3.24, say, "
+            f"got tabor={groups.tabor} and cohesion={groups.cohesion}"
+        )
+    slope = float(groups.geometry.flank(1.0))
+    if abs(slope - 1) > 1e-6:
+        raise InputError(
+            "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
+            f"got {groups.geometry!r} of slope {slope:g}; problem.groups().geometry is so"
+        )
+
+
+def si_units(
+    groups: Any,
+    contact_modulus: float,
+    radius: float | None,
+    *,
+    equilibrium_gap: float = 0.0,
+    work_of_adhesion: float = 0.0,
+) -> InSI:
+    """Return the units of dimensionless groups in SI, of one of gap and work of adhesion."""
+    if radius is None:
+        raise InputError("give the radius R [m], of another shape than a sphere the equivalent one")
+    R, E = positive("radius", radius, "m"), contact_modulus
+    w = work_of_adhesion or float(np.sqrt(groups.tabor**3 * E**2 * equilibrium_gap**3 / R))
+    h0 = equilibrium_gap or (R * w**2 / (E**2 * groups.tabor**3)) ** (1 / 3)
+    along = (R**2 * w / E) ** (1 / 3)
+    return InSI(
+        h0,
+        w,
+        1.5 * np.pi * R * w,
+        contact_radius=(np.pi * R**2 * w / E) ** (1 / 3),
+        along=along,
+        height=along**2 / R,
+    )
+
+
+def scales_of(problem: Any) -> Scales:
+    """Return what one unit of each dimensionless output is in SI."""
+    return scales_of_sphere(problem.radius, problem.material, problem.traction)
+
+
+def scales_of_sphere(radius: float, material: Material, traction: Traction) -> Scales:
     """Return what one unit of each dimensionless output is for a sphere of this radius [m]."""
     w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
     beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
@@ -125,16 +185,11 @@ def check(problem: Any) -> None:
     Raises
     ------
     ValueError
-        If the relaxed contact of a sphere would be larger than half its radius, or the flank of
-        another shape steeper than 0.5 at the edge of a contact as JKR has it; or if that is so
-        where the undeformed gap is h_0.
+        If the relaxed contact of a sphere on a half-space would be larger than half its radius, or
+        the flank of another shape, or on another body, steeper than 0.5 at the edge of a contact as
+        JKR has it; or if that is so where the undeformed gap is h_0.
     """
-    if not isinstance(problem.body, HalfSpace):
-        raise InputError(
-            f"a {problem.geometry.word} presses a half-space, got {problem.body}; a layer under it "
-            "is not known: leave it out, or take a FlatPunch"
-        )
-    if isinstance(problem.geometry, Sphere):
+    if isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
         _check_sphere(problem)
     else:
         _check_flank(problem)
@@ -173,8 +228,9 @@ def _check_flank(problem: Any) -> None:
     a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
     if a >= exp(_FAR):
         return  # nowhere as steep
-    solid = {
+    solid: Any = {
         "shape": shape,
+        "body": problem.body,
         "contact_modulus": problem.material.contact_modulus,
         "work_of_adhesion": problem.traction.work_of_adhesion,
     }

@@ -10,14 +10,15 @@ from dataclasses import MISSING, fields
 from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from viscotack.cards import Field, Pairs, Quantity, cards
-from viscotack.geometry import Bonded, FlatPunch, Layer, Shape
+from viscotack.geometry import Body, Bonded, FlatPunch, Shape
 from viscotack.materials import Material
+from viscotack.problem import plane
 from viscotack.problem.nouns import Nouns, known
-from viscotack.problem.problem import Groups, Problem, PunchGroups
+from viscotack.problem.problem import Groups, Problem
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Retraction
 from viscotack.traction import Traction, grows
 
-_PROBLEMS = (Problem, Groups, PunchGroups)
+_PROBLEMS = (Problem, Groups)
 
 
 def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
@@ -47,9 +48,9 @@ def words(also: Iterable[Any] = ()) -> str:
     rooms = {
         "Materials": nouns.materials.values(),
         "Traction laws": nouns.laws.values(),
-        "Shapes and bodies": (*nouns.shapes.values(), Layer, Bonded),
+        "Shapes and bodies": (*nouns.shapes.values(), *nouns.bodies.values(), Bonded),
         "The test": (AtDepth, AtForce, AtRadius, Apart, Retraction),
-        "Dimensionless": (Groups, PunchGroups),
+        "Dimensionless": (Groups,),
     }
     lines: list[str] = []
     for title, kinds in rooms.items():
@@ -57,6 +58,9 @@ def words(also: Iterable[Any] = ()) -> str:
         for kind in kinds:
             for field in (*cards(kind).values(), *cards(kind, Pairs).values()):
                 rows.setdefault(_row(field), []).append(f"`{kind.__name__}`")
+        if title == "Dimensionless":
+            sizes = (Field(name, card, MISSING) for name, card in plane.SIZES.items())
+            rows |= {_row(field): ["a punch"] for field in sizes}
         lines += [
             f"### {title}",
             "",
@@ -112,6 +116,7 @@ class _Models:
             Material: self._nouns.materials,
             Traction: {w: k for w, k in laws.items() if not (at_rest and grows(k))},
             Shape: {w: k for w, k in self._nouns.shapes.items() if k is not FlatPunch},
+            Body: self._nouns.bodies,
         }
         if hint in kinds:
             return Union[tuple(self.of(kind) for kind in kinds[hint].values())]  # noqa: UP007

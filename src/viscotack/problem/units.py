@@ -1,11 +1,37 @@
-"""The unit of time of a problem; and from a reduced material to SI, by the units on its cards."""
+"""The units of a problem; and from a reduced material to SI, by the units on its cards."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from viscotack.materials import Elastic
 from viscotack.materials.scaling import scaled
 from viscotack.traction import grows
+
+
+@dataclass(frozen=True)
+class InSI:
+    """What the units of dimensionless groups are in SI.
+
+    Attributes
+    ----------
+    length : float
+        h_0 [m].
+    work : float
+        Delta-gamma_0 [J/m^2].
+    force : float
+        Of the protocol: a force [N], or a stress [Pa].
+    contact_radius : float
+        Of the protocol [m].
+    along, height : float
+        Of distances along the surface, and of heights of a shape [m].
+    """
+
+    length: float
+    work: float
+    force: float
+    contact_radius: float
+    along: float
+    height: float
 
 
 def time_unit(material: Any, traction: Any) -> float:

@@ -23,7 +23,7 @@ from scipy.optimize import least_squares
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.geometry import Sphere
+from viscotack.geometry import HalfSpace, Sphere
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import Apart
 from viscotack.theory import SteadyCrack
@@ -118,8 +118,11 @@ def edge_energy(result: Result) -> EdgeEnergy:
 
 def _checked(result: Result) -> Groups:
     groups = result.groups
-    if not isinstance(groups, Groups) or not isinstance(groups.geometry, Sphere):
-        raise InputError("the energy at an edge is read of spheres; this is another indenter")
+    if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
+        raise InputError(
+            "the energy at an edge is read of spheres on a half-space, got a "
+            f"{groups.geometry.word} on a {groups.body.word}"
+        )
     if groups.moves or groups.rate is None or isinstance(groups.start, Apart):
         raise InputError(
             "the energy at an edge is read of a retraction from a relaxed contact, without moves "

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.problem import PunchGroups, older
+from viscotack.geometry import Layer
+from viscotack.problem import older
 from viscotack.problem.outputs import Unit
 from viscotack.problem.record import run_id, to_dict
 from viscotack.renamed import earlier_names
@@ -276,7 +277,7 @@ def ligament_at_pull_off(result: Result) -> float:
     Where the contact opens all at once it is the ligament just before; nan where there never was
     one.
     """
-    size, found = _punch(result).size, pull_off(result)
+    size, found = _punch(result).geometry.half_width, pull_off(result)
     half_length = found.contact_radius
     if np.isnan(half_length):
         before = result.contact_radius[result.time <= found.time]
@@ -296,7 +297,9 @@ def effective_surface_energy(result: Result) -> float:
     :func:`viscotack.theory.punch.curve.surface_energy` has what holds there.
     """
     groups = _punch(result)
-    if groups.base.foundation == 0:
+    if not isinstance(groups.body, Layer):
+        raise InputError(f"the thin-layer formula is one of a layer, got a {groups.body.word}")
+    if groups.body.base.foundation == 0:
         raise InputError(
             "a bonded layer with a Poisson ratio of 0.5 cannot be stretched without flowing "
             "sideways, and the thin-layer formula has no answer for it"
@@ -304,11 +307,11 @@ def effective_surface_energy(result: Result) -> float:
     # with sigma_0 and a_0 for units, E_0* times Delta-gamma_0 is 2/pi
     energy = thin_layer_surface_energy(
         pull_off(result).force,
-        thickness=groups.thickness,
-        half_width=groups.size,
-        ligament=min(ligament_at_pull_off(result), 1.0) * groups.size,
+        thickness=groups.body.thickness,
+        half_width=groups.geometry.half_width,
+        ligament=min(ligament_at_pull_off(result), 1.0) * groups.geometry.half_width,
         contact_modulus=2 / np.pi,
-        base=groups.base,
+        base=groups.body.base,
     )
     return float(energy)
 
@@ -449,9 +452,9 @@ def _number(
     return (float(value) if np.isfinite(value) else None), note
 
 
-def _punch(result: Result) -> PunchGroups:
+def _punch(result: Result) -> Any:
     groups = result.groups
-    if not isinstance(groups, PunchGroups):
+    if not groups.in_plane_strain:
         raise InputError(
             "the observable is one of a punch, and the result that of another indenter"
         )

@@ -13,7 +13,6 @@ from scipy.optimize import brentq
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-from viscotack.problem import PunchGroups
 from viscotack.protocol import Dwell, LoadTo
 
 from . import Event, Outcome, Result
@@ -110,7 +109,7 @@ def _located(result: Result, steps: npt.NDArray[np.intp], lowest: int) -> PullOf
         force = result.force[steps][smooth]
         place, smallest = _minimum(x[smooth], force, lowest - smooth.start)
     edge, time = result.contact_radius[steps], result.time[steps]
-    at_edge = _running_out(x, edge, time, place) if isinstance(result.groups, PunchGroups) else None
+    at_edge = _running_out(x, edge, time, place) if result.groups.in_plane_strain else None
     if at_edge is None:
         at_edge = _between(x, edge, place), _between(x, result.edge_speed[steps], place)
     return PullOff(

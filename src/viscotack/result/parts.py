@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.problem import Groups, PunchGroups
+from viscotack.problem import Groups
 from viscotack.protocol import Approach, Dwell, LoadTo, Move, MoveTo, Retract
 
 from . import Outcome, Result
@@ -56,7 +56,7 @@ def moves_of(result: Result) -> tuple[Move | None, ...]:
     return all_moves(result.groups)
 
 
-def all_moves(groups: Groups | PunchGroups) -> tuple[Move | None, ...]:
+def all_moves(groups: Groups) -> tuple[Move | None, ...]:
     """Return the moves that a problem asks for; None is the retraction after them."""
     return (*groups.moves, *((None,) if groups.rate is not None else ()))
 
@@ -96,7 +96,7 @@ def spans(result: Result) -> list[Span]:
 
 
 def spans_of(
-    groups: Groups | PunchGroups, number: npt.NDArray[np.intp], depth: Array, force: Array
+    groups: Groups, number: npt.NDArray[np.intp], depth: Array, force: Array
 ) -> list[Span]:
     """Return the cycles of a history, by the number of the move that led to each step."""
     moves, end = all_moves(groups), len(number) - 1
@@ -114,7 +114,7 @@ def spans_of(
     return [*found, Span(first, turn if opens else end, end, closes, opens)]
 
 
-def _way(groups: Groups | PunchGroups, move: Move | None, depth: float, force: float) -> float:
+def _way(groups: Groups, move: Move | None, depth: float, force: float) -> float:
     """Return a positive number for a move into the solid, a negative one for one out of it.
 
     Depth and force are those in which it begins.

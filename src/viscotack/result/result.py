@@ -30,7 +30,7 @@ import numpy.typing as npt
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
 from viscotack.files.whole import Target, write_whole
-from viscotack.problem import Case, Groups, Problem, PunchGroups, PunchScales, Scales
+from viscotack.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.problem.record import UnknownNoun, from_dict, to_dict
 from viscotack.result.energies import Energies
 from viscotack.units import finite
@@ -211,7 +211,7 @@ class Result:
         self._check()
 
     def _check(self) -> None:
-        if not isinstance(self.problem, Problem | Groups | PunchGroups):
+        if not isinstance(self.problem, Problem | Groups):
             raise InputError(
                 f"problem must be a Problem or Groups, got {type(self.problem).__name__}"
             )
@@ -233,8 +233,8 @@ class Result:
             raise InputError(f"status must begin with one of {known}, got {self.status!r}")
 
     @cached_property
-    def groups(self) -> Any:
-        """The dimensionless problem, Groups or PunchGroups."""
+    def groups(self) -> Groups:
+        """The dimensionless problem."""
         return self.problem.groups()
 
     def posed(self, groups: Any) -> "Result":

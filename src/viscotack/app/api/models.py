@@ -16,7 +16,6 @@ STATED_SCHEMA = {
         {"$ref": "#/components/schemas/Tables"},
         {"$ref": "#/components/schemas/Problem"},
         {"$ref": "#/components/schemas/Groups"},
-        {"$ref": "#/components/schemas/PunchGroups"},
         {
             "type": "object",
             "properties": {"indenter": {"type": "string", "enum": ["sphere", "profile", "punch"]}},

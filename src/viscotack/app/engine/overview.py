@@ -26,7 +26,6 @@ from viscotack.operations.declare.state import State
 from viscotack.operations.parts.json_data import drawn, plain
 from viscotack.problem import Groups, Problem
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
-from viscotack.problem.problem import PunchGroups
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, states
 from viscotack.surrogate import store
 from viscotack.surrogate.punch_physics import HIGH, LOW, RATE
@@ -117,7 +116,8 @@ def _curve(words: str, depth: Any, force: Any, **more: Any) -> dict[str, Any]:
 
 def _elastic(problem: Problem, found: dict[str, Any]) -> None:
     """Put in the curve of the relaxed solid, from the start to where a rigid drive lets go."""
-    solid = {
+    solid: Any = {
+        "body": problem.body,
         "contact_modulus": problem.material.contact_modulus,
         "work_of_adhesion": problem.traction.work_of_adhesion,
     }
@@ -264,7 +264,7 @@ def _of_solid(groups: Groups, rates: Array, confidence: float) -> tuple[Array, A
 def _punch_speeds(problem: Problem, confidence: float) -> dict[str, Any]:
     """Return the pull-off stress at other speeds, all at once, as far as it was learned."""
     groups, speed = problem.groups(), problem.protocol.speed
-    assert isinstance(groups, PunchGroups) and speed is not None
+    assert speed is not None
     here = inputs_of(groups)
     low, high = LOW[RATE] * 1.0001, HIGH[RATE] / 1.0001
     least, most = here["rate"] * 10**-_DECADES, here["rate"] * 10**_DECADES
@@ -326,8 +326,6 @@ def _pad(problem: Problem, found: dict[str, Any]) -> None:
 
 def _pressed(problem: Problem, stiffness: float) -> float:
     """Return the depth of the relaxed start of a punch in full contact."""
-    groups = problem.groups()
-    assert isinstance(groups, PunchGroups)
     match problem.protocol.start:
         case AtDepth(depth=value):
             return value

@@ -10,17 +10,14 @@ from its tip, over an area that no force notices.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 from scipy.special import hyp2f1
 
-from viscotack.bem.bodies.halfspace import half_space
 from viscotack.bem.contacts.shape import inverse
 from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.bem.flank import flank_share
-from viscotack.bem.surface import Surface
 from viscotack.theory import profiles
 
 
@@ -94,16 +91,9 @@ class ProfileContact(SphereContact):
         gap = self.rise(r) - depth + 2 / np.pi * (depth * np.arcsin(ratio) - hollow)
         return np.maximum(gap, 0.0)  # but for round-off it is not negative
 
-    def surface(self, nodes: npt.NDArray) -> Surface:
-        """Return the half-space with these nodes [beta].
-
-        On the flank beyond the last node r the gap grows like r^q: the area between two gaps
-        differs from that of a sphere by r^(2-q) there, and from that on as the flank has it.
-        """
-        q, gap = self.exponent, 1 + np.asarray(self.rise(nodes))
-        surface = half_space(nodes, self.tabor, self.law)
-        flank = surface.flank * nodes[-1] ** (2 - q) * flank_share(self.law, gap[-1], q)
-        return replace(surface, rigid_gap=gap, flank=float(flank))
+    def flank_power(self, radius: float) -> tuple[float, float]:
+        """Return r^(2-q), and q."""
+        return radius ** (2 - self.exponent), self.exponent
 
     def _bare_depth(self) -> float:
         """Return the depth [h0] of a contact of radius beta without adhesion."""

@@ -1,4 +1,4 @@
-r"""A flat punch on a layer: its surface, its nodes, and the relaxed contact it starts from.
+r"""A flat punch in plane strain: its surface, its nodes, and the relaxed contact it starts from.
 
 Lengths along the surface are in :math:`a_0 = \pi E_0^* \Delta\gamma_0/(2 \sigma_0^2)`. With
 :math:`\hat\sigma = \sigma_0 h_0/\Delta\gamma_0`, a pressure of 1 dg/h0 on a length a_0 moves the
@@ -10,11 +10,11 @@ Cracks start at the ends of the punch, so the nodes are finest there and follow 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from viscotack.bem.bodies.layer import layer_influence, nodal_lengths
 from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.contacts.search import depth_where
 from viscotack.bem.equilibrium import descend
@@ -23,15 +23,18 @@ from viscotack.bem.machine import Hold
 from viscotack.bem.mesh import Grading, check_count
 from viscotack.bem.settings import Settings
 from viscotack.bem.shut import check_open
-from viscotack.bem.surface import Surface, stiffness
+from viscotack.bem.surface import Surface, relaxed_stiffness
 from viscotack.errors import InputError
-from viscotack.geometry import Base
+from viscotack.geometry import Body, Layer
+from viscotack.geometry.hats import hat_areas, panel_areas
 from viscotack.protocol import Apart, AtDepth, AtForce, Start
 from viscotack.traction import Traction, effective_range
 
 # A glued layer with a foundation softer than this is squeezed sideways rather than compressed: its
 # nodes tell thicknesses apart everywhere, by default three of them to one.
 _INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
+# Nodes on which a body that is no layer tells how compliant it is.
+_COARSE = 33
 # A start by force is found to this part of the travel in depth.
 _DEPTH_TOLERANCE = 1e-8
 
@@ -59,17 +62,24 @@ class _EndedGrading(Grading):
 
 @dataclass(frozen=True)
 class PunchContact:
-    """A punch of this half width on a layer of this thickness [a0]; see `contact.Contact`."""
+    """A punch of this half width [a0] on a body with lengths in a0; see `contact.Contact`."""
 
     size: float
-    thickness: float
-    base: Base
+    body: Body
     law: Traction
 
     @property
     def span(self) -> float:
         """The range of the law [h0]."""
         return effective_range(self.law)
+
+    @cached_property
+    def thickness(self) -> float:
+        """Of the layer [a0]; of another body that of a sliding layer as compliant to the punch."""
+        if isinstance(self.body, Layer):
+            return self.body.thickness
+        nodes = self.size * np.linspace(0.0, 1.0, _COARSE)
+        return float(np.sum(self.body.influence(nodes, "plane")[0]))
 
     @property
     def travel(self) -> float:
@@ -83,22 +93,22 @@ class PunchContact:
 
     @property
     def zone(self) -> float:
-        """Length over which the gap opens at a slow crack [a0], at most that of the layer."""
+        """Length over which the gap opens at a slow crack [a0], at most that of the layer.
+
+        Springs side by side have no length, and nodes as far from each other as elsewhere.
+        """
         crack = 1.5 * (self.law.strength * self.span) ** 2 / np.pi
-        return min(crack, 2 * self.thickness)
+        return min(crack, 2 * self.body.decay_length or crack)
 
     def surface(self, nodes: npt.NDArray) -> Surface:
-        """Return the layer with these nodes [a0]."""
-        G = layer_influence(nodes, self.thickness, self.base)
-        panels = 2 * np.diff(nodes)  # on both sides
-        # A layer that is thin beside a panel is a row of springs.
-        distant = 1 / (1 + (np.diff(nodes) / self.thickness) ** 2)
-        strength, area = self.law.strength, nodal_lengths(nodes)
-        face = interface(self.law, area, panels)
+        """Return the body with these nodes [a0]."""
+        strength, area = self.law.strength, hat_areas(nodes, "plane")
+        face = interface(self.law, area, panel_areas(nodes, "plane"))
+        relaxed = relaxed_stiffness(self.body, "plane", nodes, face.smoothing)
         return Surface(
             position=nodes,
             area=area,
-            stiffness=stiffness(G, panels, face.smoothing, distant) * (2 * strength**2 / np.pi),
+            stiffness=relaxed * (2 * strength**2 / np.pi),
             rigid_gap=np.ones(len(nodes)),
             unit=1 / (2 * self.size * strength),  # a0 dg/h0 in 2 a sigma0
             flank=0.0,
@@ -111,7 +121,8 @@ class PunchContact:
         crack = settings.grading(self.zone, self.law, self.size)
         # Nodes lie on a lattice that begins at the end of the punch.
         spacing = min(crack.spacing, self.size / 8)
-        squeezed = self.base.foundation < _INCOMPRESSIBLE
+        layer = self.body if isinstance(self.body, Layer) else None
+        squeezed = layer is not None and layer.base.foundation < _INCOMPRESSIBLE
         coarsest = _SQUEEZED * self.thickness / settings.nodes_per_zone if squeezed else np.inf
         scar = min(crack.scar_half_width, self.size)  # none of it lies beyond the middle
         finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}

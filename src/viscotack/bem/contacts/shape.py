@@ -1,15 +1,12 @@
-r"""Any shape of revolution on the half-space: where it differs from the sphere.
+"""Any shape of revolution on any body, its JKR contact by numbers.
 
-Lengths along the surface are in :math:`\beta`, of the profile as
-:mod:`viscotack.problem.revolution` has it, and the reduced profile f has the slope 1 at 1: the
-discrete surface is that of the sphere under the rigid gap :math:`1 + \mu f(r)`. Its JKR contact
-comes by quadrature.
+The reduced profile f has the slope 1 at 1, and its rigid gap is 1 + mu f(r).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -17,10 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq, minimize_scalar
 
-from viscotack.bem.bodies.halfspace import half_space
-from viscotack.bem.contacts.sphere import SphereContact
-from viscotack.bem.flank import flank_share
-from viscotack.bem.surface import Surface
+from viscotack.bem.contacts.revolution import RevolutionContact
 from viscotack.errors import InputError
 from viscotack.geometry import Shape
 from viscotack.theory.elastic import indenter
@@ -30,7 +24,7 @@ _LEAST, _MOST = 1e-6, 1e9
 
 
 @dataclass(frozen=True)
-class ShapeContact(SphereContact):
+class ShapeContact(RevolutionContact):
     """A reduced shape of revolution; see :class:`viscotack.bem.contacts.contact.Contact`."""
 
     shape: Shape
@@ -38,7 +32,8 @@ class ShapeContact(SphereContact):
     @property
     def _jkr(self) -> dict[str, Any]:
         # lengths along the surface in beta, depths in mu h0, forces in R dg
-        return {"shape": self.shape, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
+        solid = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+        return {"shape": self.shape, "body": self.body} | solid
 
     def rise(self, radius: Any) -> Any:
         """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
@@ -52,9 +47,8 @@ class ShapeContact(SphereContact):
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if depth <= 0:
             return 0.0
-        return inverse(
-            lambda a: self.tabor * float(indenter.bare_depth(a, shape=self.shape)), depth, _LEAST
-        )
+        of = {"shape": self.shape, "body": self.body}
+        return inverse(lambda a: self.tabor * float(indenter.bare_depth(a, **of)), depth, _LEAST)
 
     def jkr_depth(self, radius: float) -> float:
         """Return the JKR depth [h0] at a contact radius [beta]."""
@@ -76,19 +70,10 @@ class ShapeContact(SphereContact):
         """Return no bound: a shape may have several contacts, each with a pull-off of its own."""
         return np.inf
 
-    def surface(self, nodes: npt.NDArray) -> Surface:
-        """Return the half-space with these nodes [beta].
-
-        On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
-        has there: see :class:`viscotack.bem.contacts.profile.ProfileContact`.
-        """
-        r, gap = nodes[-1], 1 + self.rise(nodes)
-        q = float(r * self.shape.flank(r) / self.shape.gap(r))
-        surface = half_space(nodes, self.tabor, self.law)
-        # of a sphere the area between two gaps is 1/mu of their difference, here r/f' of it
-        area = r / float(self.shape.flank(r))
-        flank = surface.flank * area * flank_share(self.law, gap[-1], q)
-        return replace(surface, rigid_gap=gap, flank=float(flank))
+    def flank_power(self, radius: float) -> tuple[float, float]:
+        """Return r/f', and r f'/f."""
+        flank = float(self.shape.flank(radius))
+        return radius / flank, radius * flank / float(self.shape.gap(radius))
 
     def _jkr_force(self, radius: float) -> float:
         return float(indenter.force(radius, **self._jkr))

@@ -1,65 +1,27 @@
-r"""A sphere on the half-space: where its nodes go, and the relaxed contact it starts from.
-
-Lengths along the surface are in :math:`\beta = (R^2 \Delta\gamma_0/E_0^*)^{1/3}`.
-
-The search for the relaxed contact begins at the exact JKR surface, goes downhill in energy, and
-puts the fine nodes where the edge was found, until edge and nodes agree: an edge outside the fine
-zone would be pinned by the coarse nodes there.
-"""
+"""A sphere on the half-space, whose JKR contact has a closed form."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicSpline
 
-from viscotack.bem.bodies.halfspace import half_space
-from viscotack.bem.contacts.contact import Relaxed
-from viscotack.bem.contacts.search import depth_where
-from viscotack.bem.equilibrium import descend
-from viscotack.bem.machine import Hold
-from viscotack.bem.mesh import Grading
-from viscotack.bem.settings import Settings
-from viscotack.bem.shut import check_open
-from viscotack.bem.span import least_gap
-from viscotack.bem.surface import Surface
-from viscotack.errors import InputError
-from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.bem.contacts.revolution import RevolutionContact
 from viscotack.theory import jkr
-from viscotack.traction import Traction, effective_range
 
 # In these units JKR lengths are in beta, depths and gaps in mu h0, forces in R dg.
 _JKR_UNITS = {"radius": 1.0, "contact_modulus": 1.0, "work_of_adhesion": 1.0}
-# Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
-_RADIUS_UNIT = np.pi ** (1 / 3)
-_MOST_MESHES = 200
-# A start by force or radius is found to this part of the travel in depth.
-_DEPTH_TOLERANCE = 1e-6
-# At a small Tabor number the gap opens over this part of the distance over which the tip rises by
-# the range of the law.
-_RISING = 0.2 / np.sqrt(2)
-# Where surfaces overlap by this part of the range there is a contact without adhesion as well.
-_FIRM = 0.2
-# The edge has been found when it lies within this part of the fine zone around its nodes.
-_CENTRED = 0.25
 
 
 @dataclass(frozen=True)
-class SphereContact:
-    """A sphere of this Tabor number; see :class:`viscotack.bem.contacts.contact.Contact`.
+class SphereContact(RevolutionContact):
+    """A sphere; see :class:`viscotack.bem.contacts.contact.Contact`."""
 
-    What depends on the shape is in the methods up to `surface`; another shape has its own.
-    """
-
-    tabor: float
-    law: Traction
-
-    def rise(self, radius: float) -> float:
+    def rise(self, radius: Any) -> Any:
         """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
-        return self.tabor * radius**2 / 2
+        return self.tabor * radius * radius / 2
 
     def radius_of_rise(self, rise: float) -> float:
         """Return the radius [beta] at which the indenter has risen by this much [h0]."""
@@ -96,77 +58,6 @@ class SphereContact:
         """Pull-off force over `bare_force` at its radius: 1 by JKR, whatever the work."""
         return 1.0
 
-    @property
-    def span(self) -> float:
-        """The range of the law [h0]."""
-        return effective_range(self.law)
-
-    @property
-    def travel(self) -> float:
-        """A contact changes over mu h0 where it is large, over the law's range where small."""
-        return self.tabor + self.span
-
-    @property
-    def edge_unit(self) -> float:
-        """Contact radii are given in (pi R^2 dg/E0*)^(1/3)."""
-        return _RADIUS_UNIT
-
-    @property
-    def zone(self) -> float:
-        """Length over which the gap opens at a relaxed edge [beta].
-
-        That of a crack is 0.75 beta over the square of the effective Tabor number. Where this is
-        small it would be larger than the contact; the gap then opens over the distance over which
-        the indenter rises by about the range of the law.
-        """
-        crack = 0.75 / (self.tabor / self.span) ** 2
-        return float(min(crack, _RISING * self.radius_of_rise(self.span)))
-
-    def surface(self, nodes: npt.NDArray) -> Surface:
-        """Return the half-space with these nodes [beta]."""
-        return half_space(nodes, self.tabor, self.law)
-
-    def grading(self, settings: Settings, depth: float) -> Grading:
-        """Return the grading of the nodes for a largest depth [h0]."""
-        # Nodes catch the edge with an energy that falls exponentially with their number, while
-        # that by which one place of the edge differs from the next falls like 1/mu^2.
-        catching = 1 + 0.4 * float(np.log10(max(self.tabor / self.span / 10, 1.0)))
-        edge = self.jkr_radius(depth)
-        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
-        rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
-        outer = max(self.radius_of_rise(rise), 2.5 * edge)
-        return settings.grading(self.zone, self.law, outer, more=catching)
-
-    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
-        """Return the relaxed state of a dimensionless start; by force, the load-stable contact.
-
-        Raises
-        ------
-        ValueError
-            If no such contact exists.
-        """
-        if isinstance(start, Apart):
-            return self._apart(start, settings)
-        if isinstance(start, AtDepth):
-            return self._at_depth(start.depth, settings)
-        if isinstance(start, AtRadius):
-            wanted = start.contact_radius
-            first = self.jkr_depth(wanted * _RADIUS_UNIT)
-            return self._where(
-                lambda x: x.edge / _RADIUS_UNIT, wanted, "contact radius", first, settings
-            )
-        return self._where(
-            lambda x: x.force, start.force, "force", self._jkr_depth(start), settings
-        )
-
-    def deepest(self, start: Start) -> float:
-        """Return the depth [h0] of a start as JKR has it: how far a history goes, about."""
-        if isinstance(start, AtDepth):
-            return start.depth
-        if isinstance(start, AtForce):
-            return self._jkr_depth(start)
-        return self.jkr_depth(start.contact_radius * _RADIUS_UNIT)
-
     def relaxed_pull_off(self, edge: float) -> float:
         """Return the force [output unit] with which the relaxed solid pulls off at this edge.
 
@@ -181,79 +72,6 @@ class SphereContact:
         force = self.bare_force(self.radius_of_rise(pressed))
         return self.critical_share * force / (1.5 * np.pi)
 
-    def _jkr_depth(self, start: AtForce) -> float:
-        return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))
-
-    def _apart(self, start: Apart, settings: Settings) -> Relaxed:
-        depth = 1 - start.gap
-        surface = self.surface(self.grading(settings, 0.0).nodes(0.0, 0.0))
-        guess = np.maximum(surface.rigid_gap - depth, self.law.edge_gap)
-        balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
-        if not balance.stable or not np.isnan(surface.edge(balance.gap, self.law.edge_gap)):
-            raise InputError(
-                f"surfaces {start.gap:g} h0 apart (Tabor number {self.tabor:g}) jump into contact "
-                "at rest; start farther away"
-            )
-        force = surface.force(self.law, balance.gap)
-        return Relaxed(surface, balance.gap, depth, force, float("nan"), 0.0)
-
-    def _at_depth(self, depth: float, settings: Settings, offset: float = 0.0) -> Relaxed:
-        """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
-        law = self.law
-        grading = self.grading(settings, depth)
-        edge = (
-            max(self.jkr_radius(depth), self.bare_radius(max(depth + _FIRM * self.span, 0.0)))
-            + offset
-        )
-        surface, gap = None, None
-        for _ in range(_MOST_MESHES):
-            nodes = grading.nodes(edge, edge)
-            if surface is None or gap is None:
-                guess = 1 + self.jkr_gap(nodes, edge)
-            else:
-                guess = np.maximum(CubicSpline(surface.position, gap)(nodes), least_gap(self.span))
-            surface = self.surface(nodes)
-            balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
-            gap = balance.gap
-            if not balance.stable:
-                check_open(surface, law, gap, depth, f"Tabor number {self.tabor:g}")
-                break
-            found = surface.edge(gap, law.edge_gap)
-            if np.isnan(found):
-                break
-            if abs(found - edge) < _CENTRED * grading.half_width:
-                return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
-            edge = found
-        raise InputError(
-            f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {self.tabor:g}): "
-            "the surfaces do not hold each other there; start deeper"
-        )
-
-    def _where(
-        self,
-        quantity: Callable[[Relaxed], float],
-        wanted: float,
-        name: str,
-        first_depth: float,
-        settings: Settings,
-    ) -> Relaxed:
-        """Return the contact at which a quantity that grows with depth has the wanted value."""
-        found: dict[float, Relaxed] = {}
-
-        def excess(depth: float) -> float:
-            # The mesh shifts edges by about the same at all depths: look where the last was.
-            last = list(found.values())[-1:]
-            offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
-            offset = offset if self.tabor > 1 else 0.0
-            found[depth] = self._at_depth(depth, settings, offset)
-            return quantity(found[depth]) - wanted
-
-        scale, what = self.travel, f"a {name} of {wanted:g} (dimensionless)"
-        depth = depth_where(excess, first_depth, scale, _DEPTH_TOLERANCE * scale, what)
-        if depth is None:
-            least = min((quantity(contact) for contact in found.values()), default=np.nan)
-            raise InputError(
-                f"no relaxed contact has {what}; the least there is, at the end of the branch in "
-                f"contact, is {least:.4g}"
-            )
-        return found[depth]
+    def flank_power(self, radius: float) -> tuple[float, float]:
+        """Return 1, and the exponent 2 of a paraboloid."""
+        return 1.0, 2.0

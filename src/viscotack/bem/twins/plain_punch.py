@@ -21,6 +21,7 @@ with the mean creep compliance of each step and :math:`\hat\sigma_0 = 16/(9\sqrt
 from __future__ import annotations
 
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -29,7 +30,7 @@ from scipy.special import sici, xlogy
 
 from viscotack.bem.twins.plain_sphere import crossing, relaxed_depth, retract
 from viscotack.geometry import Base
-from viscotack.problem import Problem, PunchGroups
+from viscotack.problem import Case
 from viscotack.result import Result
 
 # kappa differs from 1 by exp(-beta) times a square: nothing is left at the end.
@@ -73,14 +74,12 @@ def _panels(low: float, high: float, count: int) -> tuple[npt.NDArray, npt.NDArr
     return (edges[:-1, None] + half * (1 + _GAUSS)).ravel(), (half * _WEIGHT).ravel()
 
 
-def plain_solve(
-    problem: Problem | PunchGroups, *, triangles: int, steps: int, last_depth: float
-) -> Result:
+def plain_solve(problem: Case, *, triangles: int, steps: int, last_depth: float) -> Result:
     """Simulate a retraction from a relaxed depth with the published algorithm.
 
     Parameters
     ----------
-    problem : Problem or PunchGroups
+    problem : Problem or Groups
         The start must be by depth and the traction law Lennard-Jones.
     triangles : int
         M, spacings under the punch; the thesis takes 200.
@@ -97,8 +96,11 @@ def plain_solve(
     """
     began, groups = perf_counter(), problem.groups()
     depth, strength = relaxed_depth(groups), groups.traction.strength
-    x = np.linspace(-groups.size, groups.size, triangles + 1)
-    G = triangle_matrix(triangles, groups.size, groups.thickness, groups.base)
+    punch: Any = groups.geometry
+    layer: Any = groups.body
+    size = punch.half_width
+    x = np.linspace(-size, size, triangles + 1)
+    G = triangle_matrix(triangles, size, layer.thickness, layer.base)
     return retract(
         problem,
         began=began,

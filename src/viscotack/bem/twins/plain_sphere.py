@@ -30,7 +30,7 @@ from scipy.special import ellipkm1
 
 from viscotack.errors import InputError
 from viscotack.materials import Material
-from viscotack.problem import Case, Groups, Problem, PunchGroups
+from viscotack.problem import Case, Groups, Problem
 from viscotack.protocol import AtDepth
 from viscotack.result import Outcome, Result, receding_speed
 
@@ -166,7 +166,7 @@ def plain_solve(
     )
 
 
-def relaxed_depth(groups: Groups | PunchGroups) -> float:
+def relaxed_depth(groups: Groups) -> float:
     """Return the depth [h0] at which the test of a plain twin begins."""
     if not isinstance(groups.start, AtDepth):
         raise InputError(f"the plain twin starts by depth only, got {groups.start}")

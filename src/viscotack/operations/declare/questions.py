@@ -11,7 +11,7 @@ from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, Frictionless, PowerLawProfile, Sphere
+from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
     Material,
@@ -25,7 +25,7 @@ from viscotack.materials.constants import ContactModulus, ModulusRatio
 from viscotack.materials.passport import Passport
 from viscotack.materials.passport_file import read_passport
 from viscotack.materials.words import FITS_ONLY, MODELS
-from viscotack.problem import Groups, Problem, PunchGroups, plane, revolution
+from viscotack.problem import Groups, Problem, plane, revolution
 from viscotack.problem.case_table import OWN
 from viscotack.problem.law_table import law_from_words
 from viscotack.problem.nouns import Nouns, known
@@ -195,7 +195,7 @@ _GLUED = (
     "its base."
 )
 _TABOR = {"tabor": cards(Groups)["tabor"].card}
-_PUNCH = {name: cards(PunchGroups)[name].card for name in ("size", "thickness", "cohesion")}
+_PUNCH = plane.SIZES | {"cohesion": cards(Groups)["cohesion"].card}
 
 SPHERE = Door("sphere", _TABOR, revolution.GROUPS, tuple(STARTS), "power-law", in_si=True)
 PROFILE = Door(
@@ -213,9 +213,7 @@ SPHERE_OR_PUNCH = (*SPHERE.questions, *(q for q in PUNCH.questions if q.name not
 OF_FILE = (Question("temperature", _TEMPERATURE, text=True),)
 
 
-def stated(
-    door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()
-) -> Groups | PunchGroups | Problem:
+def stated(door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()) -> Groups | Problem:
     """Return the problem that the answers state: dimensionless, or in SI when scales are given.
 
     Parameters
@@ -262,7 +260,9 @@ def stated(
     if door is PUNCH:
         glued = "bonded" in given
         base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
-        return PunchGroups(**numbers, **parts, base=base)
+        body = Layer(numbers["thickness"], base)
+        parts |= {"geometry": FlatPunch(numbers["size"]), "body": body}
+        return Groups(tabor=None, cohesion=numbers["cohesion"], **parts)
     if door is PROFILE:
         q = numbers.pop("profile_exponent")
         parts["geometry"] = PowerLawProfile(1 / q, q)

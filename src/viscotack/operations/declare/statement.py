@@ -34,7 +34,7 @@ class Statement:
 
     Attributes
     ----------
-    problem : Problem, Groups or PunchGroups
+    problem : Problem or Groups
         In SI or without dimensions.
     deviation : float
         Standard deviation of log10 of the times of its material, from its shift with temperature.
@@ -201,11 +201,11 @@ def indenter_of(problem: Any) -> str:
 
 
 def _checked(problem: Any) -> Any:
-    from viscotack.problem import Groups, Problem, PunchGroups
+    from viscotack.problem import Groups, Problem
 
-    if not isinstance(problem, Problem | Groups | PunchGroups):
+    if not isinstance(problem, Problem | Groups):
         raise InputError(
-            "problem must be a Problem, Groups or PunchGroups, a case file or its tables, got a "
+            "problem must be a Problem or Groups, a case file or its tables, got a "
             f"{type(problem).__name__}"
         )
     return problem

@@ -7,22 +7,26 @@ With the slope f' of the profile, the adhesionless contact of radius a has the d
 
 (Sneddon (1965), doi:10.1016/0020-7225(65)90019-4), and with adhesion, Eq. 2.10 and 2.11 of Maghami,
 PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}` and
-:math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms.
+:math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On
+another body than the half-space they follow from its influence matrix (:mod:`.on_body`).
 Range: short-range adhesion, small slopes, a slope that does not fall outwards.
 """
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.geometry import Body, HalfSpace
 from viscotack.theory._checks import Number, Values, plain, positive
+from viscotack.theory.elastic import on_body
 
 # Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+_HALF_SPACE = HalfSpace()
 _ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
 
 
@@ -33,14 +37,21 @@ class Flank(Protocol):
     def flank(self, position: Values) -> Array: ...  # noqa: D102
 
 
-def bare_depth(contact_radius: Values, *, shape: Flank) -> Number:
+def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE) -> Number:
     """Return the depth [m] at which a contact has this radius [m] without adhesion."""
     a = positive(contact_radius=contact_radius)
+    if body != _HALF_SPACE:
+        return plain(on_body.bare_depth(a, shape, body))
     return plain(a * _mean(shape, a, np.ones_like(_ANGLE)))
 
 
 def depth(
-    contact_radius: Values, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+    contact_radius: Values,
+    *,
+    shape: Flank,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
 ) -> Number:
     """Return the depth [m] of a contact of this radius [m], with adhesion.
 
@@ -54,16 +65,25 @@ def depth(
     '4.395 um'
     """
     a = positive(contact_radius=contact_radius)
-    return plain(
-        bare_depth(a, shape=shape) - np.sqrt(2 * np.pi * a * work_of_adhesion / contact_modulus)
-    )
+    if body == _HALF_SPACE:
+        drawn = np.sqrt(2 * np.pi * a * work_of_adhesion / contact_modulus)
+    else:
+        drawn = on_body.drawn(a, shape, body, work_of_adhesion / contact_modulus)
+    return plain(bare_depth(a, shape=shape, body=body) - drawn)
 
 
 def force(
-    contact_radius: Values, *, shape: Flank, contact_modulus: float, work_of_adhesion: float
+    contact_radius: Values,
+    *,
+    shape: Flank,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
 ) -> Number:
     """Return the force [N] of a contact of this radius [m], positive in compression."""
     a, E = positive(contact_radius=contact_radius), contact_modulus
+    if body != _HALF_SPACE:
+        return plain(E * on_body.force(a, shape, body, work_of_adhesion / E))
     bare = 2 * E * a**2 * _mean(shape, a, np.sin(_ANGLE) ** 2)
     return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
 
@@ -75,6 +95,7 @@ def gap(
     shape: Flank,
     contact_modulus: float,
     work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
 ) -> Array:
     r"""Return the gap [m] around a contact at a distance from the axis [m]; 0 within.
 
@@ -83,8 +104,11 @@ def gap(
     """
     a = float(contact_radius)
     r = np.maximum(np.asarray(position, dtype=float), a)
-    solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    deep = float(depth(a, shape=shape, **solid))
+    solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
+    deep = float(depth(a, shape=shape, body=body, **solid))
+    if body != _HALF_SPACE:
+        around = on_body.gap(np.ravel(r), a, deep, shape, body)
+        return np.maximum(np.reshape(around, np.shape(r)), 0.0)
     # t = a sin(angle) takes the root off the edge of the contact where r is near it
     t = a * np.sin(_ANGLE)
     hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(_ANGLE) * _WEIGHT

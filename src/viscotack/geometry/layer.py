@@ -50,7 +50,7 @@ from scipy.interpolate import PPoly
 from scipy.special import xlogy, zeta
 
 from viscotack.errors import InputError
-from viscotack.geometry import Base
+from viscotack.geometry.bodies import Base
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
 _NEAR, _FAR = 1.0, 48.0
@@ -93,10 +93,11 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
 
     >>> import numpy as np
     >>> from viscotack.geometry import Frictionless
+    >>> from viscotack.geometry.hats import hat_areas
     >>> x = 1 - np.linspace(1, 0, 101) ** 2  # crowded at the end
     >>> G = layer_influence(x, 0.1, Frictionless())
     >>> pressure = np.linalg.solve(G, np.ones(101))
-    >>> f"{nodal_lengths(x) @ pressure:.3f}"
+    >>> f"{hat_areas(x, "plane") @ pressure:.3f}"
     '20.355'
     """
     if not (len(x) > 1 and x[0] == 0 and np.all(np.diff(x) > 0)):
@@ -119,19 +120,6 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
         G[inner, inner] += base.foundation
         G[-1, -1] += base.foundation / 2  # pressed on one side only
     return thickness * G
-
-
-def nodal_lengths(x: npt.NDArray) -> npt.NDArray:
-    """Return the integral of each pair of hats over x; they add up to the width 2a.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> nodal_lengths(np.array([0.0, 2.0, 3.0]))
-    array([2., 3., 1.])
-    """
-    h = np.diff(x)
-    return np.concatenate([h, [0.0]]) + np.concatenate([[0.0], h])
 
 
 @dataclass(frozen=True, eq=False)

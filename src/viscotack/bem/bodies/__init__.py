@@ -1,1 +1,0 @@
-"""Soft bodies: the displacement of their surface under a pressure."""

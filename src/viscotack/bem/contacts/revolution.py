@@ -1,0 +1,282 @@
+r"""A contact of revolution: where its nodes go, and the relaxed contact it starts from.
+
+Lengths along the surface are in :math:`\beta`, of the profile as
+:mod:`viscotack.problem.revolution` has it; for a sphere :math:`\beta = (R^2
+\Delta\gamma_0/E_0^*)^{1/3}`. Gaps and displacements are in h0, pressures in dg/h0 and forces in
+dg beta^2/h0: a force F on the nodes moves the surface by mu^2 B F, B being the compliance of the
+body with lengths in beta, for E* = 1.
+
+The search for the relaxed contact begins at the exact JKR surface, goes downhill in energy, and
+puts the fine nodes where the edge was found, until edge and nodes agree: an edge outside the fine
+zone would be pinned by the coarse nodes there.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.contacts.search import depth_where
+from viscotack.bem.equilibrium import descend
+from viscotack.bem.flank import flank_share
+from viscotack.bem.interface import interface
+from viscotack.bem.machine import Hold
+from viscotack.bem.mesh import Grading
+from viscotack.bem.settings import Settings
+from viscotack.bem.shut import check_open
+from viscotack.bem.span import least_gap
+from viscotack.bem.surface import Surface, relaxed_stiffness
+from viscotack.errors import InputError
+from viscotack.geometry import Body, HalfSpace, Sphere
+from viscotack.geometry.hats import hat_areas, panel_areas
+from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
+from viscotack.theory.elastic import on_body
+from viscotack.traction import Traction, effective_range
+
+# Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
+_RADIUS_UNIT = np.pi ** (1 / 3)
+_MOST_MESHES = 200
+# A start by force or radius is found to this part of the travel in depth.
+_DEPTH_TOLERANCE = 1e-6
+# At a small Tabor number the gap opens over this part of the distance over which the tip rises by
+# the range of the law.
+_RISING = 0.2 / np.sqrt(2)
+# Where surfaces overlap by this part of the range there is a contact without adhesion as well.
+_FIRM = 0.2
+# The edge has been found when it lies within this part of the fine zone around its nodes.
+_CENTRED = 0.25
+
+
+@dataclass(frozen=True)
+class RevolutionContact(ABC):
+    """A shape on a body, at this Tabor number; see :class:`viscotack.bem.contacts.contact.Contact`.
+
+    A shape says in the methods up to `flank_power` how it rises, and what JKR is for it.
+    """
+
+    tabor: float
+    law: Traction
+    body: Body = field(default=HalfSpace(), kw_only=True)
+
+    @abstractmethod
+    def rise(self, radius: Any) -> Any:
+        """Return how far [h0] the indenter is above its lowest point at a radius [beta]."""
+
+    @abstractmethod
+    def radius_of_rise(self, rise: float) -> float:
+        """Return the radius [beta] at which the indenter has risen by this much [h0]."""
+
+    @abstractmethod
+    def bare_radius(self, depth: float) -> float:
+        """Return the contact radius [beta] at a depth [h0] without adhesion."""
+
+    @abstractmethod
+    def jkr_depth(self, radius: float) -> float:
+        """Return the JKR depth [h0] at a contact radius [beta]."""
+
+    @abstractmethod
+    def jkr_radius(self, depth: float) -> float:
+        """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
+
+    @abstractmethod
+    def jkr_radius_at_force(self, force: float) -> float:
+        """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
+
+    @abstractmethod
+    def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
+        """Return the JKR gap [h0] around a contact of this radius [beta]."""
+
+    @abstractmethod
+    def relaxed_pull_off(self, edge: float) -> float:
+        """Return the force [output unit] with which the relaxed solid pulls off at this edge."""
+
+    @abstractmethod
+    def flank_power(self, radius: float) -> tuple[float, float]:
+        """Return r/f' over that of a sphere, and r f'/f, of the reduced profile f at a radius."""
+
+    @property
+    def span(self) -> float:
+        """The range of the law [h0]."""
+        return effective_range(self.law)
+
+    @property
+    def travel(self) -> float:
+        """A contact changes over mu h0 where it is large, over the law's range where small.
+
+        On a thin body it changes over less: as adhesion draws it out, beside a half-space.
+        """
+        return self.tabor * self._drawn + self.span
+
+    @cached_property
+    def _drawn(self) -> float:
+        """How far adhesion draws a contact of radius beta out beside that on a half-space."""
+        if self.body == HalfSpace():
+            return 1.0
+        out = on_body.drawn(np.ones(1), Sphere(1.0), self.body, 1.0)
+        return min(1.0, float(out[0]) / np.sqrt(2 * np.pi))
+
+    @property
+    def edge_unit(self) -> float:
+        """Contact radii are given in (pi R^2 dg/E0*)^(1/3)."""
+        return _RADIUS_UNIT
+
+    @property
+    def zone(self) -> float:
+        """Length over which the gap opens at a relaxed edge [beta].
+
+        That of a crack is 0.75 beta over the square of the effective Tabor number. Where this is
+        small it would be larger than the contact; the gap then opens over the distance over which
+        the indenter rises by about the range of the law. On a thin body it opens over its decay
+        length; springs side by side have none.
+        """
+        crack = 0.75 / (self.tabor / self.span) ** 2
+        thin = 2 * self.body.decay_length or np.inf
+        return float(min(crack, _RISING * self.radius_of_rise(self.span), thin))
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the body with these nodes [beta].
+
+        On the flank beyond the last node r the profile goes on like the power q = r f'/f that it
+        has there. Of a sphere the area between two gaps is 1/mu of their difference, of another
+        shape r/f' of it at that node, and from there on as the flank has it.
+        """
+        gap, area = 1 + self.rise(nodes), hat_areas(nodes, "revolution")
+        face = interface(self.law, area, panel_areas(nodes, "revolution"))
+        relaxed = relaxed_stiffness(self.body, "revolution", nodes, face.smoothing)
+        share, q = self.flank_power(float(nodes[-1]))
+        return Surface(
+            position=nodes,
+            area=area,
+            stiffness=relaxed / self.tabor**2,
+            rigid_gap=gap,
+            unit=2 * self.tabor / (3 * np.pi),  # dg beta^2/h0 in 1.5 pi R dg
+            flank=4 / 3 * share * flank_share(self.law, gap[-1], q),  # 4/3: 2 pi R times the energy
+            whole=float("nan"),
+            interface=face,
+        )
+
+    def grading(self, settings: Settings, depth: float) -> Grading:
+        """Return the grading of the nodes for a largest depth [h0]."""
+        # Nodes catch the edge with an energy that falls exponentially with their number, while
+        # that by which one place of the edge differs from the next falls like 1/mu^2.
+        catching = 1 + 0.4 * float(np.log10(max(self.tabor / self.span / 10, 1.0)))
+        edge = self.jkr_radius(depth)
+        # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
+        rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
+        outer = max(self.radius_of_rise(rise), 2.5 * edge)
+        return settings.grading(self.zone, self.law, outer, more=catching)
+
+    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
+        """Return the relaxed state of a dimensionless start; by force, the load-stable contact.
+
+        Raises
+        ------
+        ValueError
+            If no such contact exists.
+        """
+        if isinstance(start, Apart):
+            return self._apart(start, settings)
+        if isinstance(start, AtDepth):
+            return self._at_depth(start.depth, settings)
+        if isinstance(start, AtRadius):
+            wanted = start.contact_radius
+            first = self.jkr_depth(wanted * _RADIUS_UNIT)
+            return self._where(
+                lambda x: x.edge / _RADIUS_UNIT, wanted, "contact radius", first, settings
+            )
+        return self._where(
+            lambda x: x.force, start.force, "force", self._jkr_depth(start), settings
+        )
+
+    def deepest(self, start: Start) -> float:
+        """Return the depth [h0] of a start as JKR has it: how far a history goes, about."""
+        if isinstance(start, AtDepth):
+            return start.depth
+        if isinstance(start, AtForce):
+            return self._jkr_depth(start)
+        return self.jkr_depth(start.contact_radius * _RADIUS_UNIT)
+
+    def _jkr_depth(self, start: AtForce) -> float:
+        return self.jkr_depth(self.jkr_radius_at_force(1.5 * np.pi * start.force))
+
+    def _apart(self, start: Apart, settings: Settings) -> Relaxed:
+        depth = 1 - start.gap
+        surface = self.surface(self.grading(settings, 0.0).nodes(0.0, 0.0))
+        guess = np.maximum(surface.rigid_gap - depth, self.law.edge_gap)
+        balance = descend(surface, self.law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
+        if not balance.stable or not np.isnan(surface.edge(balance.gap, self.law.edge_gap)):
+            raise InputError(
+                f"surfaces {start.gap:g} h0 apart (Tabor number {self.tabor:g}) jump into contact "
+                "at rest; start farther away"
+            )
+        force = surface.force(self.law, balance.gap)
+        return Relaxed(surface, balance.gap, depth, force, float("nan"), 0.0)
+
+    def _at_depth(self, depth: float, settings: Settings, offset: float = 0.0) -> Relaxed:
+        """Return the contact at this depth [h0], looking at an offset [beta] from JKR's edge."""
+        law = self.law
+        grading = self.grading(settings, depth)
+        edge = (
+            max(self.jkr_radius(depth), self.bare_radius(max(depth + _FIRM * self.span, 0.0)))
+            + offset
+        )
+        surface, gap = None, None
+        for _ in range(_MOST_MESHES):
+            nodes = grading.nodes(edge, edge)
+            if surface is None or gap is None:
+                guess = 1 + self.jkr_gap(nodes, edge)
+            else:
+                guess = np.maximum(CubicSpline(surface.position, gap)(nodes), least_gap(self.span))
+            surface = self.surface(nodes)
+            balance = descend(surface, law, surface.rigid_gap, 1.0, guess, Hold(np.inf, depth))
+            gap = balance.gap
+            if not balance.stable:
+                check_open(surface, law, gap, depth, f"Tabor number {self.tabor:g}")
+                break
+            found = surface.edge(gap, law.edge_gap)
+            if np.isnan(found):
+                break
+            if abs(found - edge) < _CENTRED * grading.half_width:
+                return Relaxed(surface, gap, depth, surface.force(law, gap), found, edge)
+            edge = found
+        raise InputError(
+            f"no relaxed contact exists at a depth of {depth:g} h0 (Tabor number {self.tabor:g}): "
+            "the surfaces do not hold each other there; start deeper"
+        )
+
+    def _where(
+        self,
+        quantity: Callable[[Relaxed], float],
+        wanted: float,
+        name: str,
+        first_depth: float,
+        settings: Settings,
+    ) -> Relaxed:
+        """Return the contact at which a quantity that grows with depth has the wanted value."""
+        found: dict[float, Relaxed] = {}
+
+        def excess(depth: float) -> float:
+            # The mesh shifts edges by about the same at all depths: look where the last was.
+            last = list(found.values())[-1:]
+            offset = sum(x.lattice - self.jkr_radius(x.depth) for x in last)
+            offset = offset if self.tabor > 1 else 0.0
+            found[depth] = self._at_depth(depth, settings, offset)
+            return quantity(found[depth]) - wanted
+
+        scale, what = self.travel, f"a {name} of {wanted:g} (dimensionless)"
+        depth = depth_where(excess, first_depth, scale, _DEPTH_TOLERANCE * scale, what)
+        if depth is None:
+            least = min((quantity(contact) for contact in found.values()), default=np.nan)
+            raise InputError(
+                f"no relaxed contact has {what}; the least there is, at the end of the branch in "
+                f"contact, is {least:.4g}"
+            )
+        return found[depth]

@@ -1,0 +1,45 @@
+"""Hats: pressures of 1 at one node that fall linearly to 0 at its neighbours.
+
+A mesh of a surface of revolution goes from the axis, r = 0, outwards, and its pressures are linear
+in r^2; one in plane strain goes from the middle, x = 0, to the end of the punch, and each node
+stands for the two hats at x and -x. The last hat is half a hat: pressure ends at the last node.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+
+def panel_areas(nodes: npt.NDArray, symmetry: str) -> npt.NDArray:
+    """Return the areas between neighbouring nodes, in plane strain on both sides of the middle.
+
+    Parameters
+    ----------
+    nodes : ndarray, shape (N,)
+        Ascending from 0, in any unit of length.
+    symmetry : {"revolution", "plane"}
+        Of the shape that presses.
+
+    Returns
+    -------
+    ndarray, shape (N - 1,)
+        In that unit squared; in plane strain, per length, in that unit.
+    """
+    if symmetry == "plane":
+        return 2 * np.diff(nodes)
+    return np.pi * np.diff(nodes * nodes)
+
+
+def hat_areas(nodes: npt.NDArray, symmetry: str) -> npt.NDArray:
+    """Return the integral of each hat over the surface; they add up to the whole of it.
+
+    Parameters are those of :func:`panel_areas`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> hat_areas(np.array([0.0, 2.0, 3.0]), "plane")
+    array([2., 3., 1.])
+    """
+    end = np.zeros(1)
+    half = np.diff(nodes) if symmetry == "plane" else np.diff(np.pi * nodes * nodes) / 2
+    return np.concatenate([half, end]) + np.concatenate([end, half])

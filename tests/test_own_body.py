@@ -1,0 +1,212 @@
+"""A body of a user's own, in one file: through every door, and refused by each tier but one."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import viscotack as vt
+from doors import Http, Question, by_command, by_form, by_http, by_python, by_study
+from viscotack.app.cli import application
+from viscotack.app.engine.overview import quick
+from viscotack.campaign import Store, read_plan, run
+from viscotack.check.tiers import problems
+from viscotack.files.toml import read_toml
+from viscotack.forecast.simulation import SIMULATION
+from viscotack.forecast.tiers import TIERS
+from viscotack.operations.declare.state import State
+from viscotack.problem.nouns import own_nouns
+from viscotack.problem.schema import schema
+
+OWN = Path(__file__).resolve().parents[1] / "examples" / "own"
+FILE, CASE = OWN / "foundation.py", OWN / "foundation.toml"
+(FOUNDATION,) = own_nouns([FILE])
+BODIES = {
+    "half-space": vt.HalfSpace(),
+    "layer": vt.Layer(3.0),
+    "bonded layer": vt.Layer(3.0, vt.Bonded(poisson_ratio=0.3)),
+    "foundation": FOUNDATION(3.0),
+}
+CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return vt.read_case(CASE, also=(FOUNDATION,))
+
+
+@pytest.fixture(scope="module")
+def result(problem):
+    return vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
+
+
+def test_a_case_file_states_it_by_its_word(problem):
+    assert problem.body == FOUNDATION(50e-6)
+    groups = problem.groups()
+    assert groups.body.thickness == pytest.approx(
+        50e-6 / problem.scales().radius * np.pi ** (1 / 3)
+    )
+    back = groups.in_si(
+        radius=5e-3,
+        contact_modulus=problem.material.contact_modulus,
+        equilibrium_gap=1e-6,
+        time_unit=problem.scales().time,
+        poisson_ratio=0.5,
+    )
+    assert back.body.thickness == pytest.approx(50e-6, rel=1e-12)
+
+
+def test_it_is_simulated_saved_and_loaded(problem, result, tmp_path):
+    stiff = vt.solve(replace(problem, body=vt.HalfSpace()), accuracy=1e-2, estimate_error=False)
+    force = vt.pull_off_force(result)
+    assert abs(force / vt.pull_off_force(stiff) - 1) > 0.02
+    path = tmp_path / "run.npz"
+    vt.save(result, path)
+    with pytest.raises(vt.InputError, match="unknown type 'Foundation'"):
+        vt.load(path)
+    again = vt.load(path, also=(FOUNDATION,))
+    assert again.problem == problem and vt.pull_off_force(again) == force
+    assert vt.run_id(problem) != vt.run_id(replace(problem, body=FOUNDATION(60e-6)))
+    assert vt.summary(again)["thickness"] == problem.groups().body.thickness
+
+
+def test_a_campaign_varies_its_thickness(tmp_path):
+    (tmp_path / "case.toml").write_text(CASE.read_text())
+    plan = tmp_path / "plan.toml"
+    plan.write_text(
+        f'problem = "case.toml"\nwith = ["{FILE}"]\n[settings]\naccuracy = 2e-2\n'
+        "[[grid]]\nbody.thickness = [40e-6, 50e-6]\n"
+    )
+    assert run(read_plan(plan), tmp_path / "study", workers=1).failed == 0
+    rows = Store(tmp_path / "study").results().to_pylist()
+    assert [row["body.thickness"] for row in rows] == [40e-6, 50e-6]
+    assert rows[0]["pull_off_force_N"] != rows[1]["pull_off_force_N"]
+
+
+@pytest.mark.parametrize("send", [by_http, by_form])
+def test_every_door_gives_the_same_answer(send, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE.read_text())
+    given = {"problem": "case.toml", "until": "pull-off", "accuracy": 0.01}
+    question = Question("simulate", given, own=(str(FILE),))
+    found = by_python(question)
+    assert found.record["pull_off_force"] > 0 and found.record["thickness"] > 0
+    assert found.record["problem"]["body"] == {"type": "Foundation", "thickness": 50e-6}
+    http = Http(own=(FILE,))
+    try:
+        assert found == by_command(question) == by_study(question) == send(question, http)
+        tables = Question("simulate", given | {"problem": read_toml(Path("case.toml"))})
+        assert by_http(tables, http).record == found.record
+    finally:
+        http.close()
+
+
+def test_without_its_file_each_door_says_where_it_may_come_from():
+    done = CliRunner().invoke(application(), ["simulate", "case", str(CASE)])
+    assert done.exit_code == 2 and "unknown table 'foundation'" in done.stderr
+
+
+def test_schema_and_page_know_it(problem):
+    assert "Foundation" in schema((FOUNDATION,))["$defs"]
+    found = quick(State(read_toml(CASE), (FOUNDATION,)))
+    curve = found["curves"]["elastic"]
+    # JKR on springs: 2 pi R dg at least
+    assert min(curve["force"]) == pytest.approx(-2 * np.pi * 5e-3 * 0.1, rel=0.01)
+    assert any("body is Foundation" in note for note in found["notes"])
+
+
+@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
+@pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
+def test_a_tier_answers_for_the_bodies_on_its_list_alone(tier, body):
+    case = next(case for case in problems() if tier.covers(case) == "")
+    if type(case.body) is type(body) and case.body.decay_length == body.decay_length:
+        return
+    try:
+        stranger = replace(case, body=body)
+    except vt.InputError as error:
+        assert "presses a" in str(error)
+        return
+    listed = {each for verified in tier.verified for each in verified.bodies}
+    reason = tier.covers(stranger)
+    kind = type(getattr(body, "base", body))
+    assert (reason == "") == (kind in listed), reason
+    if reason:
+        assert f"the body is {kind.__name__}" in reason
+        with pytest.raises(vt.OutOfRange, match="the body is"):
+            tier.answer(stranger)
+
+
+@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
+def test_what_theories_answer_is_refused_for_it_in_words(problem, ask):
+    with pytest.raises(vt.InputError, match="foundation|Foundation"):
+        ask(problem)
+
+
+def test_a_large_tabor_number_is_not_answered_as_on_a_half_space():
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    groups = vt.Groups(300.0, solid, vt.AtForce(1.0), 1.0)
+    assert vt.solve(groups).method == "crack contact"
+    with pytest.raises(vt.InputError, match="Tabor number must be between"):
+        vt.solve(replace(groups, body=FOUNDATION(3.0)))
+
+
+def test_small_strain_is_judged_on_the_body(problem):
+    # a sphere sinks into springs as far as its gap; on a half-space half as far at a radius
+    R = problem.geometry.radius
+    deep = vt.Retraction(vt.AtDepth(0.2 * R), 1e-5)
+    vt.Problem(problem.material, problem.traction, problem.geometry, deep)
+    with pytest.raises(vt.InputError, match="beyond small strain"):
+        replace(problem, protocol=deep)
+
+
+def test_the_energy_at_an_edge_is_read_on_a_half_space_alone(result):
+    with pytest.raises(vt.InputError, match="on a foundation"):
+        vt.edge_energy(result)
+
+
+# --- punches were a class of their own ------------------------------------------------------------
+
+
+def test_the_older_name_of_a_punch_makes_the_same_groups():
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    parts = dict(material=solid, start=vt.AtDepth(1.0), rate=1.0)
+    new = vt.Groups(
+        tabor=None, geometry=vt.FlatPunch(8.0), body=vt.Layer(0.3), cohesion=0.5, **parts
+    )
+    with pytest.warns(DeprecationWarning, match="is Groups"):
+        old = vt.PunchGroups(8.0, 0.3, 0.5, **parts)
+    assert old == new
+    record = {"type": "PunchGroups", "size": 8.0, "thickness": 0.3, "cohesion": 0.5}
+    parts = {name: vt.to_dict(part) for name, part in parts.items() if name != "rate"}
+    assert vt.from_dict(record | parts | {"rate": 1.0}) == new
+    assert vt.from_dict(vt.to_dict(new)) == new
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (dict(tabor=3.0), "no Tabor number"),
+        (dict(cohesion=None), "a punch has a cohesion"),
+        (dict(body=vt.HalfSpace()), "presses a layer"),
+        (dict(geometry=vt.Sphere(1.0)), "presses a half-space"),
+        (dict(geometry=vt.Sphere(1.0), body=vt.HalfSpace()), "has a Tabor number and no cohesion"),
+        (dict(body=vt.Layer), "body cannot be a Layer"),
+        (dict(start=vt.AtRadius(1.0)), "does not start at a contact radius"),
+    ],
+)
+def test_groups_that_do_not_go_together_are_refused(wrong, words):
+    solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+    parts = dict(
+        tabor=None,
+        cohesion=0.5,
+        geometry=vt.FlatPunch(8.0),
+        body=vt.Layer(0.3),
+        material=solid,
+        start=vt.AtDepth(1.0),
+        rate=1.0,
+    )
+    vt.Groups(**parts)
+    with pytest.raises(vt.InputError, match=words):
+        vt.Groups(**parts | wrong)
