@@ -109,8 +109,9 @@ def recede(
         effective = start - r * travel(time)
         return effective, np.minimum(effective - profile.depth(a), 0.0) ** 2 / (2 * np.pi * a)
 
-    # but where that is no small part, or leads to more than a crack can take
-    time = 2 * fine - coarse
+    # but where that is no small part, so that it may even be negative, or leads to more than a
+    # crack can take
+    time = np.maximum(2 * fine - coarse, 0.0)
     bad = (np.abs(fine - coarse) > _LARGE_ERROR * fine) | (lifted(time)[1] > edge.limit)
     time = np.maximum.accumulate(np.where(bad, fine, time), axis=0)
     effective, energy = lifted(time)
