@@ -79,7 +79,7 @@ def beside(problem: vt.Problem) -> tuple[bool, bool] | None:
         return None
     result = vt.solve(problem, until="pull-off")
     row = measure(problem, CaseSettings(until="pull-off"))
-    name = "pull_off_stress" if isinstance(groups, vt.PunchGroups) else "pull_off_force"
+    name = "pull_off_stress" if groups.in_plane_strain else "pull_off_force"
     alike = exact.pull_off_force == vt.pull_off_force(result) == row[name]
     (low, high), (least, most) = predicted.interval, exact.interval
     return alike, low <= most and least <= high

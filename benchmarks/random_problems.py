@@ -319,7 +319,7 @@ def words(groups: Groups) -> str:
     if groups.in_plane_strain:
         what = (
             f"punch {groups.geometry.half_width:.3g} on {groups.body.thickness:.3g} "
-            f"{type(groups.base).__name__.lower()}, cohesion {groups.cohesion:.2g}"
+            f"{type(groups.body.base).__name__.lower()}, cohesion {groups.cohesion:.2g}"
         )
     else:
         shape: Any = groups.geometry

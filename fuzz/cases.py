@@ -19,13 +19,14 @@ from viscotack import (
     Dugdale,
     Exponential,
     Eyring,
+    FlatPunch,
     FractionalZener,
     Frictionless,
     GentSchultz,
     Groups,
+    Layer,
     LennardJones,
     PowerLawProfile,
-    PunchGroups,
     Sphere,
 )
 from viscotack.traction import effective_range, grows
@@ -34,7 +35,7 @@ sys.path.append(str(Path(__file__).parents[1] / "examples" / "own"))
 from cole_cole import ColeCole  # noqa: E402
 from morse import Morse  # noqa: E402
 
-Case = Groups | PunchGroups
+Case = Groups
 OWN = (RoundedCone, ColeCole, Morse)
 # Names that the text of a case may use.
 NAMES: dict[str, Any] = {name: getattr(viscotack, name) for name in viscotack.__all__} | {
@@ -174,7 +175,7 @@ def geometry(luck: Luck) -> Any:
             return Sphere(1.0)
 
 
-def punch(luck: Luck) -> PunchGroups:
+def punch(luck: Luck) -> Groups:
     """Return a flat punch on a layer, free to slide or bonded."""
     traction = law(luck)
     size, thickness = luck.decades(3, 100), luck.decades(1, 30)
@@ -191,11 +192,13 @@ def punch(luck: Luck) -> PunchGroups:
     solid = material(luck)
     stiffness, machine = driven(luck, solid, scene, with_history=luck.happens(0.4))
     bonded = luck.happens(0.3)
-    return PunchGroups(
-        size=size,
-        thickness=thickness,
-        cohesion=luck.decades(0.01, 0.1),
-        base=Bonded(poisson_ratio=luck.within(0.3, 0.49)) if bonded else Frictionless(),
+    cohesion = luck.decades(0.01, 0.1)
+    base = Bonded(poisson_ratio=luck.within(0.3, 0.49)) if bonded else Frictionless()
+    return Groups(
+        tabor=None,
+        cohesion=cohesion,
+        geometry=FlatPunch(size),
+        body=Layer(thickness, base),
         material=solid,
         traction=traction,
         stiffness=stiffness,

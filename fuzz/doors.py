@@ -32,11 +32,11 @@ from viscotack import (
     FlatPunch,
     Groups,
     InputError,
+    Layer,
     LoadTo,
     MoveTo,
     PowerLawProfile,
     Prony,
-    PunchGroups,
     RetardationPowerLaw,
     Retract,
     Sphere,
@@ -89,11 +89,12 @@ def learned_sphere(luck: Luck) -> Groups:
     return Groups(tabor=tabor, material=kind(**solid), start=start, rate=rate)
 
 
-def learned_punch(luck: Luck) -> PunchGroups:
+def learned_punch(luck: Luck) -> Groups:
     """Return a punch within or next to the range of its surrogate."""
-    return PunchGroups(
-        size=luck.decades(3, 100),
-        thickness=luck.decades(1, 30),
+    return Groups(
+        tabor=None,
+        geometry=FlatPunch(luck.decades(3, 100)),
+        body=Layer(luck.decades(1, 30)),
         cohesion=luck.decades(0.01, 0.1),
         material=StandardSolid(
             rubbery_modulus=1.0, glassy_modulus=luck.decades(1.1, 1e3), tau0=1.0, poisson_ratio=0.0
@@ -101,6 +102,11 @@ def learned_punch(luck: Luck) -> PunchGroups:
         start=AtDepth(luck.decades(0.1, 10)),
         rate=luck.decades(1e-2, 1e4),
     )
+
+
+def _sizes(case: Case) -> dict[str, Any]:
+    """Return the numbers of a dimensionless punch by the names of its flags and columns."""
+    return {name: case.inputs[name] for name in ("size", "thickness", "cohesion")}
 
 
 def _learned(luck: Luck) -> Case:
@@ -145,7 +151,7 @@ def predict_simulate(case: Case, luck: Luck) -> Found:
     if mu > 25:
         raise Unjudged("refused: its simulation takes too long")
     answer = by_simulation(case, until="pull-off", estimate=True)
-    name = "pull_off_stress" if isinstance(case, PunchGroups) else "pull_off_force"
+    name = "pull_off_stress" if case.in_plane_strain else "pull_off_force"
     words = _apart(
         f"force by {found.method}", found.pull_off_force, found.interval, answer, name, found.band
     )
@@ -371,10 +377,10 @@ def flags(case: Case) -> list[str] | None:
     law_word = _law_words(law)
     if word is None or law_word is None:
         return None
-    if isinstance(case, PunchGroups):
-        given: dict[str, Any] = {n: getattr(case, n) for n in ("size", "thickness", "cohesion")}
-        if isinstance(case.base, Bonded):
-            given["bonded"] = case.base.poisson_ratio
+    if case.in_plane_strain:
+        given: dict[str, Any] = dict(_sizes(case))
+        if isinstance(case.body.base, Bonded):
+            given["bonded"] = case.body.base.poisson_ratio
         door = "punch"
     else:
         given, door = {"tabor": case.tabor}, "sphere"
@@ -533,8 +539,8 @@ def predict_doors(case: Case, luck: Luck) -> Found:
 
 def _by_table(case: Case, found: vt.Prediction) -> Found:
     columns: dict[str, Any]
-    if isinstance(case, PunchGroups):
-        columns = {n: [getattr(case, n)] for n in ("size", "thickness", "cohesion")}
+    if case.in_plane_strain:
+        columns = {name: [value] for name, value in _sizes(case).items()}
     elif isinstance(case.material, RetardationPowerLaw):
         columns = {"tabor": [case.tabor], "exponent": [case.material.exponent]}
     else:
@@ -543,7 +549,7 @@ def _by_table(case: Case, found: vt.Prediction) -> Found:
     (value,) = vars(case.start).values()
     columns |= {"modulus_ratio": [case.modulus_ratio], "rate": [case.rate]}
     row = vt.predict_table(columns | {names[type(case.start)]: [value]})
-    name = "pull_off_stress" if isinstance(case, PunchGroups) else "pull_off_force"
+    name = "pull_off_stress" if case.in_plane_strain else "pull_off_force"
     expected = {"": found.pull_off_force, "_low": found.interval[0], "_high": found.interval[1]}
     # rows are evaluated together, in another order of additions
     return [

@@ -28,7 +28,6 @@ from viscotack import (
     MoveTo,
     PowerLawProfile,
     Prony,
-    PunchGroups,
     Result,
     Retract,
     Sphere,
@@ -257,7 +256,7 @@ def law_adds_up(law: Any, luck: Luck) -> Found:
 
 def in_si(case: Case, luck: Luck) -> Any:
     """Return a case in SI with random scales."""
-    base = getattr(case, "base", None)
+    base = getattr(case.body, "base", None)
     scales = {
         "contact_modulus": luck.decades(1e4, 1e9),
         # an elastic solid has no time of its own: its unit is 1 s
@@ -265,7 +264,7 @@ def in_si(case: Case, luck: Luck) -> Any:
         # that of a bonded layer is one of its numbers
         "poisson_ratio": getattr(base, "poisson_ratio", luck.within(0.0, 0.5)),
     }
-    if isinstance(case, PunchGroups):
+    if case.in_plane_strain:
         return case.in_si(**scales, work_of_adhesion=luck.decades(1e-3, 1))
     # large beside the range of the forces, so that strains are small
     gap = luck.decades(1e-10, 1e-7)

@@ -14,8 +14,8 @@ from viscotack import (
     Frictionless,
     Groups,
     InputError,
+    Layer,
     LennardJones,
-    PunchGroups,
     Sphere,
     StandardSolid,
 )
@@ -54,7 +54,7 @@ def simpler_ones(case: Any) -> Iterator[Any]:
 
 
 def _other_nouns(case: Any) -> Iterator[Callable[[], Any]]:
-    if not isinstance(case, Groups | PunchGroups):
+    if not isinstance(case, Groups):
         return
     moves = case.moves
     for at in range(len(moves)):
@@ -72,7 +72,9 @@ def _other_nouns(case: Any) -> Iterator[Callable[[], Any]]:
     if moves:
         changes.append({"rate": None})
     changes.append(
-        {"geometry": Sphere(1.0)} if isinstance(case, Groups) else {"base": Frictionless()}
+        {"body": replace(case.body, base=Frictionless())}
+        if isinstance(case.body, Layer)
+        else {"geometry": Sphere(1.0)}
     )
     for change in changes:
         if any(getattr(case, name) != value for name, value in change.items()):

@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import pytest
 
-from cases import STANDARD, case_text
 from command_line import exit_status
 from effort import calls
 from punches import resized
+from stated import STANDARD, case_text
 from viscotack.bem import Settings
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.jumps import _MOST_MESHES

@@ -13,8 +13,8 @@ import pytest
 
 import tack_files
 import viscotack.operations
-from cases import PUNCH, SPHERE
 from doors import OF_THE_SHELL, Http, Question, by_http, by_python, run, through_all
+from stated import PUNCH, SPHERE
 from viscotack.app import cli
 from viscotack.app.api import application
 from viscotack.errors import InputError

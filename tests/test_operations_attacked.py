@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from cases import SPHERE
 from doors import run
+from stated import SPHERE
 from viscotack.app.cli import application
 from viscotack.app.engine.jobs import harmless_name
 from viscotack.app.engine.operating import run_operation

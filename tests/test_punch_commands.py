@@ -9,7 +9,7 @@ from command_line import exit_status
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.materials import Elastic, RetardationPowerLaw, StandardSolid
 from viscotack.operations.declare import questions
-from viscotack.problem import Problem, PunchGroups
+from viscotack.problem import Groups, Problem
 from viscotack.problem.case_file import read_case
 from viscotack.problem.record import from_dict, run_id
 from viscotack.protocol import Apart, Approach, AtDepth, AtForce, Dwell
@@ -88,7 +88,7 @@ def test_the_example_of_the_help_gives_the_promised_keys(capsys):
     assert answer["effective_surface_energy_note"] is None
     assert {"size", "thickness", "cohesion", "rate"} <= answer.keys()
     problem = from_dict(answer["problem"])
-    assert isinstance(problem, PunchGroups)
+    assert isinstance(problem, Groups) and problem.in_plane_strain
     assert run_id(problem) == answer["run_id"]
 
 

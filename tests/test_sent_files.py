@@ -2,7 +2,7 @@
 
 import pytest
 
-from cases import case_text
+from stated import case_text
 from viscotack import InputError
 from viscotack.app.engine.operating import Sent
 from viscotack.operations import operation

@@ -5,8 +5,8 @@ import json
 
 import pytest
 
-from cases import case_text
 from command_line import exit_status
+from stated import case_text
 from viscotack import AtDepth, Groups, InputError, PowerLawProfile, Problem, StandardSolid
 from viscotack.operations import ask, operation
 from viscotack.operations.declare.answer import Caller

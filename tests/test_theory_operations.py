@@ -4,8 +4,8 @@ import os
 
 import pytest
 
-from cases import case_text
 from command_line import exit_status
+from stated import case_text
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.materials.library import passport_of
 from viscotack.materials.passport_file import write_passport

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import viscotack as vt
-from cases import PUNCH, SPHERE
 from doors import Http
+from stated import PUNCH, SPHERE
 from viscotack.app.engine.overview import quick
 from viscotack.app.engine.page_tasks import ask_verdict
 from viscotack.campaign import CaseSettings, measure

@@ -63,11 +63,12 @@ def sphere(
     return vt.Groups(tabor=tabor, material=solid(k, exponent), start=at, rate=rate, **others)
 
 
-def punch(thickness: float, rate: float, **changes: Any) -> vt.PunchGroups:
+def punch(thickness: float, rate: float, **changes: Any) -> vt.Groups:
     """Return the punch of chapter 3 on a layer of a thickness [a0]."""
-    standard = vt.PunchGroups(
-        size=SIZE,
-        thickness=thickness,
+    standard = vt.Groups(
+        tabor=None,
+        geometry=vt.FlatPunch(SIZE),
+        body=vt.Layer(thickness),
         cohesion=COHESION,
         material=solid(),
         start=vt.AtDepth(1.0),
@@ -76,9 +77,10 @@ def punch(thickness: float, rate: float, **changes: Any) -> vt.PunchGroups:
     return replace(standard, **changes)
 
 
-def glassy_punch(thickness: float, size: float = SIZE) -> vt.PunchGroups:
+def glassy_punch(thickness: float, size: float = SIZE) -> vt.Groups:
     """Return the punch on an elastic layer of the glassy modulus, whose a0 is 1/k times as long."""
-    return punch(K * thickness, 1.0, size=K * size, material=solid(1.0), cohesion=K * COHESION)
+    wide = {"geometry": vt.FlatPunch(K * size), "cohesion": K * COHESION}
+    return punch(K * thickness, 1.0, material=solid(1.0), **wide)
 
 
 def lens(speed: float, gap: float, start: Any = None, material: Any = PDMS) -> vt.Problem:
@@ -124,7 +126,7 @@ def detached(work: Work) -> dict[str, float]:
         "speed": _or_nan(vt.crack_speed_at_pull_off, result),
         "residual": float(result.energy_residual or 0.0),
     }
-    if isinstance(result.groups, vt.PunchGroups):
+    if result.groups.in_plane_strain:
         found["ligament"] = _or_nan(vt.ligament_at_pull_off, result)
     else:
         found["radius"] = _or_nan(vt.contact_radius_at_pull_off, result)

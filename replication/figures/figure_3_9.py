@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+import viscotack as vt
 from viscotack.theory import punch as theory
 
 from ..bench import Bench, Numbers
@@ -59,7 +60,7 @@ def numbers(bench: Bench) -> Numbers:
     """Return the energies simulated and by theory, and the largest ones by thickness and size."""
     found = bench.of("3.8")
     b = np.array(THICKNESSES)
-    works = [Work(punch(float(x), _RATE, size=a)) for a in SIZES for x in b]
+    works = [Work(punch(float(x), _RATE, geometry=vt.FlatPunch(a))) for a in SIZES for x in b]
     inset = table(bench.each, works, (len(SIZES), len(b)))
     return {
         "thickness": found["thickness"],

@@ -45,14 +45,17 @@ def numbers(bench: Bench) -> Numbers:
     )
     fast = table(bench.each, [Work(sphere(_FAST, d, exponent=1.6), accuracy=_FINE) for d in DEPTHS])
     b1 = 4 / np.pi
-    layers = [Work(punch(b1 * s, 1.0, size=s, material=solid(1.0)), accuracy=_FINE) for s in SIZES]
+    layers = [
+        Work(punch(b1 * s, 1.0, geometry=vt.FlatPunch(s), material=solid(1.0)), accuracy=_FINE)
+        for s in SIZES
+    ]
     stress = table(bench.each, layers)["force"] * np.sqrt(np.array(SIZES))
     # the crack of a finite zone recedes by a part that falls as the root of a0/a
     limit = np.polynomial.polynomial.polyfit(1 / np.sqrt(np.array(SIZES)), stress, 2)[0]
     broad = table(bench.each, [Work(sphere(100.0, 73.0, exponent=0.2))])
     narrow = table(
         bench.each,
-        [Work(punch(50.0, r, size=5.0)) for r in (1e-2, 1e4)],
+        [Work(punch(50.0, r, geometry=vt.FlatPunch(5.0))) for r in (1e-2, 1e4)],
     )
     return {
         "tabor": np.array(TABORS),

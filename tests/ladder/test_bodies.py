@@ -125,4 +125,4 @@ def test_a_punch_on_a_foundation_is_one_spring():
     result = vt.solve(groups, accuracy=1e-2)
     assert vt.pull_off_stress(result) == pytest.approx(1.0, rel=1e-3)
     give = np.pi / (2 * LAW.strength) * 0.2
-    assert vt.pull_off_depth(result) == pytest.approx(1 - LAW.edge_gap - give, rel=1e-2)
+    assert vt.depth_at_pull_off(result) == pytest.approx(1 - LAW.edge_gap - give, rel=1e-2)
