@@ -132,8 +132,8 @@ def test_a_punch_narrower_than_its_cohesive_zone_has_few_nodes():
 
 @pytest.mark.march
 def test_a_wide_punch_on_a_thin_glued_layer_answers():
-    glued = {"size": 60.0, "thickness": 0.5, "base": Bonded(poisson_ratio=0.5)}
-    result = solve(replace(PUNCH, **glued), accuracy=0.02, estimate_error=False)
+    glued = resized(PUNCH, size=60.0, thickness=0.5, base=Bonded(poisson_ratio=0.5))
+    result = solve(glued, accuracy=0.02, estimate_error=False)
     # the last of it may go in a jump
     assert result.outcome in (Outcome.DETACHED, Outcome.JUMPED)
     # all of it reaches the strength at once, and the edge is where the mesh has it

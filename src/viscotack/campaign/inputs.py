@@ -13,7 +13,7 @@ from viscotack.cards import Pairs, Quantity, cards
 from viscotack.errors import InputError
 from viscotack.geometry import Bonded, PowerLawProfile
 from viscotack.problem import Groups, Problem
-from viscotack.problem.older import upgraded_path
+from viscotack.problem.older import upgraded_paths
 from viscotack.problem.record import from_dict, to_dict
 
 # A tip z = A r^q by the height that it has at a radius: A is measured in what q says.
@@ -107,7 +107,8 @@ def check_paths(problem: Any, paths: Iterable[str]) -> None:
     ValueError
         With the numbers that there are at the place where a path goes wrong.
     """
-    paths, record = {upgraded_path(path) for path in paths}, to_dict(problem)
+    record = to_dict(problem)
+    paths = set(upgraded_paths(paths, record))
     replaced(record, dict.fromkeys(paths, 1.0), inputs_of(problem))
     if _is_tip(record) and len(missing := {_HEIGHT, _AT_RADIUS} - paths) == 1:
         raise InputError(f"{_HEIGHT} and {_AT_RADIUS} go together; add {missing.pop()}")
@@ -134,7 +135,8 @@ def replaced(
     radius has the coefficient that follows, and a reduced one of another exponent is reduced.
     """
     changed = copy.deepcopy(dict(record))
-    values = {upgraded_path(path): float(value) for path, value in values.items()}
+    numbers = map(float, values.values())
+    values = dict(zip(upgraded_paths(values, record), numbers, strict=True))
     for path, value in values.items():
         if path not in _TIP or not _is_tip(record):
             _put(changed, path, value, known)

@@ -64,7 +64,7 @@ class Verified:
             )
         if groups.stiffness is not None and not self.springs:
             return (
-                f"the machine has a stiffness of {groups.stiffness:.4g} {unit}, verified for a "
+                f"the machine has a stiffness of {groups.stiffness:.4g} x {unit}, verified for a "
                 "rigid machine only"
             )
         if groups.rate is None and not self.moves:

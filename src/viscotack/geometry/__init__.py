@@ -1,6 +1,7 @@
 """What presses and what is pressed: rigid shapes, and the bodies under them."""
 
-from .bodies import Base, Body, Bonded, Frictionless, HalfSpace, Layer
+from .bases import Base, Bonded, Frictionless
+from .bodies import Body, HalfSpace, Layer
 from .shapes import (
     Cone,
     FlatPunch,

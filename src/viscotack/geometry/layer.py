@@ -50,7 +50,7 @@ from scipy.interpolate import PPoly
 from scipy.special import xlogy, zeta
 
 from viscotack.errors import InputError
-from viscotack.geometry.bodies import Base
+from viscotack.geometry.bases import Base
 
 # Where F changes its form, and where E has died out: for Poisson's ratio 1/2 as exp(-0.74 y).
 _NEAR, _FAR = 1.0, 48.0
@@ -97,7 +97,7 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
     >>> x = 1 - np.linspace(1, 0, 101) ** 2  # crowded at the end
     >>> G = layer_influence(x, 0.1, Frictionless())
     >>> pressure = np.linalg.solve(G, np.ones(101))
-    >>> f"{hat_areas(x, "plane") @ pressure:.3f}"
+    >>> f"{hat_areas(x, 'plane') @ pressure:.3f}"
     '20.355'
     """
     if not (len(x) > 1 and x[0] == 0 and np.all(np.diff(x) > 0)):

@@ -6,6 +6,7 @@ with `profile`, ProfileGroups with `profile_exponent`, and PunchGroups with `siz
 """
 
 import warnings
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from viscotack.errors import InputError
@@ -23,13 +24,12 @@ _OUTPUTS = {
 }
 OUTPUTS = frozenset(_OUTPUTS)
 # What numbers of a problem were called -> are called, by the beginning of their path.
-_PATHS = {
-    "punch.": "geometry.",
-    "layer.": "body.",
-    "profile.": "geometry.",
+_PATHS = {"punch.": "geometry.", "layer.": "body.", "profile.": "geometry."}
+# The same of a dimensionless punch; in tables of other kinds two of these are columns of today.
+_PATHS_OF_PUNCH = {
     "size": "geometry.half_width",
     "thickness": "body.thickness",
-    "base.": "body.base.",
+    "base.poisson_ratio": "body.base.poisson_ratio",
 }
 _SLIDING = Frictionless()
 
@@ -92,6 +92,13 @@ def upgraded_path(path: str) -> str:
         if path.startswith(old):
             return new + path.removeprefix(old)
     return path
+
+
+def upgraded_paths(paths: Iterable[str], record: Mapping[str, Any]) -> list[str]:
+    """Compute the paths of today of numbers in a record, which has the names of today."""
+    punch = record["type"] == Groups.__name__ and "cohesion" in record
+    more = _PATHS_OF_PUNCH if punch else {}
+    return [more.get(path, upgraded_path(path)) for path in paths]
 
 
 def upgraded_output(name: str) -> str:

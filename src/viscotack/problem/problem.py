@@ -105,6 +105,7 @@ class Problem:
 
     A punch on a layer:
 
+    >>> from viscotack.geometry import FlatPunch, Layer
     >>> problem = Problem(
     ...     material=rubber,
     ...     traction=law,
@@ -274,6 +275,7 @@ class Groups:
 
     A punch on a sliding layer:
 
+    >>> from viscotack.geometry import FlatPunch, Layer
     >>> punch = Groups(
     ...     tabor=None, cohesion=0.05, geometry=FlatPunch(64.85), body=Layer(3.24),
     ...     material=StandardSolid(**plateaus, tau0=0.1).reduced(), start=AtDepth(1.0), rate=10.0,

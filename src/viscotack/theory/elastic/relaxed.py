@@ -19,21 +19,34 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from viscotack.geometry import Cone, PowerLawProfile, Shape, Sphere, equivalent_radius
+from viscotack.geometry import (
+    Body,
+    Cone,
+    HalfSpace,
+    PowerLawProfile,
+    Shape,
+    Sphere,
+    equivalent_radius,
+)
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
 from viscotack.theory._checks import ROUND_OFF
 
 from . import indenter, jkr, profiles
 from .jkr import Point
 
-_SPHERE = Sphere(1.0)
+_SPHERE, _HALF_SPACE = Sphere(1.0), HalfSpace()
 # Radii between which a contact is looked for, over the length beta, and their number.
 _RADII, _COUNT = (1e-4, 1e6), 600
 _TOLERANCE = 1e-13
 
 
 def contact(
-    start: Start | Apart, *, shape: Shape, contact_modulus: float, work_of_adhesion: float
+    start: Start | Apart,
+    *,
+    shape: Shape,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
 ) -> Point | None:
     r"""Compute the relaxed JKR contact of a start; None where JKR has none, and apart.
 
@@ -45,6 +58,8 @@ def contact(
         A sphere and a power law by their closed forms, any other shape by quadrature.
     contact_modulus, work_of_adhesion : float
         Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+    body : Body
+        What the shape presses.
 
     Returns
     -------
@@ -66,8 +81,8 @@ def contact(
     if isinstance(start, Apart):
         return None
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    theory, case = _theory(shape, solid)
-    fold, end = ends(shape, **solid)
+    theory, case = _theory(shape, body, solid)
+    fold, end = ends(shape, body=body, **solid)
     a = None
     if isinstance(start, AtRadius):
         a = start.contact_radius if start.contact_radius >= fold.contact_radius else None
@@ -88,17 +103,19 @@ def contact(
     return Point(a, deep, load)
 
 
-def ends(shape: Shape, *, contact_modulus: float, work_of_adhesion: float) -> tuple[Point, Point]:
+def ends(
+    shape: Shape, *, contact_modulus: float, work_of_adhesion: float, body: Body = _HALF_SPACE
+) -> tuple[Point, Point]:
     r"""Compute the contacts of the least depth and of the least force, beyond which JKR has none.
 
     A rigid drive lets go at the first, a dead load at the second. A shape without closed forms is
     searched around its length :math:`\beta`; the radii are good to five digits.
     """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    theory, case = _theory(shape, solid)
+    theory, case = _theory(shape, body, solid)
     if theory is not indenter:
         return theory.instability(**case), theory.pull_off(**case)
-    depth, force = curve(shape, **solid)
+    depth, force = curve(shape, body=body, **solid)
     radii = (_least(function, _length(shape, solid)) for function in (depth, force))
     fold, end = (Point(a, float(depth(a)), float(force(a))) for a in radii)
     return fold, end
@@ -153,11 +170,11 @@ def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: flo
 
 
 def curve(
-    shape: Shape, *, contact_modulus: float, work_of_adhesion: float
+    shape: Shape, *, contact_modulus: float, work_of_adhesion: float, body: Body = _HALF_SPACE
 ) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
     """Return JKR's depth [m] and force [N] as functions of the contact radius [m]."""
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
-    theory, case = _theory(shape, solid)
+    theory, case = _theory(shape, body, solid)
     return partial(theory.depth, **case), partial(theory.force, **case)
 
 
@@ -184,8 +201,10 @@ def largest_radius(
     return float(found)
 
 
-def _theory(shape: Shape, solid: dict[str, float]) -> tuple[Any, dict[str, Any]]:
-    """Return the theory of a shape and its arguments."""
+def _theory(shape: Shape, body: Body, solid: dict[str, float]) -> tuple[Any, dict[str, Any]]:
+    """Choose the theory of a shape on a body, with its arguments."""
+    if body != _HALF_SPACE:
+        return indenter, {"shape": shape, "body": body, **solid}
     match shape:
         case Sphere():
             return jkr, {"radius": shape.radius, **solid}
