@@ -302,7 +302,7 @@ def test_what_was_not_learned_is_refused_in_words():
         ("the traction law is Dugdale", punch_of(traction=dugdale)),
         ("the test begins Apart", punch_of(start=vt.Apart(5.0))),
         ("the machine moves before", punch_of(moves=(vt.Dwell(1.0),))),
-        ("a stiffness of 2 sigma0/h0", punch_of(stiffness=2.0)),
+        ("a stiffness of 2 x sigma0/h0", punch_of(stiffness=2.0)),
         ("h0/tau0 (1e+03 m/s), and", replace(PAD, protocol=replace(PAD.protocol, speed=1e3))),
     ):
         for budget in (AT_ONCE, SOON):
