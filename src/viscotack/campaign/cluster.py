@@ -15,6 +15,7 @@ from time import monotonic
 from typing import Any
 
 from viscotack.errors import InputError, NotInstalled
+from viscotack.files.bounded import LARGEST_TEXT, read_bytes
 from viscotack.pool import NoWorker
 
 from .case import Answer, CaseSettings, Lost, Work
@@ -333,5 +334,5 @@ def security_of(ca: Path | None, cert: Path | None, key: Path | None) -> Securit
     if ca is None or cert is None or key is None:
         raise InputError("TLS needs three files: the authority, a certificate and its key")
     for path in (ca, cert, key):
-        path.read_bytes()  # there is no such file: said now, and not by a library
+        read_bytes(path, LARGEST_TEXT)  # there is no such file: said now, and not by a library
     return Security(ca, cert, key)

@@ -14,6 +14,7 @@ import numpy
 import scipy
 
 from viscotack.errors import InputError
+from viscotack.files.bounded import LARGEST_TEXT, read_bytes
 from viscotack.problem.nouns import own_nouns
 from viscotack.version import __version__
 
@@ -71,7 +72,7 @@ class OwnChanged(InputError):
 
 def digest(path: str | Path) -> str:
     """Return the hash of a file's bytes."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    return hashlib.sha256(read_bytes(path, LARGEST_TEXT)).hexdigest()
 
 
 def nouns_of(paths: tuple[str, ...], known: tuple[str, ...]) -> tuple[Any, ...]:

@@ -28,6 +28,7 @@ from typing import Any
 
 from viscotack.errors import InputError
 from viscotack.files.arrow import arrow
+from viscotack.files.bounded import LARGEST_PART, read_bytes
 from viscotack.files.whole import is_draft, remove_drafts, write_new
 
 # Parts of equal span that are merged, and the largest part that a merge makes [bytes].
@@ -263,7 +264,7 @@ def adopted(folder: Path) -> Ledger:
 
 
 def _described(path: Path) -> Part:
-    content = path.read_bytes()
+    content = read_bytes(path, LARGEST_PART)
     rows = _parsed(path, content, ["name"]).num_rows
     return Part(path.name, hashlib.sha256(content).hexdigest(), rows)
 
@@ -279,7 +280,7 @@ def read_proven(path: Path, sha256: str, columns: Sequence[str] | None = None) -
         If it is another one, or damaged; with its name.
     """
     try:
-        content = path.read_bytes()
+        content = read_bytes(path, LARGEST_PART)
     except FileNotFoundError:
         raise
     except OSError as error:

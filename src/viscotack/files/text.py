@@ -4,9 +4,10 @@ import codecs
 import csv
 import os
 import re
-from pathlib import Path
 
 from viscotack.errors import InputError
+
+from .bounded import LARGEST_TEXT, read_bytes
 
 # Marks of control but for the ends of lines and tabs, and those that turn the direction of writing.
 _UNSEEN = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]")
@@ -19,17 +20,24 @@ _MARKS = {
 }
 
 
-def read_text(path: str | os.PathLike[str]) -> str:
+def read_text(path: str | os.PathLike[str], most: int = LARGEST_TEXT) -> str:
     r"""Return the text of a file in UTF-8, or in UTF-16 with its mark; every line ends in ``\n``.
+
+    Parameters
+    ----------
+    path : path
+        A regular file.
+    most : int
+        Largest size that is read [bytes].
 
     Raises
     ------
     FileNotFoundError
         If there is no such file.
     InputError
-        If it is in another encoding, or no text; with the line.
+        If it is larger, in another encoding, or no text; with the line.
     """
-    content = Path(path).read_bytes()
+    content = read_bytes(path, most)
     encoding = next((e for mark, e in _MARKS.items() if content.startswith(mark)), "utf-8")
     try:
         text = content.decode(encoding)

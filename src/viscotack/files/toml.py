@@ -20,6 +20,8 @@ _PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _LONG_NAME = re.compile(rf"(?<![\w-]){_PART}(?:[ \t]*\.[ \t]*{_PART}){{{_MOST_PARTS},}}")
 # Lines of a file that are looked through for what stands twice.
 _LOOKED_THROUGH = 2000
+# Characters that may be read on the way: a long array is read once for each of its lines.
+_MOST_READ = 2_000_000
 _TWICE = ("Cannot overwrite", "Cannot declare", "Cannot mutate", "Duplicate")
 
 
@@ -38,7 +40,8 @@ def read_toml(path: str | os.PathLike[str]) -> dict[str, Any]:
     InputError
         If it is not TOML: with the line, and a name that stands twice with both lines.
     """
-    return parse_toml(read_text(path), path)
+    # a character has four bytes at most
+    return parse_toml(read_text(path, most=4 * _MOST_TEXT), path)
 
 
 def parse_toml(text: str, path: str | os.PathLike[str]) -> dict[str, Any]:
@@ -134,10 +137,15 @@ def _twice(text: str, number: int) -> str:
 def _statements(lines: list[str]) -> Iterator[_Statement]:
     """Yield the statements of a file: the shortest runs of lines that are TOML by themselves."""
     begin, table = 0, ()
+    left = _MOST_READ
     while begin < len(lines):
-        end = next((e for e in range(begin + 1, len(lines) + 1) if _is_toml(lines[begin:e])), None)
-        if end is None:
-            return
+        end, size = begin, 0
+        while end == begin or not _is_toml(lines[begin:end]):
+            if end == len(lines) or left < 0:
+                return
+            size += len(lines[end]) + 1
+            left -= size
+            end += 1
         head = lines[begin].strip()
         if head.startswith("["):
             table = _path(tomllib.loads(head))

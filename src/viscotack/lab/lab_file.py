@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import chain
 from os import PathLike, fspath
-from pathlib import Path
 from types import ModuleType
 from zipfile import ZipFile
 
 from viscotack.errors import InputError
+from viscotack.files.bounded import read_bytes
 
 LARGEST = 50_000_000  # bytes; a sweep is thousands of times smaller
 
@@ -88,11 +88,8 @@ def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
     it would show. It is left out, and a note says so.
     """
     name = fspath(path)
-    with Path(path).open("rb") as stream:
-        content = stream.read(LARGEST + 1)
+    content = read_bytes(path, LARGEST)
     empty = LabFile(name, content, (), ())
-    if len(content) > LARGEST:
-        raise empty.error(f"the file is larger than {LARGEST // 10**6} MB; export the points only")
     if not content.strip():
         raise empty.error("the file is empty")
     if empty.is_workbook or content.startswith(raw):

@@ -5,7 +5,6 @@ need openpyxl; both come with the extra ``lab``.
 """
 
 import io
-import re
 import zipfile
 from collections.abc import Iterable, Iterator
 from importlib import import_module
@@ -16,11 +15,10 @@ from viscotack.errors import InputError
 from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile, huge
 from .plain_layout import is_number
+from .workbook_bounds import check_size, has_formulas
 
 _SHEET = "Exported Data"
 _LOOKED = 50  # rows in which the headings are looked for
-_FORMULA = re.compile(rb"<f[ >/]")
-_WIDEST, _LONGEST = 500, 200_000
 Cells = list[list[str]]
 
 
@@ -95,7 +93,7 @@ def _old(content: bytes) -> Iterator[tuple[str, Cells]]:
     xlrd = import_module("xlrd")
     book = xlrd.open_workbook(file_contents=content, logfile=io.StringIO())
     for sheet in book.sheets():
-        _refuse_huge(sheet.nrows, sheet.ncols)
+        check_size(sheet.nrows, sheet.ncols)
         yield sheet.name, [[_text(v) for v in sheet.row_values(r)] for r in range(sheet.nrows)]
 
 
@@ -104,16 +102,11 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
     with zipfile.ZipFile(io.BytesIO(content)) as parts:
         if huge(parts):
             raise InputError("it unpacks to more than 200 MB")
-        formulas = any(
-            _FORMULA.search(parts.read(part))
-            for part in parts.namelist()
-            if part.startswith("xl/worksheets/")
-        )
+        formulas = has_formulas(parts)
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
     # a second reading, of what the cells hold in place of their values
     beside = openpyxl.load_workbook(io.BytesIO(content), read_only=True) if formulas else None
     for sheet in book.worksheets:
-        _refuse_huge(sheet.max_row or 0, sheet.max_column or 0)
         rows = [[_text(v) for v in row] for row in sheet.iter_rows(values_only=True)]
         if beside is not None:
             _name_formulas(rows, beside[sheet.title].iter_rows(values_only=True))
@@ -131,11 +124,6 @@ def _name_formulas(rows: Cells, beside: Iterable[tuple[Any, ...]]) -> None:
         for i, formula in enumerate(cells[: len(row)]):
             if not row[i] and isinstance(formula, str) and formula.startswith("="):
                 row[i] = formula
-
-
-def _refuse_huge(rows: int, columns: int) -> None:
-    if rows > _LONGEST or columns > _WIDEST:
-        raise InputError(f"a sheet has {rows} rows and {columns} columns")
 
 
 def _text(value: Any) -> str:

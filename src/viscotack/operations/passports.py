@@ -170,6 +170,7 @@ class ConvertMaterial(Operation):
         return {name: value for name, value in said.items() if value is not None}
 
     def _imported(self) -> "Passport":
+        from viscotack.files.text import read_text
         from viscotack.materials.exchange import Units, imported
         from viscotack.materials.passport import Origin
         from viscotack.version import __version__
@@ -177,10 +178,10 @@ class ConvertMaterial(Operation):
         file, code = Path(str(self.source)), str(self.code)
         pressure, time = self.pressure_unit, self.time_unit
         units = Units(pressure, time) if pressure and time else None
+        text = read_text(file)
         try:
-            text = file.read_text(encoding="utf-8")
             solid = imported(text, code, units=units, **self._constants())
-        except (ValueError, UnicodeDecodeError) as error:
+        except ValueError as error:
             raise InputError(f"{file}: {error}") from None
         origin = Origin(file=file.name, format=code, made_by=f"viscotack {__version__}")
         return Passport(name=file.stem, material=solid, origin=origin)

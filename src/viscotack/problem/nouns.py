@@ -16,6 +16,7 @@ from typing import Any
 from viscotack import geometry, materials, problem, protocol
 from viscotack.cards import check_carded
 from viscotack.errors import InputError
+from viscotack.files.bounded import LARGEST_TEXT, read_bytes
 from viscotack.geometry import BODIES, SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.traction import LAWS
@@ -111,7 +112,7 @@ def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
     """
     found: list[Any] = []
     for path in dict.fromkeys(Path(path).resolve() for path in paths):
-        found += _defined(path, sha256(path.read_bytes()).hexdigest())
+        found += _defined(path, sha256(read_bytes(path, LARGEST_TEXT)).hexdigest())
     return tuple(found)
 
 

@@ -29,6 +29,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
+from viscotack.files.bounded import open_regular
 from viscotack.files.whole import Target, write_whole
 from viscotack.problem import Case, Groups, Problem, PunchScales, Scales
 from viscotack.problem.record import UnknownNoun, from_dict, to_dict
@@ -413,7 +414,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
         If the file is not a saved result, is damaged, or comes from a newer version.
     """
     try:
-        with open(path, "rb") as file:
+        with open_regular(path) as file:
             arrays = read_arrays(file, _is_expected)
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:

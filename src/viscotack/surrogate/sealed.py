@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 from viscotack.files.archive import read_arrays
+from viscotack.files.bounded import open_regular
 from viscotack.files.whole import write_whole
 
 Arrays = Mapping[str, npt.NDArray[Any]]
@@ -60,7 +61,7 @@ def opened(
     """
     try:
         # opened here, for NumPy leaves a damaged file open
-        with open(path, "rb") as stream:
+        with open_regular(path) as stream:
             arrays = read_arrays(stream, lambda _: True, most)
         words = json.loads(arrays.pop(_WORDS).tobytes())
         if words["form"] not in forms:
