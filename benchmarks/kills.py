@@ -111,7 +111,7 @@ def told(folder: Path) -> Any:
     tables = [table.to_pylist() for table in (store.results(), store.failures())]
     for row in (row for table in tables for row in table):
         row.pop("wall_time_s")
-    return *tables, store.plan().cases, store.settings
+    return *tables, store.cases(), store.settings
 
 
 # --- who is killed ------------------------------------------------------------------------------
@@ -311,7 +311,7 @@ class Harassed:
             return len(self.plan.cases)
         store = Store(place)
         assert not verify(store).wrong, verify(store).wrong
-        standing = store.standing(store.plan().cases)
+        standing = store.standing(store.cases())
         done, failed = int(standing.done.sum()), int(standing.failed.sum())
         results = store.results()
         assert results.num_rows == done, "a case is stored twice"

@@ -16,7 +16,7 @@ from viscotack.campaign import Store, read_plan
 from viscotack.campaign.case import Lost, attempt
 
 
-def plan_of(folder, cases=20, text=""):
+def plan_of(folder, cases=20, text="", own=()):
     """Return a plan of so many cases, the rates of which are 1, 2, ..."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / "plan.toml"
@@ -24,7 +24,7 @@ def plan_of(folder, cases=20, text=""):
         f"{text}\n[[grid]]\ntabor = 1.0\nmodulus_ratio = 0.1\nexponent = 0.8\npreload = 5.0\n"
         f"rate = {[float(i + 1) for i in range(cases)]}\n"
     )
-    return read_plan(path)
+    return read_plan(path, own=own)
 
 
 def stand_in(problem, settings):
@@ -169,7 +169,7 @@ def told(folder):
     tables = [table.to_pylist() for table in (store.results(), store.failures())]
     for row in (row for table in tables for row in table):
         row.pop("wall_time_s")
-    return *tables, store.plan().cases, store.settings
+    return *tables, store.cases(), store.settings
 
 
 def finished(store):

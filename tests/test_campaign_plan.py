@@ -362,7 +362,8 @@ def test_the_plans_of_the_docs_are_plans(tmp_path):
     written(tmp_path, LENS, "lens.toml")
     written(tmp_path, "# an observable of one's own", "my.py")
     assert len(read_plan(written(tmp_path, table, "cases.csv")).cases) == 2
-    plan = read_plan(written(tmp_path, whole.replace("cases = 10000", "cases = 16")))
+    text = whole.replace("cases = 10000", "cases = 16")
+    plan = read_plan(written(tmp_path, text), own=[tmp_path / "my.py"])
     assert len(plan.cases) == 3 * 5 * 13 + 2 + 16
     assert len(read_plan(written(tmp_path, lens)).cases) == 14
     own = Path(__file__).parents[1] / "examples/from_toml/pad.toml"

@@ -91,7 +91,7 @@ def test_rows_of_an_earlier_plan_are_merged_too_and_once(tmp_path, crew):
     run(plan_of(tmp_path, cases=4), tmp_path / "b", work=stand_in)
     run(plan_of(tmp_path, cases=1), tmp_path / "b", work=stand_in)
     store = merge([tmp_path / "a", tmp_path / "b"], tmp_path / "m")
-    assert len(store.plan().cases) == 2
+    assert len(store.cases()) == 2
     assert sorted(store.results().column("rate").to_pylist()) == [1, 2, 3, 4, 5]
     assert sum(part.rows for part in store.parts()["results"].kept()) == 5
 
@@ -165,14 +165,14 @@ def test_shards_that_have_cases_in_common_are_merged_once(tmp_path, crew):
     store = merge([two, tmp_path / "all", one, two], tmp_path / "m")
     assert not verify(store).wrong and store.results().num_rows == 7
     # shards of one plan keep its order in whatever order they are given
-    assert merge([two, one, two], tmp_path / "n").plan().cases == plan.cases
+    assert merge([two, one, two], tmp_path / "n").cases() == plan.cases
 
 
 def test_a_folder_that_grows_during_a_merge_costs_no_row(tmp_path, crew, monkeypatch):
     plan, add, grown = plan_of(tmp_path, cases=9), Store.add, []
     last = max(case.name for case in plan.cases)
     folders = shards(tmp_path, plan, work=stand_in)
-    folders.sort(key=lambda folder: any(c.name == last for c in Store(folder).plan().cases))
+    folders.sort(key=lambda folder: any(c.name == last for c in Store(folder).cases()))
 
     def growing(self, results, failures):
         add(self, results, failures)

@@ -1,5 +1,6 @@
 """What others do to a campaign: bits that turn, hands that edit, strangers, second runs."""
 
+import hashlib
 import json
 import os
 import random
@@ -14,7 +15,7 @@ from campaign_work import InlineCrew, employ, flipped, picky, plan_of, stand_in,
 from command_line import exit_status
 from viscotack import InputError
 from viscotack.campaign import FolderInUse, Store, Verdict, read_plan, run, verify
-from viscotack.campaign.provenance import write_provenance
+from viscotack.campaign.provenance import read_provenance, write_provenance
 from viscotack.files import lock
 from viscotack.files.lock import locked
 from viscotack.files.whole import write_new
@@ -174,16 +175,20 @@ def test_a_file_of_ones_own_that_was_edited_is_refused(tmp_path, crew):
     source = (Path(__file__).parents[1] / "examples/own/rounded_cone.py").read_text()
     own.write_text(source)
     text = 'with = ["my.py"]\n'
-    run(plan_of(tmp_path, cases=3, text=text), tmp_path / "c", work=stand_in)
+    run(plan_of(tmp_path, cases=3, text=text, own=[own]), tmp_path / "c", work=stand_in)
     own.write_text(source + "\n# and more\n")
     with pytest.raises(InputError, match="edited since, or are others.*my.py"):
-        run(plan_of(tmp_path, cases=4, text=text), tmp_path / "c", work=stand_in)
+        run(plan_of(tmp_path, cases=4, text=text, own=[own]), tmp_path / "c", work=stand_in)
     edited_plan = "my.py has been edited since this campaign was planned.*put it back"
     shutil.rmtree(tmp_path / "c/results")
     with pytest.raises(InputError, match=edited_plan):
-        run(None, tmp_path / "c", work=stand_in)
+        run(None, tmp_path / "c", own=[own], work=stand_in)
     own.write_text(source)
-    assert run(None, tmp_path / "c", work=stand_in).done == 3
+    assert run(None, tmp_path / "c", own=[own], work=stand_in).done == 3
+    moved = tmp_path / "moved.py"
+    own.rename(moved)
+    shutil.rmtree(tmp_path / "c/results")
+    assert run(None, tmp_path / "c", own=[moved], work=stand_in).done == 3
 
 
 def test_a_file_of_ones_own_that_is_edited_during_a_run_spoils_no_row(tmp_path, crew):
@@ -193,12 +198,73 @@ def test_a_file_of_ones_own_that_is_edited_during_a_run_spoils_no_row(tmp_path, 
     def edit(now):
         own.write_text("# nothing\n")
 
-    plan = plan_of(tmp_path, cases=12, text='with = ["my.py"]\n')
+    plan = plan_of(tmp_path, cases=12, text='with = ["my.py"]\n', own=[own])
     end = run(plan, tmp_path / "c", work=stand_in, report=edit, store_every=0.0)
     assert end.done < 12 and end.failed == 12 - end.done
     failures = Store(tmp_path / "c").failures()
     assert set(failures.column("failure").to_pylist()) == {"crashed"}
     assert "has been edited since" in failures.column("reason").to_pylist()[0]
+
+
+def test_a_plan_executes_only_the_files_that_are_permitted(tmp_path, capsys):
+    own, ran = tmp_path / "my.py", tmp_path / "ran"
+    own.write_text(f"open({str(ran)!r}, 'w')\n")
+    (tmp_path / "cases.csv").write_text("tabor,modulus_ratio,exponent,preload,rate\n1,1,1,2,3\n")
+    plan = tmp_path / "plan.toml"
+    plan.write_text('with = ["my.py"]\n[[list]]\nfile = "cases.csv"\n')
+    for command in ("plan", "run"):
+        out = ["--out", tmp_path / "c"] if command == "run" else []
+        assert exit_status(["campaign", command, plan, *out]) == 2
+        assert f"permit it, --with {own}" in capsys.readouterr().err
+    assert not ran.exists() and not (tmp_path / "c").exists()
+
+
+@pytest.fixture
+def forged(tmp_path, crew):
+    """Return a campaign whose folder names a Python file that leaves a trace, and the trace."""
+    own, ran = tmp_path / "my.py", tmp_path / "ran"
+    own.write_text((Path(__file__).parents[1] / "examples/own/rounded_cone.py").read_text())
+    plan = plan_of(tmp_path, cases=6, text='with = ["my.py"]\n', own=[own])
+    run(plan, tmp_path / "c", work=picky)
+    own.write_text(f"open({str(ran)!r}, 'w')\n")
+
+    def forge(content):
+        content["settings"]["own_sha256"] = [hashlib.sha256(own.read_bytes()).hexdigest()]
+
+    content = read_provenance(tmp_path / "c")
+    forge(content)
+    write_provenance(tmp_path / "c", content)
+    return tmp_path / "c", ran
+
+
+def test_what_a_folder_names_is_not_executed_when_it_is_looked_at(forged, capsys):
+    folder, ran = forged
+    out = folder.parent
+    commands = [["status", folder], ["verify", folder], ["merge", folder, "--out", out / "m"]]
+    commands.append(["export", folder, "--csv", out / "a.csv", "--failures", out / "f.csv"])
+    for words in commands:
+        assert exit_status(["campaign", *words]) in (0, 1), capsys.readouterr().err
+    assert exit_status(["campaign", "run", "--out", folder, "--retry"]) == 2
+    assert "my.py, Python that would be executed: permit it" in capsys.readouterr().err
+    assert not ran.exists()
+
+
+@pytest.mark.parametrize(
+    "name", ["cases.parquet", "plan.toml", "provenance.json", "results", "failures"]
+)
+def test_links_in_the_folder_are_not_written_through(tmp_path, crew, name):
+    folder, plan = tmp_path / "c", plan_of(tmp_path, cases=3)
+    run(plan, folder, work=stand_in)
+    place, elsewhere = folder / name, tmp_path / "elsewhere"
+    if not place.exists():
+        place.mkdir()
+    place.rename(elsewhere)
+    place.symlink_to(elsewhere)
+    stamps = {path: path.stat().st_mtime_ns for path in [elsewhere, *elsewhere.glob("*")]}
+    for again in (None, plan_of(tmp_path, cases=4)):
+        with pytest.raises(InputError, match=f"{name} is a symbolic link, and a campaign writes"):
+            run(again, folder, work=stand_in)
+    assert stamps == {path: path.stat().st_mtime_ns for path in [elsewhere, *elsewhere.glob("*")]}
 
 
 # --- the lock -----------------------------------------------------------------------------------

@@ -123,7 +123,8 @@ def test_flags_take_their_numbers_in_the_order_of_their_fields():
 
 def test_a_campaign_keeps_their_numbers_and_goes_on(case_file, tmp_path):
     plan = tmp_path / "plan.toml"
-    files = ", ".join(f'"{OWN / file}"' for file in FILES.values())
+    files_of_own = [OWN / file for file in FILES.values()]
+    files = ", ".join(f'"{file}"' for file in files_of_own)
     plan.write_text(
         f"""problem = "{case_file.name}"
 with = [{files}]
@@ -134,12 +135,12 @@ traction.steepness = {{linear = [2.0, 3.0], count = 2}}
 geometry.rounding = 20e-6
 """
     )
-    done = run(read_plan(plan), tmp_path / "study", workers=1)
+    done = run(read_plan(plan, own=files_of_own), tmp_path / "study", workers=1)
     assert (done.done, done.failed) == (2, 0)
     rows = Store(tmp_path / "study").results().to_pylist()
     assert all(row["largest_contact_radius_m"] > 0 for row in rows)
     assert [row["traction.steepness"] for row in rows] == [2.0, 3.0]
-    assert run(None, tmp_path / "study", workers=1).done == 2
+    assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 
 def test_a_prediction_of_a_theory_knows_them():

@@ -79,7 +79,7 @@ def test_a_campaign_varies_its_thickness(tmp_path):
         f'problem = "case.toml"\nwith = ["{FILE}"]\n[settings]\naccuracy = 2e-2\n'
         "[[grid]]\nbody.thickness = [40e-6, 50e-6]\n"
     )
-    assert run(read_plan(plan), tmp_path / "study", workers=1).failed == 0
+    assert run(read_plan(plan, own=[FILE]), tmp_path / "study", workers=1).failed == 0
     rows = Store(tmp_path / "study").results().to_pylist()
     assert [row["body.thickness"] for row in rows] == [40e-6, 50e-6]
     assert rows[0]["pull_off_force_N"] != rows[1]["pull_off_force_N"]

@@ -6,6 +6,7 @@ given a case, and files of the user's own are read as they were when the campaig
 
 import hashlib
 import platform
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,10 @@ from viscotack.version import __version__
 # What numbers depend on, beside the source: a change of its last part does not change them.
 _PYTHON = ".".join(platform.python_version_tuple()[:2])
 _PACKAGE = Path(__file__).parents[1]
+_EDITED = (
+    "{} has been edited since this campaign was planned, and its rows would not be of one kind; "
+    "put it back as it was, or give another --out"
+)
 
 
 @cache
@@ -75,6 +80,45 @@ def digest(path: str | Path) -> str:
     return hashlib.sha256(read_bytes(path, LARGEST_TEXT)).hexdigest()
 
 
+def permitted(
+    own: tuple[str, ...], known: tuple[str, ...], files: Iterable[str | Path], folder: Path
+) -> tuple[str, ...]:
+    """Find the files of a folder's campaign among those that the caller permits to be executed.
+
+    Parameters
+    ----------
+    own, known : tuple of str
+        Paths and hashes that the folder states; () for hashes that were not kept.
+    files : iterable of path
+        The permitted files. The paths that the folder states are never executed for its word.
+    folder : Path
+        For errors.
+
+    Raises
+    ------
+    OwnChanged
+        If a permitted file has the path of one of them and another content.
+    InputError
+        If one of them is not permitted.
+    """
+    given = [str(Path(file).resolve()) for file in files]
+    by_hash = {digest(path): path for path in given}
+    found = []
+    for i, path in enumerate(own):
+        if known and known[i] in by_hash:
+            found.append(by_hash[known[i]])
+        elif path not in given:
+            raise InputError(
+                f"{folder} was planned with {path}, Python that would be executed: permit it, "
+                f"--with {path} on the command line, own=[...] in Python"
+            )
+        elif known:
+            raise OwnChanged(_EDITED.format(path))
+        else:
+            found.append(path)
+    return tuple(found)
+
+
 def nouns_of(paths: tuple[str, ...], known: tuple[str, ...]) -> tuple[Any, ...]:
     """Return what files of the user's own define.
 
@@ -92,8 +136,5 @@ def nouns_of(paths: tuple[str, ...], known: tuple[str, ...]) -> tuple[Any, ...]:
     """
     for path, before in zip(paths, known, strict=bool(known)):
         if digest(path) != before:
-            raise OwnChanged(
-                f"{path} has been edited since this campaign was planned, and its rows would "
-                "not be of one kind; put it back as it was, or give another --out"
-            )
+            raise OwnChanged(_EDITED.format(path))
     return own_nouns(paths)

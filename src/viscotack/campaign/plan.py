@@ -75,13 +75,18 @@ class Plan:
         return json.dumps(to_dict(self.kind.problem(case.inputs)))
 
 
-def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
+def read_plan(
+    path: str | os.PathLike[str], *, own: Iterable[str | os.PathLike[str]] = (), **changed: Any
+) -> Plan:
     """Return the plan in a file.
 
     Parameters
     ----------
     path : path
         A TOML file as docs/campaigns.md describes it, or a CSV file with a column per input.
+    own : iterable of path
+        Python files that may be executed, with observables, laws, materials, shapes and bodies:
+        those that the file names in ``with``, and further ones.
     **changed
         Settings (fields of `CaseSettings`) that replace those of the file; None leaves one. And
         `temperature`, in words, which replaces that of the base problem's material.
@@ -102,9 +107,9 @@ def read_plan(path: str | os.PathLike[str], **changed: Any) -> Plan:
         if is_csv:
             raise InputError(f"{path} states cases without dimensions, which have no temperature")
         tables["temperature"] = changed.pop("temperature")
-    if own := (*_own(path, tables), *changed.get("own", ())):
-        changed["own"] = own
-    kind, base = _kind(path, tables, blocks, own)
+    if files := _permitted(path, tables, own):
+        changed["own"] = files
+    kind, base = _kind(path, tables, blocks, files)
     settings = _settings(path, tables.get("settings", {}), changed)
     plan = _planned(str(path), kind, blocks, settings, base)
     return replace(plan, source=source, suffix=".csv" if is_csv else ".toml")
@@ -233,11 +238,10 @@ def _planned(
 
 
 def restored_kind(
-    name: str, base: dict[str, Any] | None, columns: Iterable[str], own: Iterable[str] = ()
+    name: str, base: dict[str, Any] | None, columns: Iterable[str], also: tuple[Any, ...] = ()
 ) -> Kind:
-    """Return the kind of a stored plan."""
+    """Return the kind of a stored plan, whose problem has these nouns of the user's own."""
     if base is not None:
-        also = own_nouns(own)
         return kind_of_problem(from_dict(base, also), set(columns), also)
     if name not in KINDS:
         raise InputError(f"unknown kind of case {name!r}; a newer version may know it")
@@ -295,12 +299,22 @@ def _temperature(path: Path, tables: Mapping[str, Any]) -> float | None:
         raise InputError(f'{path}: temperature: {error}; write "20 degC"') from None
 
 
-def _own(path: Path, tables: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the files of the user's own that a plan names, beside it."""
+def _permitted(
+    path: Path, tables: Mapping[str, Any], own: Iterable[str | os.PathLike[str]]
+) -> tuple[str, ...]:
+    """List the Python files of a campaign; those that the plan names must be permitted."""
     files = tables.get("with", [])
     if not isinstance(files, list) or not all(isinstance(file, str) for file in files):
         raise InputError(f'{path}: with must be a list of files, with = ["my_laws.py"]')
-    return tuple(str((path.parent / file).resolve()) for file in files)
+    named = [str((path.parent / file).resolve()) for file in files]
+    given = [str(Path(file).resolve()) for file in own]
+    if missing := [file for file in named if file not in given]:
+        raise InputError(
+            f"{path} names Python that would be executed: permit it, "
+            f"{' '.join(f'--with {file}' for file in missing)} on the command line, own=[...] in "
+            "Python"
+        )
+    return tuple(dict.fromkeys([*named, *given]))
 
 
 def _inputs(key: str, block: Any) -> set[str]:

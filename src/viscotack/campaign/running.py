@@ -3,7 +3,7 @@
 import signal
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -80,6 +80,7 @@ def run(
     plan: Plan | None,
     folder: str | Path,
     *,
+    own: Iterable[str | Path] = (),
     workers: int = 1,
     scheduler: str | None = None,
     security: Security | None = None,
@@ -96,6 +97,9 @@ def run(
         What to run; None goes on with the plan in the folder.
     folder : path
         Where the campaign is kept; made if missing.
+    own : iterable of path
+        Python files that may be executed, to go on with a campaign that was planned with them; of
+        a plan `read_plan` was given them.
     workers : int
         Processes on this machine.
     scheduler : str, optional
@@ -142,17 +146,17 @@ def run(
         store.tidy()
         this = _Run(
             store,
-            store.plan() if plan is None else plan,
+            store.plan(own) if plan is None else plan,
             report=report,
             retry=retry,
             store_every=store_every,
         )
         if not this.left():
             return this.progress()
-        store.settings.nouns()  # refuses files of the user's own that have been edited
+        settings = this.plan.settings
+        settings.nouns()  # refuses files of the user's own that have been edited
         number = store.note_run(scheduler=scheduler, workers=workers, to_run=this.left())
         count = min(workers, this.left())
-        settings = store.settings
         hired = (
             local(work, settings, count)
             if scheduler is None

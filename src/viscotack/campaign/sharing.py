@@ -69,13 +69,11 @@ def merge(folders: Sequence[str | os.PathLike[str]], out: str | os.PathLike[str]
         _check_alike(stores[0], store)
     out, names = Path(out), [str(store.folder.resolve()) for store in stores]
     _check_free(out, names)
-    plans = [store.plan() for store in stores]
-    cases = _together(plans)
+    cases = _together(stores)
     out.mkdir(parents=True, exist_ok=True)
-    whole = replace(plans[0], cases=cases, shard=None, source="")
     with locked(out) as hold:
         _check_free(out, names)  # nobody has begun meanwhile
-        store = Store.create(out, whole, hold, merging=names)
+        store = Store.merged(out, stores, cases, hold, names)
         store.tidy()
         runs = [
             {**run, "folder": str(one.folder)} for one in stores for run in one.provenance["runs"]
@@ -137,16 +135,18 @@ def _numbers(shard: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
-def _together(plans: Sequence[Plan]) -> Cases:
-    """Return the cases of several plans; of shards of one plan in its order."""
-    shards = [_numbers(plan.shard) if plan.shard else (1, 1) for plan in plans]
-    found = Cases.joined([plan.cases for plan in plans])
+def _together(stores: Sequence[Store]) -> Cases:
+    """Join the cases of several campaigns; of shards of one plan in its order."""
+    words = [store.provenance.get("shard") for store in stores]
+    shards = [_numbers(shard) if shard else (1, 1) for shard in words]
+    each = [store.cases() for store in stores]
+    found = Cases.joined(each)
     counts = {count for _, count in shards}
     if len(counts) == 1 and counts != {1}:
         (count,) = counts
         places = [
-            np.arange(len(plan.cases)) * count + number
-            for plan, (number, _) in zip(plans, shards, strict=True)
+            np.arange(len(cases)) * count + number
+            for cases, (number, _) in zip(each, shards, strict=True)
         ]
         found = found[np.argsort(np.concatenate(places), kind="stable")]
     return found.first_of_each()

@@ -16,9 +16,9 @@ import os
 import platform
 import socket
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
@@ -35,7 +35,7 @@ from viscotack.version import __version__
 
 from .case import CaseSettings
 from .cases import Cases, Names, Standing
-from .identity import digest, identity
+from .identity import digest, identity, permitted
 from .ordering import Ordered, in_order, names_of
 from .parts import Ledger, Parts, adopted, parquet, read_proven
 from .plan import Plan, restored_kind
@@ -88,28 +88,54 @@ class Store:
             If the folder holds cases of another kind, accuracy or shard, or of files of the user's
             own that have been edited since.
         """
-        folder = Path(folder)
-        header: dict[str, Any] = {
-            "format": FORMAT,
-            "format_version": FORMAT_VERSION,
+        stated = {
             "kind": plan.kind.name,
             "problem": plan.base,
             "settings": asdict(plan.settings),
             "rejected": plan.rejected,
             "repeated": plan.repeated,
             "shard": plan.shard,
+        } | facts
+        files = {f"plan{plan.suffix}": plan.source.encode()} if plan.source else {}
+        return cls._begun(Path(folder), stated, plan.cases, files, hold)
+
+    @classmethod
+    def merged(
+        cls, folder: Path, stores: Sequence["Store"], cases: Cases, hold: Hold, names: list[str]
+    ) -> "Store":
+        """Begin the store of a merge of campaigns, whose problem is not built for that.
+
+        Errors as of `create`; the caller holds the lock of the folder.
+        """
+        given = stores[0].provenance
+        stated = {name: given[name] for name in ("kind", "problem", "settings")}
+        stated |= {"rejected": given["rejected"], "repeated": given["repeated"]}
+        stated |= {"shard": None, "merging": names}
+        return cls._begun(folder, stated, cases, {}, hold)
+
+    @classmethod
+    def _begun(
+        cls,
+        folder: Path,
+        stated: dict[str, Any],
+        cases: Cases,
+        sources: dict[str, bytes],
+        hold: Hold | None,
+    ) -> "Store":
+        _refuse_links(folder)
+        header: dict[str, Any] = {
+            "format": FORMAT,
+            "format_version": FORMAT_VERSION,
             "runs": [],
             "parts": {name: Ledger().record() for name in _TABLES},
             "lost": [],
-        } | facts
+        } | stated
         if (folder / "provenance.json").exists():
             old = read_provenance(folder)
             _check_same(folder, old, header)
             old = _of_today(folder, old)
             header |= {name: old[name] for name in ("runs", "parts", "lost")}
-        files = {"cases.parquet": parquet(lambda: _tables_of_cases(plan.cases))}
-        if plan.source:
-            files[f"plan{plan.suffix}"] = plan.source.encode()
+        files = {"cases.parquet": parquet(lambda: _tables_of_cases(cases)), **sources}
         hashes = {name: hashlib.sha256(content).hexdigest() for name, content in files.items()}
         if hold is not None:
             hold.confirm()
@@ -141,14 +167,27 @@ class Store:
         """Kind, settings and runs, as in provenance.json."""
         return self._provenance
 
-    def plan(self) -> Plan:
-        """Return the stored plan, so that a run can go on without the file it came from."""
-        given = self._provenance
-        cases = self._cases()
+    def plan(self, own: Iterable[str | os.PathLike[str]] = ()) -> Plan:
+        """Build the stored plan, so that a run can go on without the file it came from.
+
+        Parameters
+        ----------
+        own : iterable of path
+            Python files that may be executed: those that the campaign was planned with.
+
+        Raises
+        ------
+        InputError
+            If it was planned with other files, or a file has been edited since.
+        """
+        given, settings = self._provenance, self.settings
+        files = permitted(settings.own, settings.own_sha256, map(Path, own), self.folder)
+        settings = replace(settings, own=files)
+        cases = self.cases()
         return Plan(
-            kind=restored_kind(given["kind"], given["problem"], cases.columns, self.settings.own),
+            kind=restored_kind(given["kind"], given["problem"], cases.columns, settings.nouns()),
             cases=cases,
-            settings=self.settings,
+            settings=settings,
             base=given["problem"],
             rejected=given["rejected"],
             repeated=given["repeated"],
@@ -160,6 +199,7 @@ class Store:
 
         Nothing is removed that a run of this campaign has not written.
         """
+        _refuse_links(self.folder)
         for name, parts in self._parts.items():
             parts.settle()
             if missing := parts.forget_missing():
@@ -245,12 +285,12 @@ class Store:
 
         Of two rows of a case the first counts: what was stored is not run again.
         """
-        cases, names = self._cases(), self._names("results")
+        cases, names = self.cases(), self._names("results")
         return self._in_order("results", cases, names, np.arange(len(names)))
 
     def ordered_failures(self) -> AbstractContextManager[Ordered]:
         """Hold the last failure of every case without a result, in the order of the plan."""
-        cases, names = self._cases(), self._names("failures")
+        cases, names = self.cases(), self._names("failures")
         each, places = np.unique(names, return_inverse=True)
         solved = self.standing(Cases(each, {})).done[places]
         return self._in_order("failures", cases, names, np.flatnonzero(~solved)[::-1])
@@ -279,7 +319,8 @@ class Store:
         lost = self._provenance.get("lost", [])
         return [f"{self.folder}/{words} was removed by somebody" for words in lost]
 
-    def _cases(self) -> Cases:
+    def cases(self) -> Cases:
+        """Read the planned cases; nothing is executed."""
         path = self.folder / "cases.parquet"
         try:
             hashes = self.files().get(path.name) or [str(hash_of(path))]
@@ -316,6 +357,16 @@ class Store:
         self.confirm()
         self._provenance = {**_of_today(self.folder, self._provenance), **changed}
         write_provenance(self.folder, self._provenance)
+
+
+def _refuse_links(folder: Path) -> None:
+    """Refuse a folder in which what is to be written lies elsewhere, behind a symbolic link."""
+    for name in (*_TABLES, "provenance.json", "cases.parquet", "plan.toml", "plan.csv"):
+        if (folder / name).is_symlink():
+            raise InputError(
+                f"{folder / name} is a symbolic link, and a campaign writes into its own folder "
+                "only; put the file or folder itself there"
+            )
 
 
 def table_of_cases(cases: Cases) -> Any:

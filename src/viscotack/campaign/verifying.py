@@ -44,7 +44,7 @@ def verify(store: Store) -> Verdict:
     if store.merging:
         wrong.append(f"{store.folder} holds a merge that has not ended; merge again into it")
     damaged = [*_wrong_files(store)]
-    cases = None if damaged else store.plan().cases
+    cases = None if damaged else store.cases()
     wrong += damaged
     files, rows = len(store.files()), 0
     strange: list[str] = []

@@ -119,5 +119,5 @@ def through_campaign(noun: Any, tables: Mapping[str, Mapping[str, Any]]) -> Iter
         own = f"with = {toml_value(files)}\n" if files else ""
         text = f'problem = "case.toml"\n{own}[[grid]]\nprotocol.speed = [1e-5, 2e-5]\n'
         write_whole(plan, text.encode())
-        cases = len(read_plan(plan).cases)
+        cases = len(read_plan(plan, own=files).cases)
     yield holds("campaign: a plan has a row for each value", cases == 2, "2 rows", cases)

@@ -151,7 +151,7 @@ def write_dataset(
         for row in store.results().to_pylist():
             if row["error_estimate"] is not None:  # else nobody knows what it is worth
                 rows[row["name"]] = row | {"accuracy": accuracy}
-    planned = [case.name for case in stores[0].plan().cases[:cases]]
+    planned = [case.name for case in stores[0].cases()[:cases]]
     solved = [rows[case] for case in planned if case in rows]
     kind = stores[0].provenance["kind"]
     columns = {

@@ -94,7 +94,7 @@ class DescribePlan(Operation):
         from viscotack.campaign import export, read_plan
         from viscotack.campaign.store import table_of_cases
 
-        plan = read_plan(self.plan, own=caller.own or None, temperature=self.temperature)
+        plan = read_plan(self.plan, own=caller.own, temperature=self.temperature)
 
         def write(target: Any) -> None:
             export(table_of_cases(plan.cases).drop_columns("name"), target)
@@ -264,6 +264,7 @@ class Run(Operation):
             end = run(
                 plan,
                 self.out,
+                own=caller.own,
                 workers=self.workers,
                 scheduler=self.scheduler,
                 security=security,
@@ -279,15 +280,12 @@ class Run(Operation):
         """Return the plan, of which only a shard may be wanted; None for that of the folder."""
         from viscotack.campaign import read_plan, shard_of
 
-        changed = asdict(self.settings) | {
-            "own": caller.own or None,
-            "temperature": self.temperature,
-        }
+        changed = asdict(self.settings) | {"temperature": self.temperature}
         if self.plan is None:
             if any(value is not None for value in changed.values()):
                 raise InputError("settings are those of the folder; give the plan to change limits")
             return None
-        plan = read_plan(self.plan, **changed)
+        plan = read_plan(self.plan, own=caller.own, **changed)
         return plan if self.shard is None else shard_of(plan, self.shard)
 
 
@@ -431,7 +429,7 @@ def _progress(store: Any) -> "Progress":
     """Return how many cases of a folder have a result or have failed."""
     from viscotack.campaign import Progress
 
-    standing = store.standing(store.plan().cases)
+    standing = store.standing(store.cases())
     return Progress(len(standing.done), int(standing.done.sum()), int(standing.failed.sum()))
 
 
