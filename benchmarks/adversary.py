@@ -1,6 +1,6 @@
 """An adversary that looks for the worst violation of an interval; simulation is the judge.
 
-`python benchmarks/adversary.py [--cases 120] [--seed 1] [--out FILE.jsonl] [--punch]`: an evolution
+`python -m benchmarks.adversary [--cases 120] [--seed 1] [--out FILE.jsonl] [--punch]`: an evolution
 over the whole range of the five inputs of a sphere, or of a punch on a layer. It begins with the
 cases of the sets that lie furthest out of their intervals, and with some at random; each round it
 varies those that were worst, simulates the new ones at an accuracy of 1e-3, and keeps what is
@@ -17,12 +17,12 @@ from pathlib import Path
 
 import numpy as np
 
+from training import train_punch as punches
+from training.rows import LEARNED, Rows, joined, read
 from viscotack import Groups, solve, summary
 from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import physics, punch_physics, store
 from viscotack.surrogate.model import Surrogate
-from viscotack.surrogate.training import train_punch as punches
-from viscotack.surrogate.training.rows import LEARNED, Rows, joined, read
 
 # Cases that are varied at a time, how far the first variations reach in halves of the range, and by
 # what they shrink each round.

@@ -17,7 +17,7 @@ from math import log, sqrt
 from pathlib import Path
 
 # Folders of Python files, and the folder that their imports start from.
-FOLDERS = {"src": "src", "tests": "tests", "replication": "."}
+FOLDERS = {"src": "src", "tests": "tests", "replication": ".", "training": "."}
 # It exports everything: an import of it alone says nothing about what a file uses.
 FACE = "viscotack"
 _PROGRAM = re.compile(r"from (viscotack[\w.]*) import (\w+)")

@@ -1,6 +1,6 @@
 """Write what the shipped surrogate of the punch is worth into docs/surrogate.md.
 
-`python benchmarks/punch_page.py [--write]`: errors and intervals on rows that nothing was learned
+`python -m benchmarks.punch_page [--write]`: errors and intervals on rows that nothing was learned
 from, worked out anew from the shipped file, by set, by rate and by modulus ratio; and speed here.
 `--starts` simulates instead how far the depth of the start matters, half a minute.
 """
@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
+from training.rows import Rows, joined
+from training.train_punch import LEARNED, faces, parts, read, scored
 from viscotack import predict, predict_table, solve, summary
 from viscotack.campaign.columns import KINDS
 from viscotack.surrogate import punch_physics as physics
 from viscotack.surrogate import store
-from viscotack.surrogate.training.rows import Rows, joined
-from viscotack.surrogate.training.train_punch import LEARNED, faces, parts, read, scored
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "surrogate.md"
 _BEGIN, _END = "<!-- punch -->", "<!-- end of punch -->"

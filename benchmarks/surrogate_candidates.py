@@ -1,6 +1,6 @@
 """Which kind of model learns the pull-off force best, from the same rows.
 
-`python benchmarks/surrogate_candidates.py [--rows 8000]`: each candidate learns some rows of
+`python -m benchmarks.surrogate_candidates [--rows 8000]`: each candidate learns some rows of
 `broad`, `thesis` and `chosen` drawn at random and is judged by the rows that the shipped surrogate
 did not learn from. A quarter of an hour on one core; docs/surrogate.md shows the table.
 """
@@ -12,16 +12,17 @@ from collections.abc import Callable
 from time import perf_counter
 
 import numpy as np
-from cases import power_law
 
+from training.fitting import Fit, Task, fit
+from training.make import kept_apart
+from training.rows import LEARNED, Rows, read
 from viscotack.surrogate import physics
 from viscotack.surrogate.contact import LEAST_WAY, between
 from viscotack.surrogate.network import Networks
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.training.fitting import Fit, Task, fit
-from viscotack.surrogate.training.make import kept_apart
-from viscotack.surrogate.training.rows import LEARNED, Rows, read
 from viscotack.theory import persson_brener, rate
+
+from .cases import power_law
 
 _HOW = Fit(hidden=(32, 32, 32), steps=3000)
 # A Gaussian process of more rows needs more memory and patience than the others together.

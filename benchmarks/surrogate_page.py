@@ -1,6 +1,6 @@
 """Write what the shipped surrogate is worth into docs/surrogate.md.
 
-`python benchmarks/surrogate_page.py [--table PATH] [--write]`: everything is worked out anew from
+`python -m benchmarks.surrogate_page [--table PATH] [--write]`: everything is worked out anew from
 the shipped files: errors and intervals on rows that nothing was learned from, by set and design and
 in the leaves of a tree that was grown on other rows; speed here; and how far it is from the
 published rows, of which tests/data has a sample. What took whole trainings, the bands left out, is
@@ -16,19 +16,20 @@ from time import process_time
 from typing import Any
 
 import numpy as np
-from cases import add_table, published_rows
 
+from training import drawing
+from training.calibration import Apart, covers, judged
+from training.make import parted
+from training.rows import LEARNED, Rows, certain, read
+from training.scores import scores
 from viscotack import Groups, predict
 from viscotack.materials import RetardationPowerLaw
 from viscotack.protocol import AtDepth, AtForce
 from viscotack.surrogate import physics, store
 from viscotack.surrogate.store import shipped
-from viscotack.surrogate.training import drawing
-from viscotack.surrogate.training.calibration import Apart, covers, judged
-from viscotack.surrogate.training.make import parted
-from viscotack.surrogate.training.rows import LEARNED, Rows, certain, read
-from viscotack.surrogate.training.scores import scores
 from viscotack.surrogate.trust import OF
+
+from .cases import add_table, published_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "surrogate.md"

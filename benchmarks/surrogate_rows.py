@@ -1,6 +1,6 @@
 """How many rows the surrogate needs, and what it says of materials that it has never seen.
 
-`python benchmarks/surrogate_rows.py [--steps 1500]`: one network of the force each, between the
+`python -m benchmarks.surrogate_rows [--steps 1500]`: one network of the force each, between the
 limits that the shipped surrogate has. First from more and more rows, drawn at random from those
 learned from, judged by rows of `fresh`. Then without whole materials: modulus ratio and exponent
 are cut into 6 x 6 cells, every sixth of which is left out at a time, in such a pattern that the
@@ -13,12 +13,13 @@ from __future__ import annotations
 import argparse
 
 import numpy as np
-from surrogate_candidates import between_limits
 
+from training.fitting import Fit
+from training.make import parted
+from training.rows import BANDS, Rows, band, certain, read
 from viscotack.surrogate import physics
-from viscotack.surrogate.training.fitting import Fit
-from viscotack.surrogate.training.make import parted
-from viscotack.surrogate.training.rows import BANDS, Rows, band, certain, read
+
+from .surrogate_candidates import between_limits
 
 ROWS = (1250, 2500, 5000, 10_000, 20_000)
 

@@ -247,15 +247,23 @@ def test_no_modules_import_each_other_in_a_circle():
     assert cycles(kept(graph(PACKAGE))) == []
 
 
-def test_what_answers_at_once_knows_nothing_of_how_it_was_made_or_is_handed_on():
-    rooms = ("surrogate.training", "surrogate.onnx")
+def test_no_module_imports_the_export_of_surrogates():
     links = {
-        name: {target for target in targets if target.startswith(rooms)}
+        name: {target for target in targets if target.startswith("surrogate.onnx")}
         for name, targets in graph(PACKAGE).items()
-        # the door by which it is trained
-        if not name.startswith((*rooms, "surrogate.__main__"))
+        if not name.startswith("surrogate.onnx")
     }
     assert {name: found for name, found in links.items() if found} == {}
+
+
+def test_the_package_imports_no_folder_of_the_checkout():
+    outside = {path.name for path in PACKAGE.parents[1].iterdir() if path.is_dir()} - {"src"}
+    assert {"training", "benchmarks", "replication"} <= outside
+    for name, path in modules(PACKAGE).items():
+        nodes = list(ast.walk(ast.parse(path.read_text())))
+        found = [alias.name for n in nodes if isinstance(n, ast.Import) for alias in n.names]
+        found += [n.module or "" for n in nodes if isinstance(n, ast.ImportFrom) and not n.level]
+        assert not {target.partition(".")[0] for target in found} & outside, name
 
 
 def test_the_check_itself_sees_an_upward_import_and_a_circle(tmp_path):

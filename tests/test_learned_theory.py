@@ -159,7 +159,7 @@ def test_it_comes_back_from_its_file_and_a_damaged_one_is_refused(tmp_path):
 
 
 def test_what_it_is_worth_is_measured_on_other_solids():
-    from viscotack.surrogate.training.short_range import measured
+    from training.short_range import measured
 
     rows = drawn(300, seed=5)
     rows = rows[answered(rows)]

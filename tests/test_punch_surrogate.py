@@ -169,7 +169,7 @@ def test_thin_and_thick_elastic_layers_are_those_of_theory():
 
 def test_both_limits_are_those_that_were_simulated():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.train_punch import LIMITS, read
+    from training.train_punch import LIMITS, read
 
     rows = read(LIMITS)
     tests = shipped().tests(rows.groups)
@@ -258,8 +258,8 @@ def test_a_simulation_lies_in_the_intervals(case):
 
 def test_rows_kept_apart_are_told_as_well_as_the_page_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.rows import joined
-    from viscotack.surrogate.training.train_punch import LEARNED, parts, read, scored
+    from training.rows import joined
+    from training.train_punch import LEARNED, parts, read, scored
 
     rows = joined([one.chosen(parts(len(one))[1]) for one in map(read, LEARNED)])
     found = scored(shipped(), rows)

@@ -80,8 +80,8 @@ def test_a_power_law_has_the_same_answer_through_either_door():
 
 def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+    from training.train_solids import CHOSEN, parts, read
     from viscotack import datasets
-    from viscotack.surrogate.training.train_solids import CHOSEN, parts, read
 
     tests = read(datasets.load("solids"))
     tests = tests.chosen(parts(tests)["judge"] & (tests.number < CHOSEN))
@@ -97,7 +97,7 @@ def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
 
 def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
     pytest.importorskip("threadpoolctl", reason="it comes with the extra train")
-    from viscotack.surrogate.training import likeness
+    from training import likeness
 
     tests, creep = likeness.made_up(150, 50)
     found = linear_solids.like(store.shipped("solids"), *tests, creep)
@@ -233,9 +233,9 @@ def test_what_is_no_number_of_a_solid_is_refused(number):
 
 def test_the_lists_of_the_set_begin_as_they_are_drawn_and_no_part_has_a_solid_of_another():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
+    from training.train_solids import parts, read
     from viscotack import datasets
     from viscotack.datasets.drawing_solids import rows
-    from viscotack.surrogate.training.train_solids import parts, read
 
     for file, first, seed in (("solids.csv", 0, 23), ("stretched.csv", STRETCHED, 24)):
         lines = datasets.plan_path("solids").with_name(file).read_text("utf-8").splitlines()

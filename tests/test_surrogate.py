@@ -374,9 +374,9 @@ def test_the_shipped_surrogate_is_as_good_as_was_asked():
 
 def test_intervals_hold_cases_of_designs_that_nothing_was_taken_from():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training import drawing
-    from viscotack.surrogate.training.calibration import covers, judged
-    from viscotack.surrogate.training.rows import certain, read
+    from training import drawing
+    from training.calibration import covers, judged
+    from training.rows import certain, read
 
     rows = read("unseen")
     designs, new = np.array(drawing.designs_of("unseen", rows.groups)), certain("unseen")
@@ -431,8 +431,8 @@ def test_the_slowest_retraction_is_elastic():
 
 def test_the_kept_rows_are_as_the_file_says():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
-    from viscotack.surrogate.training.make import parted
-    from viscotack.surrogate.training.scores import scores
+    from training.make import parted
+    from training.scores import scores
 
     found = scores(shipped(), parted()[1])
     said = store.facts()["scores"]["kept apart at random"]

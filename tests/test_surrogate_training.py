@@ -7,15 +7,15 @@ import pytest
 
 pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
 
+from training import train_punch as punches  # noqa: E402
+from training.fitting import Fit, Task, fit  # noqa: E402
+from training.refining import Stage  # noqa: E402
+from training.rows import BANDED, BANDS, band, read  # noqa: E402
+from training.train_punch import parts  # noqa: E402
 from viscotack.result import trajectory  # noqa: E402
 from viscotack.surrogate import contact, line, physics, store  # noqa: E402
 from viscotack.surrogate.network import added  # noqa: E402
 from viscotack.surrogate.store import shipped  # noqa: E402
-from viscotack.surrogate.training import train_punch as punches  # noqa: E402
-from viscotack.surrogate.training.fitting import Fit, Task, fit  # noqa: E402
-from viscotack.surrogate.training.refining import Stage  # noqa: E402
-from viscotack.surrogate.training.rows import BANDED, BANDS, band, read  # noqa: E402
-from viscotack.surrogate.training.train_punch import parts  # noqa: E402
 from viscotack.surrogate.trust import CONFIDENCES, OF, error_inputs  # noqa: E402
 
 SMALL = Fit(hidden=(10,), steps=300, scale=1.0)
@@ -119,7 +119,7 @@ def test_rows_without_weight_do_not_count():
 @pytest.mark.slow
 def test_a_shop_does_not_fit_twice(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from viscotack.surrogate.training.shop import Shop
+    from training.shop import Shop
 
     x = np.linspace(-1, 1, 50)[:, None]
     task = Task(x, x**2, np.ones_like(x))
@@ -157,7 +157,7 @@ def test_a_quantile_has_the_wanted_part_of_the_targets_below():
 
 
 def test_intervals_hold_the_share_that_they_promise():
-    from viscotack.surrogate.training.calibration import Apart, covers, levels_of, scored, untested
+    from training.calibration import Apart, covers, levels_of, scored, untested
 
     random = np.random.default_rng(0)
 
@@ -185,7 +185,7 @@ def test_intervals_hold_the_share_that_they_promise():
 @pytest.mark.slow
 def test_the_whole_training_runs_on_few_rows(tmp_path):
     pytest.importorskip("jax", reason="networks are fitted with JAX")
-    from viscotack.surrogate.training.make import make
+    from training.make import make
 
     found = make(tmp_path, workers=2, quick=True)
     assert len(found["bands kept apart"]) == 3 * BANDS

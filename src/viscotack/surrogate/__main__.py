@@ -1,6 +1,9 @@
-"""Train the surrogate that is shipped: ``python -m viscotack.surrogate --out DIR``."""
+"""Tell where the training is: ``python -m viscotack.surrogate`` trained before it moved."""
 
-from .training.make import main
+import sys
 
 if __name__ == "__main__":
-    main()
+    sys.exit(
+        "The package evaluates surrogates; the code that trains them is not installed with it. "
+        "Train from the root of a checkout of the repository: python -m training --out DIR"
+    )

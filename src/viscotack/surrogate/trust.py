@@ -3,7 +3,7 @@ r"""How wide an interval is: as far as errors reach there, times what was measur
 A network of its own says how far errors of log10 of force, of work, of the curve in tension and of
 log10 of the travel to zero force reach around a case, all but one in fifty, from its inputs, from
 how far the networks are apart and from how steeply the force climbs between its limits there
-(:mod:`viscotack.surrogate.training.calibration`). It is smooth, so that widths are. An interval is
+(:mod:`training.calibration`). It is smooth, so that widths are. An interval is
 as many times that wide as held the wanted share of cases from which no network had learned.
 """
 

@@ -9,13 +9,13 @@ import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
 from viscotack.result.trajectory import PRESSED
+from viscotack.surrogate import physics
+from viscotack.surrogate.contact import between
+from viscotack.surrogate.line import Curves
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks, together
+from viscotack.surrogate.physics import Array
 
-from .. import physics
-from ..contact import between
-from ..line import Curves
-from ..model import Surrogate
-from ..network import Networks, together
-from ..physics import Array
 from .fitting import Fit
 from .recipe import begin_forces
 from .rows import BANDED, BANDS, LEARNED, Rows, band

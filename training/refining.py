@@ -16,9 +16,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import physics
-from ..model import Surrogate
-from ..network import Networks, added, single, together
+from viscotack.surrogate import physics
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks, added, single, together
+
 from .fitting import Fit, Task
 from .recipe import fast_task, force_task, give_task, work_task
 from .rows import Rows

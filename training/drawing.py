@@ -1,6 +1,6 @@
 """Cases that no network learns from, drawn with fixed seeds: the sets `fresh` and `unseen`.
 
-``python -m viscotack.surrogate.training.drawing fresh --out fresh.csv`` writes a list, which
+``python -m training.drawing fresh --out fresh.csv`` writes a list, which
 ``python -m viscotack.datasets fresh`` runs. Any beginning of a list has cases of all its designs,
 as many for their number. Those of `fresh` measure how wide intervals must be; those of `unseen`
 judge, and nothing is taken from them.
@@ -13,9 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from viscotack.errors import InputError
-
-from .. import physics
-from ..physics import INPUTS, Array
+from viscotack.surrogate import physics
+from viscotack.surrogate.physics import INPUTS, Array
 
 # Digits of an input in a list of cases.
 _DIGITS = 6
@@ -103,7 +102,7 @@ def _rounded(groups: Array) -> Array:
 
 def main() -> None:
     """Draw and write."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.drawing")
+    parser = argparse.ArgumentParser(prog="python -m training.drawing")
     parser.add_argument("name", choices=tuple(LISTS), help="which list")
     parser.add_argument("--out", type=Path, required=True, help="CSV file")
     given = parser.parse_args()

@@ -1,6 +1,6 @@
 """The surrogate of the punch, from its datasets to its file and its scores.
 
-``python -m viscotack.surrogate.training.train_punch --out DIR``. First the two limits and the
+``python -m training.train_punch --out DIR``. First the two limits and the
 relaxed start are learned, then where between the limits the stress is, then work and curve; each is
 looked at twice, for what a network leaves over is smooth. Fitted networks are kept in the folder,
 so that a run that was stopped goes on. Of the rows one part is kept apart to measure how wide
@@ -26,13 +26,13 @@ from threadpoolctl import threadpool_limits
 from viscotack import datasets
 from viscotack.datasets.files import checksum
 from viscotack.problem.outputs import PLANE
+from viscotack.surrogate import punch_physics as physics
+from viscotack.surrogate import store
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks
+from viscotack.surrogate.punch_physics import Array, PunchContact, told
 from viscotack.version import __version__
 
-from .. import punch_physics as physics
-from .. import store
-from ..model import Surrogate
-from ..network import Networks
-from ..punch_physics import Array, PunchContact, told
 from .calibration import judged, trusted, worth
 from .fitting import Fit, Task
 from .recipe import scaled_task
@@ -176,7 +176,7 @@ def make(folder: Path, *, workers: int) -> dict[str, Any]:
 
 def main() -> None:
     """Train and say what it is worth."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.train_punch")
+    parser = argparse.ArgumentParser(prog="python -m training.train_punch")
     parser.add_argument("--out", type=Path, required=True, help="folder of networks and the file")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     given = parser.parse_args()

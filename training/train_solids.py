@@ -1,7 +1,7 @@
 """The surrogate of any linear solid, from the sets `solids` and `rough` to its file and its scores.
 
-``python -m viscotack.surrogate.training.train_solids --out DIR``: a network learns where the search
-for the power law that a solid is like begins (:mod:`viscotack.surrogate.training.likeness`); others
+``python -m training.train_solids --out DIR``: a network learns where the search
+for the power law that a solid is like begins (:mod:`training.likeness`); others
 learn from simulated tests how what that one leaves over bends force and work; then it is learned
 how far errors reach, and measured how many times that half an interval must be. Solids that are
 kept apart are never learned from, and the family of the stretched exponentials neither.
@@ -25,14 +25,14 @@ from viscotack import datasets
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import STRETCHED
 from viscotack.materials import spectrum
+from viscotack.surrogate import linear_solids, store
+from viscotack.surrogate.alike import TIMES, Alike
+from viscotack.surrogate.contact import between
+from viscotack.surrogate.linear_solids import BEND_INPUTS, SAMPLES, SolidContact
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks, together
 from viscotack.version import __version__
 
-from .. import linear_solids, store
-from ..alike import TIMES, Alike
-from ..contact import between
-from ..linear_solids import BEND_INPUTS, SAMPLES, SolidContact
-from ..model import Surrogate
-from ..network import Networks, together
 from . import calibration, likeness
 from .calibration import Apart, trusted, worth
 from .fitting import Fit, Task, fit_all
@@ -235,7 +235,7 @@ def tables(path: Path | None, *, rows: int | None) -> Any:
 
 def main() -> None:
     """Learn, measure, write and say what it is worth."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.train_solids")
+    parser = argparse.ArgumentParser(prog="python -m training.train_solids")
     parser.add_argument("--out", type=Path, required=True, help="folder of the file")
     parser.add_argument("--table", type=Path, help="Parquet file in place of the sets")
     parser.add_argument("--rows", type=int, help="only so many rows of each, from the beginning")

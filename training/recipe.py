@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .. import line, physics
-from ..model import Surrogate
-from ..network import Networks, together
-from ..physics import Array, SphereContact
+from viscotack.surrogate import line, physics
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import Networks, together
+from viscotack.surrogate.physics import Array, SphereContact
+
 from .fitting import Fit, Task
 from .rows import Rows
 from .shop import Shop

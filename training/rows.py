@@ -8,12 +8,11 @@ import numpy as np
 import numpy.typing as npt
 from scipy.interpolate import PchipInterpolator
 
+from viscotack import datasets
 from viscotack.arrays import Array
 from viscotack.problem.outputs import REVOLUTION, Kind
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE
-
-from ... import datasets
-from .. import line, physics
+from viscotack.surrogate import line, physics
 
 # Sets that force, work and curve are learned from; the fast limit is learned from one of its own.
 LEARNED, FAST = ("broad", "thesis", "chosen"), "fast"

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 
 from viscotack.files.whole import write_whole
+from viscotack.surrogate.contact import LEAST_WAY, STEEP
+from viscotack.surrogate.network import Networks, from_arrays
 
-from ..contact import LEAST_WAY, STEEP
-from ..network import Networks, from_arrays
 from .fitting import Fit, Task, fit
 
 

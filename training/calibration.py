@@ -19,10 +19,10 @@ from typing import Any
 import numpy as np
 
 from viscotack.arrays import Array
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import together
+from viscotack.surrogate.trust import CONFIDENCES, OF, Trust
 
-from ..model import Surrogate
-from ..network import together
-from ..trust import CONFIDENCES, OF, Trust
 from .fitting import Fit, Fits, Task
 from .rows import Rows
 from .scores import curve_errors, travel_errors

@@ -17,9 +17,8 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.materials import spectrum
-
-from .. import physics, store
-from ..alike import (
+from viscotack.surrogate import physics, store
+from viscotack.surrogate.alike import (
     DECADES,
     DOUBTS,
     SOUGHT,
@@ -31,9 +30,10 @@ from ..alike import (
     crept,
     left,
 )
-from ..contact import share
-from ..linear_solids import WIDEST, begin_inputs, bell
-from ..network import Networks
+from viscotack.surrogate.contact import share
+from viscotack.surrogate.linear_solids import WIDEST, begin_inputs, bell
+from viscotack.surrogate.network import Networks
+
 from .fitting import Fit, Task, fit
 
 Tests = tuple[Array, Array, Array]

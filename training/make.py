@@ -1,6 +1,6 @@
 """The surrogate that is shipped, from its datasets to its file and its scores.
 
-``python -m viscotack.surrogate --out DIR [--workers N]``. Fitted networks are kept in the folder,
+``python -m training --out DIR [--workers N]``. Fitted networks are kept in the folder,
 so that a run that was stopped goes on. On the same machine and libraries the result is the same to
 the last digit.
 """
@@ -20,11 +20,11 @@ import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
+from viscotack import datasets
 from viscotack.files.whole import write_whole
+from viscotack.surrogate import store
+from viscotack.version import __version__
 
-from ... import datasets
-from ...version import __version__
-from .. import store
 from . import drawing, rows, scores
 from .calibration import HOW, judged, trusted
 from .recipe import BANDED, QUICK, Recipe, learn, learn_limits
@@ -136,7 +136,7 @@ def _say(began: float, what: str) -> None:
 
 def main() -> None:
     """Train and say where the file is."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python -m training", description=__doc__)
     parser.add_argument("--out", type=Path, required=True, help="folder of the networks and files")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--quick", action="store_true", help="few rows, to see that it runs")

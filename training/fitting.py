@@ -13,9 +13,8 @@ from threadpoolctl import threadpool_limits
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
-
-from .. import contact
-from ..network import Networks
+from viscotack.surrogate import contact
+from viscotack.surrogate.network import Networks
 
 # How many steps the curvature is remembered for.
 _MEMORY = 40
@@ -187,7 +186,7 @@ def _jax() -> Any:
         import jax
     except ImportError:
         raise ModuleNotFoundError(
-            "training needs JAX; install it with pip install 'viscotack[train]'"
+            "training needs JAX; install it with pip install -e '.[train]'"
         ) from None
     jax.config.update("jax_enable_x64", True)
     jax.config.update("jax_platforms", "cpu")

@@ -1,6 +1,6 @@
 """The theory of a crack at the edge, learned: cases, answers, networks.
 
-``python -m viscotack.surrogate.training.short_range --out DIR``. Solids are drawn from a Sobol
+``python -m training.short_range --out DIR``. Solids are drawn from a Sobol
 sequence of modulus ratio and exponent; of each the cracks are solved once, and some cases with
 other Tabor numbers, starts and rates are marched at once. Answered solids are kept in the folder,
 so that a run that was stopped goes on.
@@ -24,13 +24,13 @@ from scipy.stats import qmc
 from viscotack.campaign.columns import KINDS
 from viscotack.errors import InputError
 from viscotack.methods.by_crack import CrackContact, crack_contacts
+from viscotack.surrogate import short_range, store
+from viscotack.surrogate.model import Surrogate
+from viscotack.surrogate.network import added, together
+from viscotack.surrogate.physics import INPUTS, PRELOAD, RATE, TABOR, Array
+from viscotack.surrogate.short_range import HIGH, LOW, ShortRangeContact
 from viscotack.version import __version__
 
-from .. import short_range, store
-from ..model import Surrogate
-from ..network import added, together
-from ..physics import INPUTS, PRELOAD, RATE, TABOR, Array
-from ..short_range import HIGH, LOW, ShortRangeContact
 from .fitting import Fit, Task, fit
 from .recipe import scaled_task
 
@@ -143,7 +143,7 @@ def measured(made: Surrogate, groups: Array, said: Array) -> tuple[Surrogate, di
 
 def main() -> None:
     """Ask the theory, learn, measure and write."""
-    parser = argparse.ArgumentParser(prog="python -m viscotack.surrogate.training.short_range")
+    parser = argparse.ArgumentParser(prog="python -m training.short_range")
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--solids", type=int, default=SOLIDS)
     given = parser.parse_args()
