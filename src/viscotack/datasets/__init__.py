@@ -1,7 +1,8 @@
 """Open datasets of simulated detachments, made by this package: load them, or make them again.
 
-``load("broad")`` is a table of pyarrow, which comes with ``pip install 'viscotack[campaign]'``; so
-are the other sets in NAMES. docs/datasets.md is their data card; the data are under
+``load("broad")`` is a table of pyarrow; so are the other sets in NAMES. pyarrow and the files, the
+distribution ``viscotack-data``, come with ``pip install 'viscotack[data]'``; in a checkout the
+files are found in its folder ``data``. docs/datasets.md is their data card; the data are under
 CC BY 4.0. ``python -m viscotack.datasets NAME --out DIR`` makes a set again.
 """
 

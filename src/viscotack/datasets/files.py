@@ -2,12 +2,14 @@
 
 import hashlib
 import json
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from viscotack.errors import InputError
+from viscotack.errors import InputError, NotInstalled
 from viscotack.files.arrow import arrow
 from viscotack.problem.older import upgraded_output
+from viscotack.version import __version__
 
 NAMES = (
     "thesis",
@@ -26,8 +28,12 @@ NAMES = (
     "punch_faces",
 )
 _HERE = Path(__file__).parent
-# Written beside the data by whoever makes them; the format of `sha256sum`.
+# Of the files of the distribution viscotack-data, in the format of `sha256sum`: data of another
+# version, or damaged ones, are refused.
 _CHECKSUMS = _HERE / "SHA256SUMS"
+# The data of a checkout, which need no installation.
+_CHECKOUT = _HERE.parents[2] / "data"
+_DISTRIBUTION, _PACKAGE = f"viscotack-data=={__version__}", "viscotack_data"
 # The key of the metadata of a Parquet file that holds what is said of the set as a whole.
 METADATA_KEY = b"viscotack dataset"
 
@@ -39,13 +45,15 @@ def path(name: str) -> Path:
     ------
     ValueError
         If there is no set of that name.
+    ModuleNotFoundError
+        Without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
     --------
     >>> path("broad").name
     'broad.parquet'
     """
-    return _HERE / f"{_known(name)}.parquet"
+    return _folder() / f"{_known(name)}.parquet"
 
 
 def plan_path(name: str) -> Path:
@@ -56,7 +64,7 @@ def plan_path(name: str) -> Path:
     >>> plan_path("broad").name
     'broad.toml'
     """
-    return _HERE / "plans" / f"{_known(name)}.toml"
+    return _folder() / "plans" / f"{_known(name)}.toml"
 
 
 def load(name: str) -> Any:
@@ -85,7 +93,7 @@ def load(name: str) -> Any:
     ValueError
         If there is no set of that name, or its file is not the one that was published.
     ModuleNotFoundError
-        Without pyarrow.
+        Without pyarrow; without the distribution ``viscotack-data``, outside a checkout.
 
     Examples
     --------
@@ -132,6 +140,21 @@ def _facts(schema: Any) -> dict[str, Any]:
     return facts | {"columns": columns}
 
 
+def _folder() -> Path:
+    """Folder of the files: that of the checkout, or of the installed distribution."""
+    checkout = _CHECKOUT / _PACKAGE
+    if checkout.is_dir():
+        return checkout
+    found = find_spec(_PACKAGE)
+    if found is None or found.origin is None:
+        raise NotInstalled(
+            f"the datasets are in the distribution {_DISTRIBUTION}, which is not installed; "
+            "install it with pip install 'viscotack[data]', or from a checkout with "
+            "pip install ./data"
+        )
+    return Path(found.origin).parent
+
+
 def _known(name: str) -> str:
     if name not in NAMES:
         raise InputError(f"there is no dataset {name!r}; there are {', '.join(NAMES)}")
@@ -144,8 +167,9 @@ def _checked(name: str) -> bytes:
     content = file.read_bytes()
     if checksum(content) != expected:
         raise InputError(
-            f"{file} is damaged: its SHA-256 is {checksum(content)}, published was {expected}; "
-            "install viscotack again"
+            f"{file} is damaged or of another version: its SHA-256 is {checksum(content)}, that of "
+            f"{_DISTRIBUTION} is {expected}; install it with "
+            f"pip install --force-reinstall '{_DISTRIBUTION}'"
         )
     return content
 
