@@ -353,7 +353,7 @@ def test_an_operation_in_a_file_of_its_own_is_known_to_every_door(folder, tmp_pa
     monkeypatch.setattr(
         viscotack.operations, "__path__", [*viscotack.operations.__path__, str(mine)]
     )
-    caches = (operations, cli.application, cli.command)
+    caches = (viscotack.operations.declared, cli.application, cli.command)
     for each in caches:
         each.cache_clear()
     try:

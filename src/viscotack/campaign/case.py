@@ -11,8 +11,7 @@ from time import perf_counter
 from typing import Annotated, Any, cast
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.bem import DEFAULT_ACCURACY, Accuracy
@@ -220,7 +219,7 @@ def curve(result: Result, found: PullOff) -> dict[str, Any]:
     travel = start - found.depth
     # a retraction that begins at its force minimum has no travel, and its curve is one point
     x, whole = (start - depths) / (travel or 1.0), float(travel > 0)
-    force = PchipInterpolator(x, steps)
+    force = scipy.interpolate.PchipInterpolator(x, steps)
     outputs, groups = result.problem.outputs, result.groups
     pull, width = outputs.of("force"), outputs.of("contact_radius")
     sign, scale = pull.factor(groups), width.factor(groups)
@@ -260,6 +259,6 @@ def retraction(result: Result) -> tuple[Array, Array, Array]:
     return result.depth[moved], result.force[moved], result.contact_radius[moved]
 
 
-def _crossing(force: PchipInterpolator, x: Array, last: int) -> float:
+def _crossing(force: "scipy.interpolate.PchipInterpolator", x: Array, last: int) -> float:
     """Return where the force is zero, between its last positive step and the next one."""
-    return cast(float, brentq(force, x[last], x[last + 1], xtol=1e-14))
+    return cast(float, scipy.optimize.brentq(force, x[last], x[last + 1], xtol=1e-14))

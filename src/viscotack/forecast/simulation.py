@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.arrays import Array
-from viscotack.campaign.case import curve
 from viscotack.errors import InputError, OutOfRange
 from viscotack.methods.crack_band import not_measured
 from viscotack.result import Outcome, Result
@@ -57,6 +56,8 @@ def by_simulation(asked: Question) -> Prediction:
 
 def _curve(result: Result, found: PullOff) -> Curves:
     """Return the unloading curve to the pull-off at the points of a predicted one."""
+    from viscotack.campaign.case import curve
+
     row, kind, groups = curve(result, found), result.problem.outputs, result.groups
 
     def column(name: str) -> Array:

@@ -163,11 +163,12 @@ def best(asked: Question, budget: float) -> Prediction:
     ValueError
         If there is no relaxed contact to pull off.
     """
-    from viscotack.campaign.columns import has_relaxed_contact
-
     refused: dict[str, str] = {}
     for found in _answers(LEARNED, asked, budget, refused):
         return found
+    # not above: it loads the simulation, which most answers do without
+    from viscotack.campaign.columns import has_relaxed_contact
+
     out = _reason_of_surrogates(asked, refused)
     if asked.relaxed_start and budget > AT_ONCE and not has_relaxed_contact(asked.problem):
         raise InputError(

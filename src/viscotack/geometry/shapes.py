@@ -13,7 +13,7 @@ from typing import Annotated, Any, ClassVar, Protocol
 
 import numpy as np
 import numpy.typing as npt
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.cards import Quantity, conform
@@ -264,7 +264,7 @@ def equivalent_radius(shape: Shape, length: float) -> float:
         return log(beta * float(shape.flank(beta)) ** 2 / length)
 
     try:
-        beta = 10 ** float(brentq(excess, *_DECADES, xtol=1e-15))  # type: ignore[arg-type]
+        beta = 10 ** float(scipy.optimize.brentq(excess, *_DECADES, xtol=1e-15))  # type: ignore[arg-type]
     except (ValueError, OverflowError, ZeroDivisionError):
         raise InputError(
             f"the flank of {shape} must rise from the tip outwards: no radius balances "

@@ -12,8 +12,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
-from scipy.constants import gas_constant
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -164,7 +163,9 @@ class Arrhenius:
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
         """Return log10 a_T at temperatures [K], in the shape given."""
         inverse = 1 / _temperatures(temperature) - 1 / self.reference_temperature
-        return like_input(self.activation_energy / (gas_constant * math.log(10)) * inverse)
+        return like_input(
+            self.activation_energy / (scipy.constants.gas_constant * math.log(10)) * inverse
+        )
 
     def at_reference(self, temperature: float) -> "Arrhenius":
         """Return the same law seen from another reference temperature [K]."""
@@ -274,7 +275,7 @@ class TabulatedShift:
         return replace(self, reference_temperature=temperature)
 
     def _along(self, temperature: Array) -> Array:
-        curve = PchipInterpolator(self.temperature, self.values)
+        curve = scipy.interpolate.PchipInterpolator(self.temperature, self.values)
         inside = np.clip(temperature, self.temperature[0], self.temperature[-1])
         return curve(inside) + curve.derivative()(inside) * (temperature - inside)
 

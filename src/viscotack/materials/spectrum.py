@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import kve, loggamma, rgamma
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.materials.modes import blockwise, maxwell
@@ -70,7 +70,10 @@ def crept(exponent: float, t: Array) -> Array:
     n = exponent
     late = np.clip(t, 0.1, 1e6)  # exp(-2000) is zero
     root = 2 * np.sqrt(late)
-    mean = np.array(1 - 2 * rgamma(n) * late ** (n / 2) * kve(n, root) * np.exp(-root))
+    mean = np.array(
+        1
+        - 2 * scipy.special.rgamma(n) * late ** (n / 2) * scipy.special.kve(n, root) * np.exp(-root)
+    )
     early = (t > 0) & (t < 0.1)
     if np.any(early):
         weights, u = nodes(n, smallest=float(np.min(t[early])) / 40, step=FINE)
@@ -104,10 +107,10 @@ def coarse_step(exponent: float, *, longest: float, tolerance: float) -> tuple[f
     n, t = exponent, longest
     s = np.arange(3.0, 30.0, 0.1)
     nu = n + 1j * s
-    G = np.exp(loggamma(nu).real) * rgamma(n)  # |Gamma(nu)|/Gamma(n)
+    G = np.exp(scipy.special.loggamma(nu).real) * scipy.special.rgamma(n)  # |Gamma(nu)|/Gamma(n)
     bound = G * (1 + 2.2 / (1 + 2 * n))
     if t < 1:
-        reflected = np.pi / np.abs(nu * np.sin(np.pi * nu)) / G * rgamma(n) ** 2
+        reflected = np.pi / np.abs(nu * np.sin(np.pi * nu)) / G * scipy.special.rgamma(n) ** 2
         early = np.exp(t / s) * (t**n * reflected + t * G / np.abs(nu - 1))
         bound = np.minimum(bound, early + G * crept(n, np.array([t])))
     error = 2.1 * bound  # 5 % for the higher harmonics

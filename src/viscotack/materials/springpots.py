@@ -20,7 +20,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import rgamma
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.cards import conform
@@ -102,7 +102,9 @@ class FractionalMaxwell:
         """Return the creep compliance [1/Pa] at times [s]: those of both add up."""
         T = _inside("time", time, "s") / self.tau0
         a, b = self.order, self.lower_order
-        return like_input((T**a * rgamma(1 + a) + T**b * rgamma(1 + b)) / self.modulus)
+        return like_input(
+            (T**a * scipy.special.rgamma(1 + a) + T**b * scipy.special.rgamma(1 + b)) / self.modulus
+        )
 
     def relaxation(self, time: npt.ArrayLike) -> Real:
         """Return the relaxation modulus [Pa] at times [s], positive."""
@@ -180,7 +182,10 @@ class FractionalKelvinVoigt:
         T = _inside("time", time, "s") / self.tau0
         a, b = self.order, self.lower_order
         # 1/Gamma(0) is 0: a dashpot has only the instant of the step
-        return like_input(self.modulus * (T**-a * rgamma(1 - a) + T**-b * rgamma(1 - b)))
+        return like_input(
+            self.modulus
+            * (T**-a * scipy.special.rgamma(1 - a) + T**-b * scipy.special.rgamma(1 - b))
+        )
 
     def creep(self, time: npt.ArrayLike) -> Real:
         """Return the creep compliance [1/Pa] at times [s], positive."""

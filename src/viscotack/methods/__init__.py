@@ -1,6 +1,20 @@
-"""Methods that answer a problem: simulation, or a contact whose edge is a steady crack."""
+"""Methods that answer a problem: simulation, or a contact whose edge is a steady crack.
+
+Functions that simulate are imported when they are first used: predictions do without them.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from .by_crack import CrackContact, crack_contact
-from .solving import has_start, solve
+
+if TYPE_CHECKING:
+    from .solving import has_start, solve
 
 __all__ = ["CrackContact", "crack_contact", "has_start", "solve"]
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        return getattr(import_module(".solving", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

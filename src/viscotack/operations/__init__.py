@@ -5,11 +5,14 @@ cards, and one method to a typed answer. The command line, HTTP, the page, study
 read those declarations; a module more is an operation more for all of them.
 """
 
+import ast
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import import_module
-from pkgutil import iter_modules
+from pathlib import Path
+from pkgutil import ModuleInfo, iter_modules
 from typing import Any
 
 from viscotack.errors import InputError
@@ -22,24 +25,85 @@ FOLDERS = "VISCOTACK_OPERATIONS"
 __path__ += [folder for folder in os.environ.get(FOLDERS, "").split(os.pathsep) if folder]
 
 
+@dataclass(frozen=True)
+class Declared:
+    """An operation whose module is not imported yet.
+
+    Attributes
+    ----------
+    word, help : str
+        Its word and docstring.
+    module : str
+        The module of this folder that declares it.
+    helps : mapping
+        Help of each command, where the operation has several.
+    """
+
+    word: str
+    help: str
+    module: str
+    helps: Mapping[str, str] = field(default_factory=dict)
+
+
 @lru_cache(maxsize=1)
-def operations() -> Mapping[str, type[Operation]]:
-    """Return all operations by their words, in the order of their modules and in that of each."""
-    found: dict[str, type[Operation]] = {}
-    for module in iter_modules(__path__):
-        if not module.ispkg:
-            declared = vars(import_module(f"{__name__}.{module.name}")).values()
-            for kind in declared:
-                if isinstance(kind, type) and issubclass(kind, Operation) and "word" in vars(kind):
-                    found[kind.word] = kind
+def declared() -> Mapping[str, Declared]:
+    """All operations by their words, sorted; those of this package without importing them.
+
+    The command line lists them and imports the one that is asked for: to import all takes ten
+    times as long as to import NumPy.
+    """
+    modules = (module for module in iter_modules(__path__) if not module.ispkg)
+    found = {each.word: each for module in modules for each in _declared_in(module)}
     return dict(sorted(found.items()))
 
 
+def _declared_in(module: ModuleInfo) -> Iterator[Declared]:
+    """Yield the operations of a module: by its text here, by import in a folder of the user."""
+    source = Path(__file__).with_name(f"{module.name}.py")
+    if not source.is_file():
+        for kind in _kinds(module.name):
+            yield Declared(kind.word, kind.__doc__ or "", module.name, kind.helps)
+        return
+    for node in ast.parse(source.read_bytes()).body:
+        if isinstance(node, ast.ClassDef):
+            values = {
+                each.target.id: each.value
+                for each in node.body
+                if isinstance(each, ast.AnnAssign) and isinstance(each.target, ast.Name)
+            }
+            if word := values.get("word"):
+                helps = values.get("helps")
+                yield Declared(
+                    ast.literal_eval(word),
+                    ast.get_docstring(node, clean=False) or "",
+                    module.name,
+                    {} if helps is None else ast.literal_eval(helps),
+                )
+
+
+def _kinds(module: str) -> Iterator[type[Operation]]:
+    """Yield the operations of a module, which is imported."""
+    for kind in vars(import_module(f"{__name__}.{module}")).values():
+        if isinstance(kind, type) and issubclass(kind, Operation) and "word" in vars(kind):
+            yield kind
+
+
+def operations() -> Mapping[str, type[Operation]]:
+    """Import all operations; by their words, sorted."""
+    return {word: operation(word) for word in declared()}
+
+
 def operation(word: str) -> type[Operation]:
-    """Return an operation by its word; InputError where there is none."""
-    if word not in operations():
-        raise InputError(f"there is no operation {word!r:.60}; there are {', '.join(operations())}")
-    return operations()[word]
+    """Import the operation of a word.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if word not in declared():
+        raise InputError(f"there is no operation {word!r:.60}; there are {', '.join(declared())}")
+    return next(kind for kind in _kinds(declared()[word].module) if kind.word == word)
 
 
 def ask(word: str, /, **given: Any) -> Answer:
@@ -77,4 +141,4 @@ def ask(word: str, /, **given: Any) -> Answer:
         raise respelled(error, kind) from None
 
 
-__all__ = ["Answer", "Caller", "Operation", "ask", "operation", "operations"]
+__all__ = ["Answer", "Caller", "Operation", "ask", "declared", "operation", "operations"]

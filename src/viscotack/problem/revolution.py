@@ -21,7 +21,7 @@ from math import exp, log
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
@@ -254,7 +254,7 @@ def _where(function: Any, value: float) -> float:
         return exp(_FAR)
     if function(exp(-_FAR)) >= value:
         return exp(-_FAR)
-    found = brentq(lambda x: log(max(function(exp(x)), 1e-300) / value), -_FAR, _FAR)
+    found = scipy.optimize.brentq(lambda x: log(max(function(exp(x)), 1e-300) / value), -_FAR, _FAR)
     return exp(float(found))  # type: ignore[arg-type]
 
 

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import CubicHermiteSpline
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -446,11 +445,11 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
     return float(edge[last] + scale * nearest), float(-scale * drive / travel.deriv()(nearest))
 
 
-def _curve(x: Array, y: Array) -> CubicHermiteSpline:
+def _curve(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
     """Return the cubics through the points, with slopes of second order."""
     slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
-    return CubicHermiteSpline(x, y, slope)
+    return scipy.interpolate.CubicHermiteSpline(x, y, slope)
 
 
-def _root(curve: CubicHermiteSpline, low: float, high: float) -> float:
-    return float(brentq(curve, low, high))  # type: ignore[arg-type]
+def _root(curve: "scipy.interpolate.CubicHermiteSpline", low: float, high: float) -> float:
+    return float(scipy.optimize.brentq(curve, low, high))  # type: ignore[arg-type]

@@ -23,7 +23,7 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import gamma, kv
+import scipy
 
 from viscotack.arrays import Array
 
@@ -55,11 +55,11 @@ def creep_of(groups: Array) -> Callable[[Array], Array]:
     [0.1, 1.0]
     """
     k, n = groups[:, physics.MODULUS_RATIO], groups[:, physics.EXPONENT]
-    front, half, glassy = 2 / gamma(n), n / 2, 1 - k
+    front, half, glassy = 2 / scipy.special.gamma(n), n / 2, 1 - k
 
     def creep(time: Array) -> Array:
         with np.errstate(invalid="ignore", over="ignore"):
-            left = front * time**half * kv(n, 2 * np.sqrt(time))
+            left = front * time**half * scipy.special.kv(n, 2 * np.sqrt(time))
         # at no time nothing has crept, and K is infinite
         return 1 - glassy * np.where(np.isfinite(left), np.minimum(left, 1.0), 1.0)
 

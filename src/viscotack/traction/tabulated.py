@@ -7,8 +7,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import PchipInterpolator, PPoly
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.cards import conform
 from viscotack.errors import InputError
@@ -87,10 +86,10 @@ class Tabulated:
         h, t = np.asarray(gap, dtype=float), np.asarray(traction, dtype=float)
         _check_number(len(h))
         _check(h, t)
-        curve = PchipInterpolator(h, t)
+        curve = scipy.interpolate.PchipInterpolator(h, t)
         after = int(np.argmax(t > 0))
         low, high = float(h[after - 1]), float(h[after])
-        h0: float = brentq(curve, low, high, xtol=_ROUND_OFF**2 * low)  # type: ignore[assignment]
+        h0: float = scipy.optimize.brentq(curve, low, high, xtol=_ROUND_OFF**2 * low)  # type: ignore[assignment]
         work = float(curve.integrate(h0, h[-1]))
         scaled = np.column_stack([h / h0, t * h0 / work])
         return cls(work, h0, tuple((float(x), float(y)) for x, y in scaled))
@@ -143,30 +142,30 @@ class Tabulated:
     def _curves(self) -> "_Curves":
         """The curve through the points, its derivative and its integrals, zero at the end."""
         gap, traction = np.array(self.points).T
-        inner = PchipInterpolator(gap, traction)
+        inner = scipy.interpolate.PchipInterpolator(gap, traction)
         # a first piece from gap 0, straight, and a last one without anything, its slope neither
         slope = float(inner(gap[0], 1))
         wall = np.array([0.0, 0.0, slope, traction[0] - slope * gap[0]])
         pieces = np.column_stack([wall, inner.c, np.zeros(4)])
-        curve = PPoly(pieces, np.concatenate([[0.0], gap, [gap[-1] + 1]]))
+        curve = scipy.interpolate.PPoly(pieces, np.concatenate([[0.0], gap, [gap[-1] + 1]]))
         energy = _zero_at_end(curve.antiderivative())
         return _Curves(curve, energy, _zero_at_end(energy.antiderivative()), curve.derivative())
 
 
 class _Curves(NamedTuple):
-    traction: PPoly
-    energy: PPoly
-    energy_so_far: PPoly
-    stiffness: PPoly
+    traction: "scipy.interpolate.PPoly"
+    energy: "scipy.interpolate.PPoly"
+    energy_so_far: "scipy.interpolate.PPoly"
+    stiffness: "scipy.interpolate.PPoly"
 
 
-def _zero_at_end(curve: PPoly) -> PPoly:
+def _zero_at_end(curve: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
     """Return the curve with zero at its end, summed from there: a wall may be worth 1e9 tails."""
     moved, step = curve.c.copy(), np.diff(curve.x)
     moved[-1] = 0.0
     gained = np.sum([c * step**power for power, c in enumerate(moved[::-1])], axis=0)
     moved[-1] = -np.cumsum(gained[::-1])[::-1]
-    return PPoly(moved, curve.x)
+    return scipy.interpolate.PPoly(moved, curve.x)
 
 
 def _check_number(points: int) -> None:

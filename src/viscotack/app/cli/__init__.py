@@ -19,7 +19,7 @@ def application() -> Any:
     The library of the command line takes a while to import; ``import viscotack`` never pays it.
     """
     from .commands import application
-    from .reading import add_commands
+    from .listing import add_commands
 
     add_commands()
     for name in _COMMANDS:

@@ -21,7 +21,6 @@ from viscotack.version import __version__
 application = typer.Typer(
     help="How hard must one pull? Detachment of soft, sticky, rate-dependent contacts.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},

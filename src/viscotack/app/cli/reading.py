@@ -11,10 +11,11 @@ from time import monotonic
 from typing import Annotated, Any, get_args
 
 import typer
+from typer.main import get_command
 
 from viscotack.errors import InputError
 from viscotack.files.text import harmless
-from viscotack.operations import operations
+from viscotack.operations import operation
 from viscotack.operations.declare.answer import Answer, Caller, Output
 from viscotack.operations.declare.cards import File, Number, Switch, Whole
 from viscotack.operations.declare.options import Here, Operation, Option, answered, options, take
@@ -22,18 +23,10 @@ from viscotack.operations.declare.questions import OF_FILE, Question
 from viscotack.operations.declare.statement import Stated, door_of
 from viscotack.operations.declare.wording import flag
 
-from .commands import AsJson, With, application, wrong_input
+from .commands import AsJson, With, wrong_input
 from .writing import Writing, check_files
 
 _SETTINGS = {"max_content_width": 100}
-_GROUPS = {
-    "simulate": "Simulate a contact.",
-    "theory": "Ask a closed form.",
-    "material": "From a laboratory's file to a material, and on to other programs.",
-    "test": "From the files of a tack tester or a microscope to pull-off forces and speeds.",
-    "identify": "From measured curves to the interface: work of adhesion and range of attraction.",
-    "campaign": "Run many problems: a plan, a folder that survives every stop, a table.",
-}
 # Seconds between two lines of progress.
 LINES = 10.0
 _CASE = (
@@ -41,34 +34,32 @@ _CASE = (
 )
 
 
-def add_commands() -> None:
-    """Add a command for each operation to the application."""
-    groups: dict[str, typer.Typer] = {}
-    for word, kind in operations().items():
-        for path, command, words in _commands(word, kind):
-            first, _, rest = path.partition(" ")
-            place = application
-            if rest:
-                if first not in groups:
-                    groups[first] = typer.Typer(
-                        help=_GROUPS.get(first, ""), no_args_is_help=True, rich_markup_mode=None
-                    )
-                    application.add_typer(groups[first], name=first)
-                place = groups[first]
-            place.command(rest or first, help=words, context_settings=_SETTINGS)(command)
+def command_of(word: str, name: str | None = None) -> Any:
+    """Make the command of an operation.
 
+    Parameters
+    ----------
+    word : str
+        Of the operation.
+    name : str, optional
+        Of the command where the operation has several: an indenter, or "case".
 
-def _commands(word: str, kind: type[Operation]) -> Iterator[tuple[str, Any, str]]:
-    """Yield the commands of an operation: path, function and help."""
-    help_ = cleandoc(kind.__doc__ or "")
-    card = next((o.card for o in options(kind) if isinstance(o.card, Stated)), None)
-    if card is None or card.spelling != "commands":
-        in_file = card is not None and card.spelling == "case"
-        yield word, _command(kind, "" if in_file else None), help_
-        return
-    for indenter in card.indenters:
-        yield f"{word} {indenter}", _command(kind, indenter), kind.helps[indenter]
-    yield f"{word} case", _command(kind, ""), kind.helps["case"]
+    Returns
+    -------
+    Command
+        As the library of the command line has it.
+    """
+    kind = operation(word)
+    if name is None:
+        card = next((o.card for o in options(kind) if isinstance(o.card, Stated)), None)
+        indenter = "" if card is not None and card.spelling == "case" else None
+        words = kind.__doc__ or ""
+    else:
+        indenter, words = "" if name == "case" else name, kind.helps[name]
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    last = (name or word).rpartition(" ")[2]
+    alone.command(last, help=cleandoc(words), context_settings=_SETTINGS)(_command(kind, indenter))
+    return get_command(alone)
 
 
 def _command(kind: type[Operation], indenter: str | None) -> Callable[..., None]:

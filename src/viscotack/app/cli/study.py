@@ -8,10 +8,8 @@ from typer import Argument
 from viscotack.errors import InputError
 from viscotack.operations import operation
 from viscotack.operations.declare.options import respelled
-from viscotack.operations.declare.study import read_study
 
 from .commands import AsJson, With, application, wrong_input
-from .reading import carry_out, checked
 
 
 @application.command("study")
@@ -36,7 +34,10 @@ def study_command(
     Example: viscotack study lens.toml
     """
     with wrong_input():
+        from viscotack.operations.declare.study import read_study
         from viscotack.problem.nouns import own_nouns
+
+        from .reading import carry_out, checked
 
         also = own_nouns(own or ())
         asked = read_study(file, known=operation, usual="identify rates", also=also)

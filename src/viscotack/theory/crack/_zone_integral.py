@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import dawsn
+import scipy
 
 from viscotack.arrays import Array
 
@@ -85,7 +85,7 @@ def kernel(y: Array) -> Array:
         half = np.diff(s) / 2
         at = s[:-1, None] + half[:, None] * (1 + _NODES)
         turn = np.exp(0.25j * np.pi)
-        integral = np.cumsum(dawsn(turn * at) @ _WEIGHTS * half) * turn
+        integral = np.cumsum(scipy.special.dawsn(turn * at) @ _WEIGHTS * half) * turn
         Q[middle] = np.real(2 * integral / (1j * y[middle]))
     # without the oscillations: they fall as y^(-3/2), and add up to less than y^(-5/2)
     Q[large] = np.pi / (4 * y[large]) + 1 / (4 * y[large] ** 2)

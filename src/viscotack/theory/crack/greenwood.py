@@ -20,10 +20,11 @@ Maghami, PhD thesis (2025), chapter 3, published as doi:10.1016/j.engfracmech.20
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.special import dawsn
+import scipy
 
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
@@ -132,12 +133,14 @@ _TAIL = np.array(
 def _dawson_integral(z: Any) -> Any:
     """Return the integral of Dawson's function from 0 to z by quadrature."""
     nodes, weights = np.polynomial.legendre.leggauss(48)
-    return z / 2 * (dawsn(z[..., None] / 2 * (nodes + 1)) @ weights)
+    return z / 2 * (scipy.special.dawsn(z[..., None] / 2 * (nodes + 1)) @ weights)
 
 
-_MIDDLE = np.polynomial.Chebyshev.interpolate(
-    _dawson_integral, 60, domain=[np.sqrt(_SMALL), np.sqrt(_LARGE)]
-)
+@lru_cache(maxsize=1)
+def _middle() -> Any:
+    """Return the polynomial of the integral; made at its first use, for it loads scipy.special."""
+    ends = [np.sqrt(_SMALL), np.sqrt(_LARGE)]
+    return np.polynomial.Chebyshev.interpolate(_dawson_integral, 60, domain=ends)
 
 
 def _response(alpha: Any) -> tuple[Any, Any]:
@@ -148,7 +151,7 @@ def _response(alpha: Any) -> tuple[Any, Any]:
     done[small] = np.polynomial.polynomial.polyval(alpha[small], _SERIES)
     rest[small] = 1 - done[small]
     a = alpha[middle]
-    rest[middle] = 2 / a * _MIDDLE(np.sqrt(a))
+    rest[middle] = 2 / a * _middle()(np.sqrt(a))
     a = alpha[large]
     tail = np.polynomial.polynomial.polyval(1 / a, _TAIL)
     rest[large] = 2 / a * ((np.log(4 * a) + _EULER) / 4 - tail)

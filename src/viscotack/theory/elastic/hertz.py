@@ -11,7 +11,7 @@ Source: Hertz (1882), doi:10.1515/crll.1882.92.156.
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import betainc, spherical_jn
+import scipy
 
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
 
@@ -112,7 +112,7 @@ def surface_displacement(position: Values, *, contact_radius: Values, radius: Va
     r = at_least(0, _SIGN, position=position)
     s = a / np.where(r > a, r, np.where(a > 0, a, 1.0))
     # The incomplete beta function is asin(s) - s sqrt(1 - s^2) without its cancellation far away.
-    outside = a**2 * 2 * np.arcsin(s) - r**2 * (np.pi / 2) * betainc(1.5, 0.5, s**2)
+    outside = a**2 * 2 * np.arcsin(s) - r**2 * (np.pi / 2) * scipy.special.betainc(1.5, 0.5, s**2)
     return plain(np.where(r <= a, (2 * a**2 - r**2) / (2 * R), outside / (np.pi * R)))
 
 
@@ -135,4 +135,4 @@ def gap(position: Values, *, contact_radius: Values, radius: Values) -> Number:
     r = at_least(0, _SIGN, position=position)
     x = 2 * np.arctan2(np.sqrt(np.maximum((r - a) * (r + a), 0)), a)
     # sin x - x cos x = x^2 j1(x), with the spherical Bessel function
-    return plain(r**2 / (2 * np.pi * R) * x**2 * spherical_jn(1, x))
+    return plain(r**2 / (2 * np.pi * R) * x**2 * scipy.special.spherical_jn(1, x))

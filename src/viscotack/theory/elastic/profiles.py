@@ -21,7 +21,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.special import gammaln
+import scipy
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, at_least, plain, positive
@@ -237,7 +237,14 @@ def _checked(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any) -
         contact_modulus=contact_modulus,
         work_of_adhesion=work,
     )
-    return q, A * np.sqrt(np.pi) * np.exp(gammaln(1 + q / 2) - gammaln(0.5 + q / 2)), E, w
+    return (
+        q,
+        A
+        * np.sqrt(np.pi)
+        * np.exp(scipy.special.gammaln(1 + q / 2) - scipy.special.gammaln(0.5 + q / 2)),
+        E,
+        w,
+    )
 
 
 def _end(exponent: Any, coefficient: Any, contact_modulus: Any, work: Any, factor: float) -> Point:

@@ -17,7 +17,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
+import scipy
 
 from viscotack.geometry import (
     Body,
@@ -197,7 +197,9 @@ def largest_radius(
     if not below.size or below[-1] == radii.size - 1:
         return None
     bracket = radii[below[-1]], radii[below[-1] + 1]
-    found: Any = brentq(lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * length)
+    found: Any = scipy.optimize.brentq(
+        lambda a: function(a) - value, *bracket, xtol=_TOLERANCE * length
+    )
     return float(found)
 
 
@@ -221,7 +223,7 @@ def _length(shape: Shape, solid: dict[str, float]) -> float:
 
 def _least(function: Callable[[Any], Any], length: float) -> float:
     """Return the radius at which a function that falls and then grows is least."""
-    found: Any = minimize_scalar(
+    found: Any = scipy.optimize.minimize_scalar(
         lambda x: function(length * np.exp(x)), bounds=(-5.0, 5.0), method="bounded"
     )
     return length * float(np.exp(found.x))

@@ -17,7 +17,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -115,7 +115,7 @@ def _smooth_kernel(longest: float, base: Base) -> Any:
     rest = weights * (base.transfer(u) - 1 + np.exp(-2 * u)) / u
     x = np.arange(-8, int(np.ceil(longest / _SPACING)) + 9) * _SPACING
     values = np.log(x**2 + 4) / 2 + np.cos(np.multiply.outer(x, u)) @ rest
-    return make_interp_spline(x, values, k=_SPLINE)
+    return scipy.interpolate.make_interp_spline(x, values, k=_SPLINE)
 
 
 def _state(ratio: float, smooth: Any) -> tuple[float, float]:

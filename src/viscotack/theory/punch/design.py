@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, plain, positive
@@ -137,7 +137,7 @@ def _thickness(wanted: Values, pad: Pad, stress: Callable[[float], Any], thickes
         def miss(log_b: float) -> float:
             return float(np.log(stress(float(np.exp(log_b))) / value))
 
-        root: Any = brentq(miss, thin, thick, xtol=_TOLERANCE)
+        root: Any = scipy.optimize.brentq(miss, thin, thick, xtol=_TOLERANCE)
         return float(np.exp(root))
 
     return plain(np.vectorize(solved, otypes=[float])(sigma))

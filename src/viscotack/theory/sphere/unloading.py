@@ -30,8 +30,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import LSODA
-from scipy.interpolate import CubicSpline
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -171,7 +170,7 @@ def retraction(
         # neither a waiting edge nor a running one makes this large
         return [-1 / (1 + math.exp(min(-log_speed(math.log(gamma - 1)), _FREE)) / unit)]
 
-    solver = LSODA(
+    solver = scipy.integrate.LSODA(
         motion,
         0.0,
         [start],
@@ -218,7 +217,7 @@ def _tabulated(law: CrackLaw) -> Callable[[float], float]:
     """Return that function of a law with dimensionless speeds."""
     k = law.material.modulus_ratio
     speeds, odds = _table(law)
-    spline = CubicSpline(odds, speeds)
+    spline = scipy.interpolate.CubicSpline(odds, speeds)
     # plain numbers: the function is asked for one at a time, thousands of times
     knots, cubics = odds.tolist(), spline.c.T.tolist()
     slowest, fastest, slope = float(speeds[0]), float(speeds[-1]), float(spline(odds[0], 1))

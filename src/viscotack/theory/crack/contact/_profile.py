@@ -14,8 +14,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
-from scipy.special import gammaln
+import scipy
 
 from viscotack.errors import InputError
 from viscotack.theory.elastic import indenter
@@ -32,15 +31,19 @@ class Profile:
         q = 2.0 if shape.word == "sphere" else getattr(shape, "exponent", None)
         if q is not None:
             # r^q/q, of slope 1 at distance 1
-            factor = np.exp(gammaln(q / 2) - gammaln((q + 1) / 2)) * np.sqrt(np.pi) / 2
+            factor = (
+                np.exp(scipy.special.gammaln(q / 2) - scipy.special.gammaln((q + 1) / 2))
+                * np.sqrt(np.pi)
+                / 2
+            )
             self._power = float(q), float(factor)
             return
         self._power = None
         s = np.geomspace(*_RADII, int(_ROWS * np.log10(_RADII[1] / _RADII[0])))
         depth = np.asarray(indenter.bare_depth(s, shape=shape))
-        self._depth = CubicSpline(np.log(s), np.log(depth))
+        self._depth = scipy.interpolate.CubicSpline(np.log(s), np.log(depth))
         self._inner = (s[0], depth[0] * s[0])
-        total = CubicSpline(np.log(s), depth * s).antiderivative()
+        total = scipy.interpolate.CubicSpline(np.log(s), depth * s).antiderivative()
         self._total = lambda a: total(np.log(a)) + self._inner[1] / 2
 
     def depth(self, radius: Any) -> Any:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from scipy.interpolate import NdBSpline, make_interp_spline
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -217,15 +217,15 @@ class NeighbourEdges:
         return self._edges.interface_work(speed)
 
 
-def lattice_spline(axes: Sequence[Array], values: Array) -> NdBSpline:
+def lattice_spline(axes: Sequence[Array], values: Array) -> scipy.interpolate.NdBSpline:
     """Return the cubic spline through values on a lattice, whose axes are their first ones."""
     knots, coefficients = [], values
     for i, axis in enumerate(axes):
-        one = make_interp_spline(axis, coefficients, k=_ORDER, axis=i)
+        one = scipy.interpolate.make_interp_spline(axis, coefficients, k=_ORDER, axis=i)
         # the spline has its axis first
         coefficients = np.moveaxis(one.c, 0, i)
         knots.append(one.t)
-    return NdBSpline(tuple(knots), coefficients, _ORDER)
+    return scipy.interpolate.NdBSpline(tuple(knots), coefficients, _ORDER)
 
 
 def _tabulated(crack: SteadyCrack) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 from threadpoolctl import ThreadpoolController
 
 from viscotack.arrays import Array
@@ -215,5 +215,9 @@ class Branch:
         if self._splines is None or self._splines[0] != len(self._odds):
             x, y = np.array(self._log_speed), np.array(self._odds)
             every = np.unique(np.append(np.arange(0, x.size, 2), x.size - 1))
-            self._splines = (x.size, CubicSpline(x, y), CubicSpline(x[every], y[every]))
+            self._splines = (
+                x.size,
+                scipy.interpolate.CubicSpline(x, y),
+                scipy.interpolate.CubicSpline(x[every], y[every]),
+            )
         return self._splines[1:]

@@ -23,7 +23,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -101,7 +101,10 @@ class Grown:
         gained = np.array(self._log_gained)
         share = np.exp(np.interp(between, y, gained - np.logaddexp(0, gained)))
         for values, weight in ((gained, share), (np.array(self._log_work), share)):
-            fine, coarse = CubicSpline(y, values), CubicSpline(y[every], values[every])
+            fine, coarse = (
+                scipy.interpolate.CubicSpline(y, values),
+                scipy.interpolate.CubicSpline(y[every], values[every]),
+            )
             worst += weight * np.abs(fine(between) - coarse(between))
         at = np.interp(between, y, y - np.array(self._log_work))
         return stated(worst, at, log_speed)
@@ -213,8 +216,8 @@ class Grown:
         if self._table is None or self._table[0] != len(self._log_y):
             y = np.array(self._log_y)
             fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
-            speed = fine - CubicSpline(y, self._log_work)(fine)
-            gained = CubicSpline(y, self._log_gained)(fine)
+            speed = fine - scipy.interpolate.CubicSpline(y, self._log_work)(fine)
+            gained = scipy.interpolate.CubicSpline(y, self._log_gained)(fine)
             rising = np.maximum.accumulate(speed), np.maximum.accumulate(gained)
             self._table = (y.size, *rising)
         return self._table[1:]

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import wofz
+import scipy
 
 from viscotack.arrays import Array
 
@@ -75,7 +75,7 @@ def lagged_far(mesh: Mesh, length: float) -> Array:
     """Return the lagging d of the far field of amplitude 1 at the nodes."""
     z = mesh.x + 1j * mesh.width
     root = np.sqrt(np.pi * length) / 2
-    return np.real(np.sqrt(z) + 1j * root * wofz(np.sqrt(z / length)))
+    return np.real(np.sqrt(z) + 1j * root * scipy.special.wofz(np.sqrt(z / length)))
 
 
 def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:

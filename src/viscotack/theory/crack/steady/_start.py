@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -39,7 +39,7 @@ def pinned(traction: Traction) -> Law:
     def half_left(gap: float) -> float:
         return float(traction.energy(gap)) + 0.5
 
-    gap = brentq(half_left, 1.0, _FARTHEST_GAP)
+    gap = scipy.optimize.brentq(half_left, 1.0, _FARTHEST_GAP)
     return Law(traction.traction, traction.energy, traction.stiffness, float(gap))  # type: ignore[arg-type]
 
 

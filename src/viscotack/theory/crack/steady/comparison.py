@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
@@ -119,5 +119,5 @@ def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
         found = compared(crack, speed, strength_ratio=float(np.exp(log_ratio)))
         return float(np.max(np.abs(found.off("persson_brener"))))
 
-    found: Any = minimize_scalar(misses, bounds=np.log(_RATIOS), method="bounded")
+    found: Any = scipy.optimize.minimize_scalar(misses, bounds=np.log(_RATIOS), method="bounded")
     return float(np.exp(found.x)), float(found.fun)

@@ -1,0 +1,71 @@
+"""How a command starts: it imports what it needs, and its words complete in a shell."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from viscotack.operations import Declared, declared, operations
+
+PREDICT = "predict sphere --tabor 1 --modulus-ratio 0.1 --exponent 0.6 --preload 1 --rate 10"
+# Never imported by a list of commands; never by the help of a command; never by a prediction.
+LISTED = ("numpy", "scipy", "pint", "matplotlib", "rich", "pyarrow", "viscotack.geometry")
+HELPED = ("scipy.linalg", "scipy.optimize", "scipy.special", "pint", "matplotlib", "viscotack.bem")
+PREDICTED = (*HELPED, "scipy.interpolate", "scipy.integrate", "viscotack.campaign")
+
+
+def loaded(arguments, modules):
+    """Run a command in a fresh interpreter; return which of these modules it has imported."""
+    code = (
+        "import atexit, sys\n"
+        "from viscotack.app.cli import main\n"
+        f"atexit.register(lambda: print([m for m in {modules} if m in sys.modules], "
+        "file=sys.stderr))\n"
+        f"main({arguments.split()})"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    return done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "modules"),
+    [
+        ("--help", LISTED),
+        ("--version", LISTED),
+        ("theory --help", LISTED),
+        ("predict --help", HELPED),
+        ("simulate sphere --help", HELPED),
+        (PREDICT, PREDICTED),
+    ],
+)
+def test_a_command_imports_nothing_that_it_does_not_need(arguments, modules):
+    assert loaded(arguments, modules) == "[]"
+
+
+def test_operations_are_listed_as_their_modules_declare_them():
+    imported = {
+        word: Declared(word, kind.__doc__, kind.__module__.rpartition(".")[2], kind.helps)
+        for word, kind in operations().items()
+    }
+    assert len(imported) > 20
+    assert declared() == imported
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["viscotack", "th"], ["theory"]),
+        (["viscotack", "theory", "j"], ["jkr"]),
+        (["viscotack", "simulate", "sphere", "--tab"], ["--tabor"]),
+    ],
+)
+def test_words_are_completed_in_a_shell(words, expected):
+    environment = os.environ | {
+        "_VISCOTACK_COMPLETE": "complete_bash",
+        "COMP_WORDS": " ".join(words),
+        "COMP_CWORD": str(len(words) - 1),
+    }
+    command = [sys.executable, "-c", "from viscotack.app.cli import main; main()"]
+    done = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    assert done.stdout.split() == expected
