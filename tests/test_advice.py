@@ -389,7 +389,7 @@ def test_theory_jkr_and_maugis_say_what_the_functions_say(tmp_path, capsys):
         maugis.pull_off_force(**case, strength=1e5), rel=1e-12, abs=0
     )
     assert exit_status(["theory", "jkr", *JKR]) == 0
-    assert "pull_off_force_N" in capsys.readouterr().out
+    assert "pull_off_force                              235.62 uN\n" in capsys.readouterr().out
 
 
 def test_theory_maugis_of_a_tabor_number_is_that_of_a_sphere_in_si(tmp_path, capsys):

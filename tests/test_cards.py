@@ -42,7 +42,7 @@ def test_a_number_out_of_its_range_is_refused_with_unit_range_and_cure():
             conform(self)
 
     assert Wall(1).height == 1.0 and isinstance(Wall(1).height, float)
-    with pytest.raises(ValueError, match=r"height must lie in .0, 2., got 3.0 m; build two walls"):
+    with pytest.raises(ValueError, match=r"height must lie in .0, 2., got 3 m; build two walls"):
         Wall(3)
     with pytest.raises(ValueError, match=r"height must be a number in m, got '1 m'; .*parse"):
         Wall("1 m")

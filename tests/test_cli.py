@@ -408,7 +408,7 @@ def test_a_case_in_si_comes_from_a_file(fake, capsys, tmp_path):
     assert exit_status([*SPHERE, path]) == 0
     assert fake["problem"] == LENS
     out = capsys.readouterr().out
-    assert "= 0.003725 N" in out
+    assert "= 3.725 mN" in out
     path.write_text(POWER_LAW.replace("5.19 mm", "5.19"))
     assert "[sphere] radius: '5.19' has no unit" in wrong([*SPHERE, path], capsys)
 

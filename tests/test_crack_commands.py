@@ -1,6 +1,7 @@
 """The steady crack at the command line: JSON, SI, words, wrong input."""
 
 import json
+import re
 
 import pytest
 
@@ -98,9 +99,9 @@ def test_a_contact_in_si_is_told_in_si_and_in_words(capsys):
     command = ["theory", "crack-contact", *problem, "--rate", 100, *scales]
     assert exit_status(command) == 0
     words = capsys.readouterr().out
-    assert "pull_off_force_N" in words
     assert exit_status([*command, "--json"]) == 0
     answer = json.loads(capsys.readouterr().out)
+    assert re.search(rf"^  pull_off_force +{answer['pull_off_force_N'] * 1e3:.5g} mN$", words, re.M)
     # 1.5 pi R dg with dg = (mu^3 E*^2 h0^3/R)^(1/2)
     work = (500**3 * 4e12 * 1e-27 / 1e-3) ** 0.5
     unit = 1.5 * 3.141592653589793 * 1e-3 * work

@@ -165,7 +165,7 @@ def test_the_command_says_what_the_function_says(tmp_path, capsys):
     fit = identify_slow(slow_test(cycle, 5e-3), models=["jkr", "dmt"])
     assert fit.best.work_of_adhesion == answer["fits"][0]["work_of_adhesion_J_m2"]
     assert exit_status(arguments) == 0
-    assert "work of adhesion 0.15" in capsys.readouterr().out
+    assert "work of adhesion 15" in capsys.readouterr().out
     assert exit_status([*arguments, "--cycle", "2"]) == 2
     assert "--cycle must be 1 to 1" in capsys.readouterr().err
     assert exit_status([*arguments, "--contact-modulus", "2 MPa"]) == 2

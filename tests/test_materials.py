@@ -58,7 +58,7 @@ def test_glassy_modulus_and_time_are_checked(kind):
     numbers = STANDARD if kind is StandardSolid else POWER_LAW
     with pytest.raises(ValueError, match="999999 Pa < 1e.06 Pa; perhaps the two are exchanged"):
         kind(**(numbers | dict(glassy_modulus=999999)))
-    with pytest.raises(ValueError, match="tau0 must be positive, got -0.1 s"):
+    with pytest.raises(ValueError, match="tau0 must be positive, got -100 ms"):
         kind(**(numbers | dict(tau0=-0.1)))
     with pytest.raises(ValueError, match="glassy_modulus must be finite"):
         kind(**(numbers | dict(glassy_modulus=math.nan)))

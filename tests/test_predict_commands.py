@@ -14,6 +14,7 @@ from viscotack import methods
 from viscotack.app.cli import reading
 from viscotack.operations.parts import predict_table
 from viscotack.surrogate import physics, store, trust
+from viscotack.units import readable
 
 SPHERE = "sphere --tabor 3.24 --modulus-ratio 0.1 --exponent 0.8 --preload 73".split()
 RATE = ["--rate", "316.23"]
@@ -92,9 +93,9 @@ def test_words_have_the_interval_and_si(lens, capsys):
     out = capsys.readouterr().out
     found = answer(capsys, lens)
     assert out.startswith("every input lies in the range")
-    assert f"= {found['pull_off_force_N']:.4g} N" in out
+    assert f"= {readable(found['pull_off_force_N'], 'N')}" in out
     low, high = found["interval_N"]
-    assert "90 % between" in out and f"= {low:.4g} to {high:.4g} N" in out
+    assert "90 % between" in out and f"= {readable(low, 'N', to=high)}" in out
     assert "work to pull-off" in out and "contact radius there" in out
 
 

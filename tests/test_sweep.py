@@ -74,7 +74,7 @@ def test_the_command_and_python_give_the_same_rows(case, tmp_path, capsys):
     assert [row["pull_off_force_N"] for row in written] == [*map(str, forces), ""]
     assert written[2]["reason"] == bad["reason"]
     words = str(asked).splitlines()
-    assert f"pull-off force {forces[0]:.5g} N" in words[0] and "must be positive" in words[2]
+    assert f"pull-off force {forces[0] * 1e6:.5g} uN" in words[0] and "must be positive" in words[2]
     assert words[3] == "2 of 3 cases done, 1 failed"
 
 

@@ -35,7 +35,11 @@ def test_a_test_is_read_and_written_in_every_form(probe, tmp_path, capsys):
     assert picture.stat().st_size > 10_000
     assert exit_status(["test", "read", *probe]) == 0
     words = capsys.readouterr().out
-    assert "pull-off 0.0035" in words and "1 cycle, 0 refused" in words
+    assert (
+        "pull-off 3.5" in words
+        and " mN, work of separation" in words
+        and "1 cycle, 0 refused" in words
+    )
 
 
 def test_a_bad_file_is_named_and_the_others_are_read(probe, tmp_path, capsys):

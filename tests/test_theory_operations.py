@@ -64,7 +64,7 @@ def test_a_study_in_another_folder_asks_the_same(word, given, tmp_path, monkeypa
 @pytest.mark.parametrize(
     ("word", "given", "words"),
     [
-        ("theory jkr", JKR | {"radius": "-1 mm"}, "radius must be positive, got -0.001 m"),
+        ("theory jkr", JKR | {"radius": "-1 mm"}, "radius must be positive, got -1 mm"),
         ("theory maugis", {"tabor": 0}, "tabor must be positive, got 0.0"),
         ("theory maugis", {"tabor": "x"}, "tabor: 'x' is not a number; write it like '5.19'"),
         ("theory punch", {"bonded": 0.7}, "bonded must lie between 0 and 0.5, got 0.7"),

@@ -1,10 +1,13 @@
 import math
+import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from viscotack.units import finite, parse, positive
+import viscotack
+from viscotack.units import finite, parse, positive, readable
 
 
 @pytest.mark.parametrize(
@@ -84,3 +87,60 @@ def test_text_in_place_of_a_number_is_told_how_to_be_read():
 def test_marks_that_are_no_part_of_a_unit_are_refused(text):
     with pytest.raises(ValueError, match="is not known"):
         parse(text, "m")
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (4.31e-3, "N", "4.31 mN"),
+        (1.33e-6, "m/s", "1.33 um/s"),
+        (201e-9, "m", "201 nm"),
+        (0.05, "J/m^2", "50 mJ/m^2"),
+        (3.3e9, "Pa", "3.3 GPa"),
+        (-0.005, "m", "-5 mm"),
+        # what rounds to a thousand is one of the next prefix
+        (9.99996e-4, "N", "1 mN"),
+        (1.0, "N", "1 N"),
+        (0.0, "N", "0 N"),
+        (3600.0, "s", "3600 s"),
+        (5e3, "m", "5000 m"),
+        (3e-15, "N", "0.003 pN"),
+        (3e-16, "N", "3e-16 N"),
+        (5.82e19, "Hz", "5.82e+19 Hz"),
+        (0.05, "1", "0.05"),
+        (0.002, "h0", "0.002 h0"),
+        (0.3, "K", "0.3 K"),
+        (math.inf, "N", "inf N"),
+        (math.nan, "N", "nan N"),
+    ],
+)
+def test_a_quantity_for_people_has_the_prefix_of_its_size(value, unit, text):
+    assert readable(value, unit) == text
+
+
+def test_few_digits_of_a_large_number_have_no_exponent():
+    assert readable(0.15249, "N", digits=2) == "150 mN"
+
+
+def test_a_range_and_an_uncertainty_have_the_prefix_of_the_quantity():
+    assert readable(8e-4, "N", to=4.31e-3) == "0.8 to 4.31 mN"
+    assert readable(-5e-6, "m", to=1e-6) == "-5 to 1 um"
+    assert readable(0.0, "m", to=1e-6) == "0 to 1 um"
+    assert readable(1e-6, "m/s", to=3e-3) == "1 um/s to 3 mm/s"
+    assert readable(4.31e-3, "N", uncertainty=2e-5) == "4.31 +- 0.02 mN"
+
+
+@pytest.mark.parametrize("unit", ["N", "m", "m/s", "J/m^2", "Pa", "N/m", "m/N", "J", "s"])
+@pytest.mark.parametrize("value", [3.125e-10, 4.5e-7, 8e-5, 0.0625, 1.0, 512.0])
+def test_what_is_written_for_people_is_read_again(value, unit):
+    assert parse(readable(value, unit), unit) == pytest.approx(value, rel=1e-12)
+
+
+def test_no_other_module_chooses_prefixes():
+    # numbers times a power of ten with a unit behind them, but for the examples of docstrings
+    by_hand = re.compile(r"1e[-+]?[369] \*|[*/] 1e[-+]?[369]\b.*\b(mN|uN|[uµn]m|[kMG]Pa|[mun]J)\b")
+    package = Path(viscotack.__file__).parent
+    for path in set(package.rglob("*.py")) - {package / "units.py"}:
+        lines = [x for x in path.read_text("utf-8").splitlines() if ">>>" not in x]
+        assert not [x for x in lines if 'f"' in x and by_hand.search(x)], path
+        assert not [x for x in lines if x.startswith("_PREFIXES")], path

@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from viscotack.errors import InputError
-from viscotack.units import finite
+from viscotack.units import as_given, finite
 
 
 @dataclass(frozen=True)
@@ -62,9 +62,8 @@ class Quantity:
             or number < (self.least if self.least is not None else number)
             or (self.most is not None and number > self.most)
         ):
-            words = "" if unit == "1" else f" {unit}"
             cure = f"; {self.advice}" if self.advice else ""
-            raise InputError(f"{name} must {self.range}, got {number}{words}{cure}")
+            raise InputError(f"{name} must {self.range}, got {as_given(number, unit)}{cure}")
         return number
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Words with units: the boundary where text such as "5.19 mm" becomes a number in SI.
+"""Words with units: text such as "5.19 mm" becomes a number in SI, and a number text for people.
 
 Everything behind this boundary is a plain float in SI. The unit library is imported by the first
 call of :func:`parse`, never by ``import viscotack`` and never inside a loop.
@@ -20,6 +20,39 @@ _UNIT_MARKS = re.compile(r"[A-Za-zµμ°Ω%0-9 .·⋅*/^()⁻¹²³-]*")
 _POWER_OF_NUMBER = re.compile(r"[\d¹²³]\s*(\^|\*\*|⁻)|\d\s*[¹²³]")
 _LONGEST = 60
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμΩ])\^?(-?\d+)")
+
+# Largest first; "u" is what keyboards have for micro.
+_PREFIXES = (
+    (1e9, "G"),
+    (1e6, "M"),
+    (1e3, "k"),
+    (1.0, ""),
+    (1e-3, "m"),
+    (1e-6, "u"),
+    (1e-9, "n"),
+    (1e-12, "p"),
+)
+# The units that take a prefix; thousands of seconds are no ks, and no speed is in km/s.
+_PREFIXED = (
+    "N",
+    "N/m",
+    "Pa",
+    "J",
+    "J/m^2",
+    "J/m2",
+    "J/m$^2$",
+    "J/m",
+    "J/mol",
+    "m/N",
+    "N/s",
+    "Hz",
+    "s",
+    "m",
+    "m/s",
+)
+_NOT_ABOVE_ONE = ("s", "m", "m/s")
+# Beyond these no prefix makes a number readable.
+_SMALLEST, _LARGEST = 1e-15, 1e12
 
 
 @lru_cache(maxsize=1)
@@ -127,6 +160,88 @@ def positive(name: str, value: Any, unit: str) -> float:
     """Return a value as a positive finite float, or say which quantity is not one."""
     number = finite(name, value, unit)
     if number <= 0:
-        words = "" if unit == "1" else f" {unit}"
-        raise InputError(f"{name} must be positive, got {number}{words}")
+        raise InputError(f"{name} must be positive, got {as_given(number, unit)}")
     return number
+
+
+def as_given(value: float, unit: str) -> str:
+    """Text of a number that a user gave, with all its digits, for messages."""
+    if unit in _PREFIXED:
+        return readable(value, unit, digits=12)
+    return f"{value}" if unit == "1" else f"{value} {unit}"
+
+
+def prefixed(largest: float, unit: str) -> tuple[float, str]:
+    """SI prefix by size: the factor of the unit in which a quantity is at least 1, and its name.
+
+    Parameters
+    ----------
+    largest : float
+        The quantity, or the largest one of a column or an axis, in `unit`.
+    unit : str
+        SI unit such as ``"N"``; a unit that takes no prefix is returned with the factor 1.
+
+    Examples
+    --------
+    >>> prefixed(4.31e-3, "N")
+    (0.001, 'mN')
+    """
+    size = abs(largest)
+    if unit not in _PREFIXED or not _SMALLEST <= size < _LARGEST:
+        return 1.0, unit
+    known = [(f, p) for f, p in _PREFIXES if f <= 1 or unit not in _NOT_ABOVE_ONE]
+    factor, prefix = next((x for x in known if size >= x[0]), known[-1])
+    return factor, prefix + unit
+
+
+def readable(
+    value: float,
+    unit: str,
+    *,
+    digits: int = 4,
+    to: float | None = None,
+    uncertainty: float | None = None,
+) -> str:
+    """Text of a quantity for people, with an SI prefix by its size.
+
+    JSON and tables have plain SI numbers instead.
+
+    Parameters
+    ----------
+    value : float
+        In `unit`.
+    unit : str
+        SI unit, as for :func:`prefixed`; "1" for a pure number.
+    digits : int
+        Significant digits of the value.
+    to : float, optional
+        Upper end of the range that `value` begins; with the same prefix, unless it is more than
+        a thousand times as large.
+    uncertainty : float, optional
+        Standard uncertainty, of which one digit is written.
+
+    Examples
+    --------
+    >>> readable(4.314e-3, "N")
+    '4.314 mN'
+    >>> readable(1.7e-6, "m/s", to=213e-6)
+    '1.7 to 213 um/s'
+    >>> readable(0.1523, "J/m^2", uncertainty=0.0021)
+    '152.3 +- 2 mJ/m^2'
+    """
+    if to is not None and 0 < 1000 * abs(value) < abs(to):
+        return f"{readable(value, unit, digits=digits)} to {readable(to, unit, digits=digits)}"
+    rounded = max((float(f"{x:.{digits}g}") for x in (value, to or 0.0)), key=abs)
+    factor, name = prefixed(rounded, "" if unit == "1" else unit)
+
+    def number(x: float, digits: int) -> str:
+        # a number of three digits has them all, not an exponent
+        kept = float(f"{x / factor:.{digits}g}")
+        return f"{kept:.{max(digits, 4)}g}"
+
+    text = number(value, digits)
+    if to is not None:
+        text += f" to {number(to, digits)}"
+    if uncertainty is not None:
+        text += f" +- {number(uncertainty, 1)}"
+    return f"{text} {name}".rstrip()

@@ -10,6 +10,7 @@ from viscotack.methods.handover import too_short
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, LARGEST_CONTACT, SIMULATED_TABOR
 from viscotack.renamed import Renamed
+from viscotack.units import readable
 
 from .closed_forms import ClosedForms, Estimate, check_retraction
 from .prediction import Prediction
@@ -230,8 +231,8 @@ def _headline(advice: Advice) -> str:
     scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
     force, low, high = (scale * x for x in (advice.pull_off_force, *advice.interval))
     return (
-        f" Pull-off force {force:.4g} {unit} ({low:.4g} to {high:.4g} in nine of ten cases, by the "
-        f"tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
+        f" Pull-off force {readable(force, unit)} ({readable(low, unit, to=high)} in nine of ten "
+        f"cases, by the tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
     )
 
 
@@ -254,10 +255,10 @@ def _sentences(advice: Advice) -> list[str]:
     ]
     if advice.preload_change is not None:
         found.append(_pressing(advice.preload, *advice.preload_change))
-    if advice.beyond_linear:
+    if advice.beyond_linear and (speed := advice.crack_speed_at_pull_off_m_per_s) is not None:
         found.append(
-            f"The edge moves at about {advice.crack_speed_at_pull_off_m_per_s:.2g} m/s, and above "
-            "1e-4 m/s silicone experiments held more than any linear theory says: expect a larger "
+            f"The edge moves at about {readable(speed, 'm/s', digits=2)}, and above "
+            "100 um/s silicone experiments held more than any linear theory says: expect a larger "
             "force."
         )
     if advice.small_strain is False:
@@ -268,7 +269,7 @@ def _sentences(advice: Advice) -> list[str]:
     for e in advice.estimates:
         value = "" if e.pull_off_force is None else f" {e.pull_off_force:.4g} x 1.5 pi R dg0"
         if advice.force_scale is not None and e.pull_off_force is not None:
-            value += f" = {e.pull_off_force * advice.force_scale:.4g} N"
+            value += f" = {readable(e.pull_off_force * advice.force_scale, 'N')}"
         error = "" if e.error is None else f" (to {100 * e.error:.2g} %)"
         verb = "applies" if e.applies else "does not apply"
         found.append(f"{e.tier} {verb}:{value}{error}; {e.why}.".replace(":;", ":"))

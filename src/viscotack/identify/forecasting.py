@@ -22,6 +22,7 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Passport
 from viscotack.materials.conversion import slowed
 from viscotack.protocol import Approach, AtForce, Dwell, Move
+from viscotack.units import readable
 
 from .doubt import allowed, covariance, log_forces, theory_covariance
 from .rate_series import RateSeriesFit
@@ -132,7 +133,7 @@ def forecast_rates(
     loaded = np.full(v.size, load)
     changed, refused = known.changed(w, gap, v, loaded, stiffness=spring, moves=pressed, growth=law)
     for i, why in refused.items():
-        raise OutOfRange(f"at {v[i]:.3g} m/s: {why}")
+        raise OutOfRange(f"at {readable(v[i], 'm/s', digits=3)}: {why}")
 
     measured = np.array([one.speed for one in fit.series])
     theory = fit.theory if theory is None else theory
@@ -209,8 +210,8 @@ def _refuse(speed: Array, effective: Array) -> None:
     bad = effective < LEAST_TABOR
     if np.any(bad):
         raise OutOfRange(
-            f"at {speed[bad].min():.3g} m/s the zone at the edge is as large as the contact and "
-            "the theory does not hold; ask slower speeds, or simulate"
+            f"at {readable(speed[bad].min(), 'm/s', digits=3)} the zone at the edge is as "
+            "large as the contact and the theory does not hold; ask slower speeds, or simulate"
         )
 
 
@@ -257,10 +258,12 @@ def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> 
     measured = [one.speed for one in fit.series]
     if speed.min() < 0.5 * min(measured) or speed.max() > 2 * max(measured):
         said.append(
-            f"speeds from {min(measured):.3g} to {max(measured):.3g} m/s were measured; beyond "
-            "them the forecast rests on the material and the theory"
+            f"speeds from {readable(min(measured), 'm/s', digits=3, to=max(measured))} were "
+            "measured; beyond them the forecast rests on the material and the theory"
         )
-    said.append(f"the edge is at {crack.min():.2g} to {crack.max():.2g} m/s at pull-off")
+    said.append(
+        f"the edge is at {readable(crack.min(), 'm/s', digits=2, to=crack.max())} at pull-off"
+    )
     if any(ends.split for ends in fit.intervals.values()):
         said.append("the band is drawn around the likelier of two ranges; the other may differ")
     if not chain.converged:

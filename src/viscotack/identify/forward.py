@@ -31,6 +31,7 @@ from viscotack.theory.crack.contact import (
 )
 from viscotack.theory.crack.steady import NeighbourCrack
 from viscotack.traction import GentSchultz, LennardJones
+from viscotack.units import readable
 
 from .travel import travels_of
 
@@ -294,7 +295,9 @@ def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict
         if isinstance(answer, InputError):
             refused[i] = str(answer)
         elif answer.pull_off_force is None:
-            refused[i] = f"there is no pull-off at {speed[i]:.3g} m/s; simulate it"
+            refused[i] = (
+                f"there is no pull-off at {readable(speed[i], 'm/s', digits=3)}; simulate it"
+            )
     return refused
 
 

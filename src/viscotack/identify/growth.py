@@ -22,6 +22,7 @@ from scipy.stats import chi2
 from viscotack.arrays import Array
 from viscotack.theory.crack.contact import GrowingCracks
 from viscotack.traction.growing import reference_speed
+from viscotack.units import readable
 
 from .forward import Forward, Growth, Pulled
 from .objective import Parameter
@@ -143,12 +144,13 @@ class FoundGrowth:
         ]
         if np.isfinite(self.reference_speed):
             said.append(
-                f"Gent-Schultz: reference speed {self.reference_speed:.3g} m/s of the gap, "
-                f"exponent {self.exponent:.2f}"
+                f"Gent-Schultz: reference speed {readable(self.reference_speed, 'm/s', digits=3)} "
+                f"of the gap, exponent {self.exponent:.2f}"
             )
         for one in sorted({self.shares[0], self.shares[-1]}, key=lambda share: share.speed):
             said.append(
-                f"at {one.speed:.3g} m/s the edge takes {one.energy:.3g} works of adhesion: "
+                f"at {readable(one.speed, 'm/s', digits=3)} the edge takes "
+                f"{one.energy:.3g} works of adhesion: "
                 f"{one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
             )
         return said

@@ -17,6 +17,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Material, Passport
+from viscotack.units import readable
 
 from .doubt import allowed, covariance, log_forces
 from .forward import Forward
@@ -279,7 +280,7 @@ def _check_left(left: Sequence[PullOff], curves: bool, dropped: Mapping[float, s
     if len({one.speed for one in left}) < (1 if curves else 2):
         speed, why = max(dropped.items())
         raise OutOfRange(
-            f"the theory holds for too few of the speeds; of {speed:.3g} m/s it says: {why}"
+            f"the theory holds for too few of the speeds; of {_speed(speed)} it says: {why}"
         )
 
 
@@ -287,17 +288,18 @@ def _left_out(dropped: Mapping[float, str]) -> list[str]:
     """Return what is said of speeds that were not used."""
     if not dropped:
         return []
-    speeds = ", ".join(f"{speed:.3g}" for speed in sorted(dropped))
+    speeds = ", ".join(_speed(speed) for speed in sorted(dropped))
     why = dropped[max(dropped)]
-    return [f"left out, because the theory does not hold there: {speeds} m/s ({why})"]
+    return [f"left out, because the theory does not hold there: {speeds} ({why})"]
 
 
 def _check_place(forward: Forward, search: Search, best: Best, stiffness: float | None) -> None:
     """Refuse an interface for which the theory does not hold."""
     if search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
-            f"the most likely range, {best.values['equilibrium_gap']:.3g} m, lies where the zone "
-            "at the edge is as large as the contact and the theory does not hold: simulate"
+            f"the most likely range, {readable(best.values['equilibrium_gap'], 'm', digits=3)}, "
+            "lies where the zone at the edge is as large as the contact and the theory "
+            "does not hold: simulate"
         )
     # speeds were left out for an interface near this one; of it the fastest is asked again
     fastest = [int(np.argmax(search.data.speed))]
@@ -311,7 +313,7 @@ def _check_place(forward: Forward, search: Search, best: Best, stiffness: float 
         growth=grown,
     )
     for why in found.refused.values():
-        raise OutOfRange(f"at {search.data.speed[fastest][0]:.3g} m/s: {why}")
+        raise OutOfRange(f"at {_speed(search.data.speed[fastest][0])}: {why}")
 
 
 def _growth(forward: Forward, search: Search, plain: Search, best: Best) -> FoundGrowth | None:
@@ -329,7 +331,7 @@ def _loaded(one: PullOff, preload: float | None) -> PullOff:
     load = one.preload if preload is None else preload
     if load is None:
         raise InputError(
-            f"the pull-off at {one.speed:.3g} m/s has no preload; say the force [N] under which "
+            f"the pull-off at {_speed(one.speed)} has no preload; say the force [N] under which "
             "the contact relaxed"
         )
     return replace(one, preload=load)
@@ -375,8 +377,8 @@ def _check(
 
 
 _LABELS = {
-    "work_of_adhesion": ("work of adhesion", " J/m2"),
-    "equilibrium_gap": ("range of attraction h0", " m"),
+    "work_of_adhesion": ("work of adhesion", "J/m2"),
+    "equilibrium_gap": ("range of attraction h0", "m"),
     "strengthening": ("strength over that at rest", ""),
     "exponent": ("exponent of growth", ""),
 }
@@ -394,7 +396,7 @@ def _words(
     for name, ends in intervals.items():
         label, unit = _LABELS[name]
         if name == "strengthening" and growth is not None:
-            label += f" where the gap opens with {growth.opening_speed:.3g} m/s"
+            label += f" where the gap opens with {_speed(growth.opening_speed)}"
         said += _of_one(label, unit, best.values[name], ends, level)
     if growth is not None:
         said += growth.words()
@@ -412,14 +414,21 @@ def _words(
     return said
 
 
+def _speed(value: float) -> str:
+    return readable(value, "m/s", digits=3)
+
+
 def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> list[str]:
     """Return what is said of one parameter."""
     if ends.told:
-        said = [f"{label} {value:.3g}{unit} ({ends.low:.3g} to {ends.high:.3g}, {level:.0%})"]
+        both = readable(ends.low, unit, digits=3, to=ends.high)
+        said = [f"{label} {readable(value, unit, digits=3)} ({both}, {level:.0%})"]
     elif ends.closed_below:
-        said = [f"{label} above {ends.low:.3g}{unit} ({level:.0%}); not identifiable above"]
+        low = readable(ends.low, unit, digits=3)
+        said = [f"{label} above {low} ({level:.0%}); not identifiable above"]
     elif ends.closed_above:
-        said = [f"{label} below {ends.high:.3g}{unit} ({level:.0%}); not identifiable below"]
+        high = readable(ends.high, unit, digits=3)
+        said = [f"{label} below {high} ({level:.0%}); not identifiable below"]
     else:
         said = [f"{label}: not identifiable from these speeds"]
     if ends.split:

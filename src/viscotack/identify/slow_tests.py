@@ -16,6 +16,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.tack import Cycle
 from viscotack.theory import maugis, transition
+from viscotack.units import readable
 
 from .contacts import MODELS, ElasticModel
 from .objective import Best, Interval, Objective, Parameter
@@ -75,7 +76,7 @@ class SlowTest:
                 f"{self.force_noise} N"
             )
         if self.against == "radius" and np.any(self.at <= 0):
-            raise InputError(f"contact radii must be positive, got {self.at.min():g} m")
+            raise InputError(f"contact radii must be positive, got {readable(self.at.min(), 'm')}")
         if not self.force.min() < 0:
             raise InputError("no force is tensile: without a pull nothing is known of adhesion")
 
@@ -374,8 +375,8 @@ def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> l
     said = []
     w, ends = best.work_of_adhesion, best.intervals["work_of_adhesion"]
     said.append(
-        f"work of adhesion {w:.4g} J/m2 ({ends.low:.4g} to {ends.high:.4g}, {level:.0%}) by "
-        f"{best.model.upper()}"
+        f"work of adhesion {readable(w, 'J/m2')} ({readable(ends.low, 'J/m2', to=ends.high)}, "
+        f"{level:.0%}) by {best.model.upper()}"
     )
     alike = [fit.model.upper() for fit in fits[1:] if fit.criterion - best.criterion < _DIFFERENT]
     if alike:

@@ -5,6 +5,7 @@ import numpy as np
 from viscotack.materials.passport import Passport
 from viscotack.materials.shift import TabulatedShift
 from viscotack.materials.words import units_of, word_of
+from viscotack.units import readable
 
 
 def in_words(passport: Passport) -> str:
@@ -13,11 +14,14 @@ def in_words(passport: Passport) -> str:
     model = word_of(solid)
     lines = [f"{passport.name}: {model}"]
     for name, unit in units_of(type(solid)).items():
-        lines.append(f"  {name:<18}{getattr(solid, name):>12.5g} {'' if unit == '1' else unit}")
-    lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>12.5g}")
+        lines.append(f"  {name:<18}{readable(getattr(solid, name), unit, digits=5):>16}")
+    lines.append(f"  {'modulus_ratio':<18}{solid.modulus_ratio:>16.5g}")
     if model == "prony":
-        lines.append(f"  {'branches':<18}{len(solid.branches):>12}")
-        lines += [f"    {E:>12.5g} Pa  {t:>12.5g} s" for E, t in solid.branches]
+        lines.append(f"  {'branches':<18}{len(solid.branches):>16}")
+        lines += [
+            f"    {readable(E, 'Pa', digits=5):>16}{readable(t, 's', digits=5):>16}"
+            for E, t in solid.branches
+        ]
     if passport.temperature is not None:
         law = "no shift" if passport.shift is None else type(passport.shift).__name__
         lines.append(f"  at {passport.temperature - 273.15:.4g} C; times shift by: {law}")
@@ -27,7 +31,7 @@ def in_words(passport: Passport) -> str:
         lines.append(f"  measured from {low:.4g} to {high:.4g} C")
     if passport.frequencies is not None:
         low, high = (w / (2 * np.pi) for w in passport.frequencies)
-        lines.append(f"  known from {low:.3g} to {high:.3g} Hz")
+        lines.append(f"  known from {readable(low, 'Hz', digits=3, to=high)}")
     origin = passport.origin
     for words in (origin.reference, origin.doi and f"doi:{origin.doi}", origin.file):
         if words:

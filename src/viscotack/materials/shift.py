@@ -17,6 +17,7 @@ import scipy
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, positive, store
+from viscotack.units import readable
 
 UNIVERSAL = 17.44, 51.6  # c1 and c2 [K] at the glass transition (Eq. 4.25): means of many polymers
 
@@ -173,7 +174,7 @@ class Arrhenius:
 
     def words(self) -> str:
         """Return the law as a person reads it."""
-        return f"Arrhenius with {self.activation_energy / 1e3:g} kJ/mol"
+        return f"Arrhenius with {readable(self.activation_energy, 'J/mol', digits=6)}"
 
 
 # K: a chamber is set to a whole degree and drifts, so this much beyond what was measured is inside
@@ -325,8 +326,8 @@ class FittedShift:
                 f"{errors[1]:.2g} K at {law.reference_temperature - 273.15:.4g} C"
             )
         else:
-            energy = law.activation_energy / 1e3
-            constants = f"Arrhenius with {energy:.4g} +- {errors[0] / 1e3:.2g} kJ/mol"
+            energy = readable(law.activation_energy, "J/mol", uncertainty=errors[0])
+            constants = f"Arrhenius with {energy}"
         return f"{constants}; {self.misfit:.2g} decades off on average"
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.units import parse
+from viscotack.units import parse, readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import FileOfNames, Number, Place, Placed, Text
@@ -220,7 +220,7 @@ def _record(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> dict[str, 
 
 def _words(fit: Any, forecast: Any, rows: list[dict[str, float]]) -> str:
     lines = [
-        f"  {v:.4g} m/s: {force:.4g} N ({low:.4g} to {high:.4g})"
+        f"  {readable(v, 'm/s')}: {readable(force, 'N')} ({readable(low, 'N', to=high)})"
         for v, force, low, high in (row.values() for row in rows)
     ]
     head = f"Pull-off forces, {forecast.level:.0%} band of their mean"

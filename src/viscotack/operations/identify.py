@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from viscotack.errors import InputError
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, picture
 from .declare.cards import Choice, Known, Number, Switch, Text, Whole
@@ -219,15 +220,17 @@ def _slow_words(fit: Any) -> str:
     for one in fit.fits:
         tabor = "" if one.tabor is None else f", Tabor number {one.tabor:.3g}"
         lines.append(
-            f"  {one.model:8} {one.work_of_adhesion:.4g} J/m2, E0* {one.contact_modulus:.4g} Pa"
-            f"{tabor}; scatter {one.scatter:.2g} N, criterion {one.criterion:.1f}"
+            f"  {one.model:8} {readable(one.work_of_adhesion, 'J/m2')}, "
+            f"E0* {readable(one.contact_modulus, 'Pa')}{tabor}; "
+            f"scatter {readable(one.scatter, 'N', digits=2)}, criterion {one.criterion:.1f}"
         )
     return "\n".join([*lines, *fit.words, f"Chosen by: {fit.evidence}"])
 
 
 def _rates_words(fit: Any) -> str:
     rows = [
-        f"  {one.speed:.4g} m/s: {one.force.value:.4g} N measured, {force:.4g} N fitted"
+        f"  {readable(one.speed, 'm/s')}: {readable(one.force.value, 'N')} measured, "
+        f"{readable(force, 'N')} fitted"
         for one, force in zip(fit.series, fit.forces, strict=True)
     ]
     return "\n".join([*rows, *fit.words, f"Tabor number {fit.tabor:.3g}"])

@@ -8,6 +8,7 @@ import numpy as np
 
 from viscotack.errors import InputError
 from viscotack.materials.passport import Passport
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output
 from .declare.cards import Choice, Named, Number, Switch, Text, Two
@@ -310,5 +311,6 @@ def _notes(passport: "Passport", form: "PronyForm") -> tuple[str, ...]:
         f"{' '.join(passport.name.split())}{at}; written by viscotack {__version__}",
         *([f"source: {' '.join(source.split())}"] if source else []),
         f"Prony series with {len(form.material.branches)} branches, constant Poisson ratio; "
-        f"largest error {form.error:.1e} of the complex modulus from {low:.3g} to {high:.3g} Hz",
+        f"largest error {form.error:.1e} of the complex modulus from "
+        f"{readable(low, 'Hz', digits=3, to=high)}",
     )

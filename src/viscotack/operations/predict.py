@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 
 from viscotack.errors import InputError
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, csv_file, picture
 from .declare.cards import File, Number, Switch
@@ -287,21 +288,21 @@ def _number_words(
         return []
     line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
     if f"{name}_{unit.tail}" in answer:
-        line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+        line += f"= {readable(answer[f'{name}_{unit.tail}'], unit.si)}"
     if interval is None or answer[interval] is None:
         return [line.rstrip()]
     low, high = answer[interval]
     between = f"    {held:<19}{low:>12.5g}  and {high:<26.5g}"
     if f"{interval}_{unit.tail}" in answer:
         low, high = answer[f"{interval}_{unit.tail}"]
-        between += f"= {low:.4g} to {high:.4g} {unit.si}"
+        between += f"= {readable(low, unit.si, to=high)}"
     return [line.rstrip(), between.rstrip()]
 
 
 def _comparison_words(answer: dict[str, Any], kind: "Kind") -> list[str]:
     simulated = answer["simulation"]
     took = simulated["wall_time_s"]
-    lines = ["simulated" + ("" if took is None else f" in {took:.2g} s")]
+    lines = ["simulated" + ("" if took is None else f" in {readable(took, 's', digits=2)}")]
     for name in _compared(kind):
         words, true = kind.observables[name].words, simulated[name]
         if true is None:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from viscotack.units import readable
+
 from .declare.answer import Answer, Caller, csv_file, picture
 from .declare.options import Operation
 from .parts.rig import Files, Rig, refusals
@@ -64,7 +66,8 @@ def _words(found: Any) -> str:
             lines.append(
                 f"  {cycle.number}: pull-off {_pair(force, 'N')}, work of separation "
                 f"{_pair(work, 'J')}, at {_pair(speed, 'm/s')}, preload "
-                f"{cycle.preload.value:.3g} N, dwell {cycle.dwell_time:.3g} s"
+                f"{readable(cycle.preload.value, 'N', digits=3)}, dwell "
+                f"{readable(cycle.dwell_time, 's', digits=3)}"
             )
         lines.append(f"     {'; '.join(one.cycles[0].source.notes)}")
     count = len(found.cycles)
@@ -73,4 +76,4 @@ def _words(found: Any) -> str:
 
 
 def _pair(one: Any, unit: str) -> str:
-    return f"{one.value:.4g} +- {one.uncertainty:.1g} {unit}"
+    return readable(one.value, unit, uncertainty=one.uncertainty)

@@ -9,6 +9,7 @@ from viscotack.cards import card_of
 from viscotack.errors import InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
 from viscotack.problem.accuracy import Accuracy as AccuracyCard
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, Output, csv_file, picture
 from .declare.cards import Choice, File, Switch, number_of
@@ -239,7 +240,7 @@ def _words(result: "Result", answer: dict[str, Any], also: "Iterable[Observable]
             continue
         line = f"  {words:<21}{value:>12.5g}  {unit.text:<30}"
         if f"{name}_{unit.tail}" in answer:
-            line += f"= {answer[f'{name}_{unit.tail}']:.4g} {unit.si}"
+            line += f"= {readable(answer[f'{name}_{unit.tail}'], unit.si)}"
         lines.append(line.rstrip())
         if note:
             lines.append(f"  {'':<21}  {note}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from viscotack.cards import card_of
 from viscotack.errors import TOO_LARGE, InputError
 from viscotack.problem.accuracy import DEFAULT_ACCURACY, TimeLimit
+from viscotack.units import readable
 
 from .declare.answer import Answer, Caller, csv_file
 from .declare.cards import Table, number_of
@@ -146,6 +147,6 @@ def _words(problem: Any, rows: Sequence[Mapping[str, Any]], failed: int) -> str:
     lines = []
     for row in rows:
         inputs = ", ".join(f"{path} {value:.6g}" for path, value in row["inputs"].items())
-        found = row["reason"] or f"{shown.words} {row['outputs'][key]:.5g} {unit}"
+        found = row["reason"] or f"{shown.words} {readable(row['outputs'][key], unit, digits=5)}"
         lines.append(f"  {inputs}: {found}")
     return "\n".join([*lines, f"{len(rows) - failed} of {len(rows)} cases done, {failed} failed"])

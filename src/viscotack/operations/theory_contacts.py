@@ -13,6 +13,7 @@ from .declare.options import Operation
 from .declare.statement import Stated, Statement
 from .declare.wording import flag
 from .parts.closed_form import closed_form
+from .parts.record_words import record_words
 from .parts.tables import as_text
 
 if TYPE_CHECKING:
@@ -166,7 +167,7 @@ class OfCrack(Operation):
         return Answer(
             found,
             record=lambda: record,
-            words=lambda: _words(record),
+            words=lambda: record_words(record),
             files={"curve": as_text(lambda: _table(found))},
             pictures={"plot": lambda: _drawn(found)},
             notes=self.problem.notes,
@@ -193,17 +194,3 @@ def _drawn(found: "CrackContact") -> "Figure":
     axes.set_ylabel("force / (1.5 pi R dg0)")
     axes.axhline(0.0, color="0.7", linewidth=0.8)
     return figure
-
-
-def _words(record: dict[str, Any]) -> str:
-    lines = []
-    for name, value in record.items():
-        if isinstance(value, float | np.floating):
-            lines.append(f"  {name:<36}{value:>14.6g}")
-        elif value is None:
-            lines.append(f"  {name:<36}{'-':>14}")
-        elif isinstance(value, list):
-            lines.append(f"  {name:<36}{value[0]:>14.6g} to {value[1]:.6g}")
-        else:
-            lines.append(f"  {name:<36}{value}")
-    return "\n".join(lines)

@@ -21,6 +21,7 @@ from .declare.questions import (
     refuse_time,
     require,
 )
+from .parts.record_words import record_words
 from .parts.solid import Reduced, material_words
 
 if TYPE_CHECKING:
@@ -144,7 +145,7 @@ class OfPad(Operation):
         return Answer(
             record,
             record=lambda: record,
-            words=lambda: "\n".join(_line(name, value) for name, value in numbers.items()),
+            words=lambda: record_words(numbers),
             pictures={"plot": lambda: draw_regimes(regimes or _map(pad, crack))},
         )
 
@@ -227,11 +228,6 @@ class OfPad(Operation):
             time = parse(f"1 {unit}", "s")
         # only times and ratios of it are used
         return material_in_si(solid, contact_modulus, time, 0.0)
-
-
-def _line(name: str, value: Any) -> str:
-    words = "none" if value is None else value if isinstance(value, str) else f"{value:.5g}"
-    return f"  {name:<36}{words:>12}"
 
 
 def _pad_of(problem: Any) -> "Pad":

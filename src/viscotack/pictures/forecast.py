@@ -17,6 +17,8 @@ from viscotack.forecast.prediction import Prediction
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.result import Result
 
+from .plot import axis_unit
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -32,8 +34,8 @@ _BETWEEN = 8
 def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> Figure:
     """Return the predicted force against the depth, its band, the pull-off's interval at its end.
 
-    In um and mN for a problem in SI, else in h0 and 1.5 pi R dg0; of a punch the mean stress, in
-    kPa or in sigma0.
+    With SI prefixes for a problem in SI, else in h0 and 1.5 pi R dg0; of a punch the mean stress,
+    in Pa with a prefix or in sigma0.
 
     Parameters
     ----------
@@ -60,9 +62,10 @@ def draw_prediction(prediction: Prediction, simulated: Result | None = None) -> 
         length, load = 1.0, 1.0
         units = [f"/ {unit.drawn}" for unit in drawn]
     else:
-        larger, small = {"N": (1e3, "mN"), "Pa": (1e-3, "kPa")}[drawn[1].si]
-        length, load = scales.length * 1e6, getattr(scales, drawn[1].scale) * larger
-        units = ["[µm]", f"[{small}]"]
+        length, load = scales.length, getattr(scales, drawn[1].scale)
+        far, name = axis_unit(length * float(np.abs(curve.depth).max()), drawn[0].si)
+        most, load_name = axis_unit(load * float(np.abs(curve.force).max()), drawn[1].si)
+        length, load, units = length / far, load / most, [f"[{name}]", f"[{load_name}]"]
     with matplotlib.style.context(_STYLE):
         figure = Figure()
         axes = figure.subplots()

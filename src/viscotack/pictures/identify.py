@@ -12,6 +12,9 @@ from viscotack.identify import (
     SlowTestFit,
     fitted_force,
 )
+from viscotack.units import readable
+
+from .plot import axis_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,21 +39,24 @@ def draw_slow_test(fit: SlowTestFit) -> "Figure":
     with matplotlib.style.context(_STYLE):
         figure = Figure(figsize=(8.4, 7.0), layout="constrained")
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(2.6, 1.0))
-        x = 1e6 * test.at
+        far, far_unit = axis_unit(float(np.max(np.abs(test.at))), "m")
+        load, load_unit = axis_unit(float(np.max(np.abs(test.force))), "N")
+        x = test.at / far
         order = np.argsort(x)
-        above.plot(x, 1e3 * test.force, "o", ms=3, color="0.4", label="measured")
+        above.plot(x, test.force / load, "o", ms=3, color="0.4", label="measured")
         for one in fit.fits:
             if one.criterion > fit.best.criterion + _MOST:
                 continue
             force = fitted_force(one, test)
-            (line,) = above.plot(x[order], 1e3 * force[order], label=one.model.upper())
+            (line,) = above.plot(x[order], force[order] / load, label=one.model.upper())
             below.plot(
                 x, (test.force - force) / test.force_noise, "o", ms=3, color=line.get_color()
             )
         below.axhline(0.0, color="0.6", lw=0.8)
-        above.set_ylabel("force, compression positive [mN]")
+        above.set_ylabel(f"force, compression positive [{load_unit}]")
         below.set_ylabel("residual / noise")
-        below.set_xlabel("contact radius [um]" if test.against == "radius" else "depth [um]")
+        what = "contact radius" if test.against == "radius" else "depth"
+        below.set_xlabel(f"{what} [{far_unit}]")
         above.legend()
     return figure
 
@@ -64,48 +70,51 @@ def draw_rate_series(fit: RateSeriesFit, forecast: RateForecast | None = None) -
     with matplotlib.style.context(_STYLE):
         figure = Figure(figsize=(8.0, 5.4), layout="constrained")
         axes = figure.subplots()
-        speed = [1e6 * one.speed for one in fit.series]
+        fastest, speed_unit = axis_unit(max(one.speed for one in fit.series), "m/s")
+        load, load_unit = axis_unit(max(one.force.value for one in fit.series), "N")
+        speed = [one.speed / fastest for one in fit.series]
         axes.errorbar(
             speed,
-            [1e3 * one.force.value for one in fit.series],
-            yerr=[1e3 * one.force.uncertainty for one in fit.series],
+            [one.force.value / load for one in fit.series],
+            yerr=[one.force.uncertainty / load for one in fit.series],
             fmt="o",
             color="0.3",
             label="measured",
             zorder=3,
         )
-        interface = f"{fit.work_of_adhesion:.3g} J/m$^2$, range {1e9 * fit.equilibrium_gap:.3g} nm"
-        fitted = [1e3 * force for force in fit.forces]
+        work = readable(fit.work_of_adhesion, "J/m$^2$", digits=3)
+        interface = f"{work}, range {readable(fit.equilibrium_gap, 'm', digits=3)}"
+        fitted = [force / load for force in fit.forces]
         axes.plot(speed, fitted, "x", ms=9, zorder=4, label=f"fit: {interface}")
         if forecast is not None:
-            _band(axes, forecast)
+            _band(axes, forecast, fastest, load)
         axes.set_xscale("log")
         axes.set_yscale("log")
         # forces seldom go through a decade: plain numbers
         for which in (axes.yaxis.set_major_formatter, axes.yaxis.set_minor_formatter):
             which(FuncFormatter(lambda value, _: f"{value:.3g}"))
-        axes.set_xlabel("true speed of retraction [um/s]")
-        axes.set_ylabel("pull-off force [mN]")
+        axes.set_xlabel(f"true speed of retraction [{speed_unit}]")
+        axes.set_ylabel(f"pull-off force [{load_unit}]")
         axes.legend()
     return figure
 
 
-def _band(axes: Any, forecast: RateForecast) -> None:
+def _band(axes: Any, forecast: RateForecast, fastest: float, load: float) -> None:
     order = np.argsort(forecast.speed)
     x, low, high, middle = (
-        scale * values[order]
+        values[order] / scale
         for scale, values in (
-            (1e6, forecast.speed),
-            (1e3, forecast.low),
-            (1e3, forecast.high),
-            (1e3, forecast.force),
+            (fastest, forecast.speed),
+            (load, forecast.low),
+            (load, forecast.high),
+            (load, forecast.force),
         )
     )
-    where = f"forecast at {1e3 * forecast.preload:.3g} mN"
+    where = f"forecast at {readable(forecast.preload, 'N', digits=3)}"
     if forecast.temperature is not None:
         where += f", {forecast.temperature - 273.15:.3g} C"
     if forecast.dwell is not None:
-        where += f", {forecast.dwell:.3g} s of dwell"
+        where += f", {readable(forecast.dwell, 's', digits=3)} of dwell"
     (line,) = axes.plot(x, middle, ls="--", label=where)
     axes.fill_between(
         x, low, high, color=line.get_color(), alpha=0.2, lw=0, label=f"{forecast.level:.0%} band"

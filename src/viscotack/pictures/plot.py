@@ -19,12 +19,12 @@ from viscotack.problem.outputs import Unit
 from viscotack.result import Outcome, Result
 from viscotack.result.cycles import pull_offs
 from viscotack.theory.punch import REGIMES, RegimeMap
+from viscotack.units import prefixed, readable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PREFIXES = ((1e-12, "p"), (1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 # Of a regime map: cohesive, thin layer, half-plane; and how many lines of equal stress.
 _REGIME_COLOURS = ("#f2c9a0", "#cfe3f2", "#dddddd")
 _STRESS_LINES = 10
@@ -133,20 +133,22 @@ def draw_rates(
     title, note : str
         Words above the picture and in its corner.
     """
-    v, F = np.asarray(speed, dtype=float) * 1e6, np.asarray(pull_off_force, dtype=float) * 1e3
+    speeds, forces = np.asarray(speed, dtype=float), np.asarray(pull_off_force, dtype=float)
+    v, v_unit = axis_unit(float(np.max(speeds)), "m/s")
+    F, F_unit = axis_unit(float(np.max(forces)), "N")
     with _style():
         figure = _figure()
         axes = figure.subplots()
-        axes.plot(v, F, "o", mfc="none", color="C0", label="simulation")
+        axes.plot(speeds / v, forces / F, "o", mfc="none", color="C0", label="simulation")
         axes.axhline(
-            elastic_force * 1e3,
+            elastic_force / F,
             color="C1",
-            label=f"elastic, infinitely slow: {elastic_force * 1e3:.3g} mN",
+            label=f"elastic, infinitely slow: {readable(elastic_force, 'N', digits=3)}",
         )
         axes.set_xscale("log")
-        axes.set_ylim(0, 1.12 * max(F.max(), elastic_force * 1e3))
-        axes.set_xlabel("retraction speed [µm/s]")
-        axes.set_ylabel("pull-off force [mN]")
+        axes.set_ylim(0, 1.12 * max(forces.max(), elastic_force) / F)
+        axes.set_xlabel(f"retraction speed [{v_unit}]")
+        axes.set_ylabel(f"pull-off force [{F_unit}]")
         axes.set_title(title)
         axes.legend(loc="upper left")
         if note:
@@ -299,5 +301,11 @@ def _drawn(
         return factor, f"/ {unit.drawn}"
     factor *= getattr(scales, unit.scale)
     largest = np.nanmax(np.abs(values), initial=0.0) * abs(factor)
-    prefix = next(((p, w) for p, w in reversed(_PREFIXES) if largest >= p), _PREFIXES[0])
-    return factor / prefix[0], f"[{prefix[1]}{unit.si}]"
+    prefix, name = axis_unit(largest, unit.si)
+    return factor / prefix, f"[{name}]"
+
+
+def axis_unit(largest: float, unit: str) -> tuple[float, str]:
+    """Return the SI unit with the prefix for an axis up to this value: its size, and its name."""
+    factor, name = prefixed(largest, unit)
+    return factor, name.replace("u", "µ")

@@ -8,6 +8,8 @@ import numpy as np
 
 from viscotack.lab.tack import Cycle
 
+from .plot import axis_unit
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
 _STYLE = Path(__file__).with_name("viscotack.mplstyle")
 _MOST = 40  # curves that can still be told apart
 _POINTS = 2000  # of one curve
-_PREFIXES = ((1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"), (1e-12, "p"))
 
 
 def draw_tests(cycles: Sequence[Cycle]) -> "Figure":
@@ -35,18 +36,10 @@ def draw_tests(cycles: Sequence[Cycle]) -> "Figure":
     return figure
 
 
-def _unit(value: float, unit: str) -> tuple[float, str]:
-    """Return the scale and the name of the unit in which a number is easily read."""
-    for scale, prefix in _PREFIXES:
-        if abs(value) >= scale:
-            return scale, prefix + unit
-    return _PREFIXES[-1][0], _PREFIXES[-1][1] + unit
-
-
 def _curves(axes: "Axes", cycles: Sequence[Cycle]) -> None:
     chosen = [cycles[i] for i in np.unique(np.linspace(0, len(cycles) - 1, _MOST, dtype=int))]
-    forces, force_unit = _unit(max(c.pull_off_force.value for c in chosen), "N")
-    depths, depth_unit = _unit(max(float(np.ptp(c.depth[c.retraction])) for c in chosen), "m")
+    forces, force_unit = axis_unit(max(c.pull_off_force.value for c in chosen), "N")
+    depths, depth_unit = axis_unit(max(float(np.ptp(c.depth[c.retraction])) for c in chosen), "m")
     for cycle in chosen:
         back = cycle.retraction
         every = max((back.stop - back.start) // _POINTS, 1)
@@ -66,11 +59,12 @@ def _curves(axes: "Axes", cycles: Sequence[Cycle]) -> None:
 
 
 def _pull_offs(axes: "Axes", cycles: Sequence[Cycle]) -> None:
-    force, unit = _unit(max(cycle.pull_off_force.value for cycle in cycles), "N")
+    force, unit = axis_unit(max(cycle.pull_off_force.value for cycle in cycles), "N")
+    speed, speed_unit = axis_unit(max(cycle.speed.value for cycle in cycles), "m/s")
     axes.errorbar(
-        [1e6 * cycle.speed.value for cycle in cycles],
+        [cycle.speed.value / speed for cycle in cycles],
         [cycle.pull_off_force.value / force for cycle in cycles],
-        xerr=[1e6 * cycle.speed.uncertainty for cycle in cycles],
+        xerr=[cycle.speed.uncertainty / speed for cycle in cycles],
         yerr=[cycle.pull_off_force.uncertainty / force for cycle in cycles],
         fmt="o",
         ms=4,
@@ -79,5 +73,5 @@ def _pull_offs(axes: "Axes", cycles: Sequence[Cycle]) -> None:
     if all(cycle.speed.value > 0 for cycle in cycles):
         axes.set_xscale("log")
     axes.set_ylim(bottom=0.0)
-    axes.set_xlabel("true speed of retraction [um/s]")
+    axes.set_xlabel(f"true speed of retraction [{speed_unit}]")
     axes.set_ylabel(f"pull-off force [{unit}]")

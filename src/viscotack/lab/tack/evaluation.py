@@ -11,6 +11,7 @@ import numpy as np
 
 from viscotack.arrays import Array
 from viscotack.errors import InputError
+from viscotack.units import readable
 
 from .baseline import Baseline, baseline, free_after, free_before
 from .cycle import Cycle, Measured
@@ -168,7 +169,7 @@ def _cycle(
     depth = depth - touch
     notes.append(how)
     if compliance:
-        notes.append(f"machine compliance {compliance:.4g} m/N taken off the depth")
+        notes.append(f"machine compliance {readable(compliance, 'm/N')} taken off the depth")
     crossing = _crossing(force, own.retract, at)
     flat = _flat(depth, force, own, at, law.noise)
     place = float(np.hypot(np.hypot(spread, flat), compliance_uncertainty * abs(force[at])))
@@ -218,8 +219,9 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
         away = abs(force[longest[0]]) > _ABOVE * noise
         if len(longest) >= _CLIPPED and moved > _MOVED * np.ptp(way) and away:
             raise InputError(
-                f"the force stays at {value:.6g} N, its largest {word}, for {len(longest)} points "
-                "while the drive moves: the sensor or its amplifier is at the end of its range"
+                f"the force stays at {readable(value, 'N', digits=6)}, its largest {word}, for "
+                f"{len(longest)} points while the drive moves: "
+                "the sensor or its amplifier is at the end of its range"
             )
 
 
@@ -247,30 +249,34 @@ def _pull_off(
     value = -float(force[at])
     if value <= _ABOVE * noise:
         raise InputError(
-            f"no pull-off above the noise: the largest tension is {value:.3g} N, the noise "
-            f"{noise:.3g} N"
+            f"no pull-off above the noise: the largest tension is {_force(value)}, the noise "
+            f"{_force(noise)}"
         )
     if at <= own.retract + 1:
         raise InputError("the force is least where the retraction begins: nothing was pulled off")
     if zero > _ZERO * value:
         raise InputError(
-            f"the zero of the force is known within {zero:.3g} N only, the pull-off is {value:.3g} "
-            "N: a tilt or drift too large for the free parts of the curve"
+            f"the zero of the force is known within {_force(zero)} only, the pull-off is "
+            f"{_force(value)}: a tilt or drift too large for the free parts of the curve"
         )
     before, behind = -float(force[at - 1]), -float(force[at + 1])
     if max(before, behind) < (1 - _LONE) * value:
         raise InputError(
-            f"the pull-off of {value:.3g} N is a single point, its neighbours are at {before:.3g} "
-            f"and {behind:.3g} N: a spike, or recorded too slowly"
+            f"the pull-off of {_force(value)} is a single point, its neighbours are at "
+            f"{_force(before)} and {_force(behind)}: a spike, or recorded too slowly"
         )
     between = max(abs(value - before), 0.0) / 2
     found = Measured(value, float(np.sqrt(noise**2 + zero**2 + between**2)))
     if found.uncertainty > _ZERO * value:
         raise InputError(
-            f"the pull-off of {value:.3g} N is known within {found.uncertainty:.3g} N only: too "
-            "few points at it for the noise and the speed"
+            f"the pull-off of {_force(value)} is known within {_force(found.uncertainty)} only: "
+            "too few points at it for the noise and the speed"
         )
     return found
+
+
+def _force(value: float) -> str:
+    return readable(value, "N", digits=3)
 
 
 def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
@@ -280,8 +286,8 @@ def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
     back = np.diff(depth)
     if np.sum(back[back > 0]) > _SLIDING * np.ptp(way) + np.ptp(way) * 0.5:
         raise InputError(
-            f"with a compliance of {compliance:.4g} m/N the depth grows while the drive retracts: "
-            "that is more than rig and sample have together"
+            f"with a compliance of {readable(compliance, 'm/N')} the depth grows while the "
+            "drive retracts: that is more than rig and sample have together"
         )
 
 
@@ -374,7 +380,7 @@ def _approach_speed(time: Array, way: Array, own: Segments) -> float | None:
 def _words(law: Baseline) -> str:
     units = {"zero": "N", "tilt": "N/m", "drift": "N/s"}
     said = ", ".join(
-        f"{term} {value:.4g} {units[term]}"
+        f"{term} {readable(value, units[term])}"
         for term, value in zip(law.terms, law.coefficients, strict=True)
     )
     return f"taken off the force: {said}"

@@ -10,6 +10,7 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.lab.lab_file import LabFile
 from viscotack.lab.sweeps import Source
+from viscotack.units import readable
 
 from .record import TackRecord
 
@@ -60,4 +61,4 @@ def recorded(
 
 def bending(stiffness: float) -> str:
     """Return the note on a cantilever [N/m]."""
-    return f"cantilever of {stiffness:.4g} N/m, whose bending is taken off the height"
+    return f"cantilever of {readable(stiffness, 'N/m')}, whose bending is taken off the height"

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from ..declare.answer import Answer
+from .record_words import record_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -41,7 +42,7 @@ def _drawn(curve: tuple[Any, Any], labels: tuple[str, str], logarithmic: bool) -
 
 def _words(record: dict[str, Any]) -> str:
     if not isinstance(next(iter(record.values())), list):
-        return "\n".join(f"  {name:<32}{value:>12.5g}" for name, value in record.items())
+        return record_words(record)
     rows = zip(*record.values(), strict=True)
     lines = ["  ".join(_cell(value) for value in row) for row in rows]
     return "\n".join(["  ".join(f"{name:>18}" for name in record), *lines])

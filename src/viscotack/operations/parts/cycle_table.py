@@ -3,6 +3,7 @@
 from typing import Any
 
 from viscotack.result import Result
+from viscotack.units import prefixed
 
 # Columns that the words leave out.
 _LEFT_OUT = ("begin", "end", "hysteresis_error", "time_to_detachment")
@@ -16,13 +17,15 @@ def table_of_cycles(result: Result, rows: list[dict[str, Any]]) -> list[str]:
     """
     if len(rows) < 2 and all(row["snap_in_depth"] is None for row in rows):
         return []
-    columns, units = _columns(result), {}
-    for words, (_, unit) in columns.items():
+    columns, units, factors = _columns(result), {}, []
+    for words, (name, unit) in columns.items():
+        factor, unit = prefixed(max(abs(row[name] or 0.0) for row in rows), unit)
+        factors.append(factor)
         units.setdefault(unit, []).append(words)
     lines = [_line("cycle", list(columns)) + "  loop"]
     for row in rows:
-        values = [row[name] for name, _ in columns.values()]
-        cells = ["-" if v is None else f"{v:.4g}" for v in values]
+        values = zip((row[name] for name, _ in columns.values()), factors, strict=True)
+        cells = ["-" if v is None else f"{v / factor:.4g}" for v, factor in values]
         lines.append(f"{_line(row['cycle'], cells)}  {row['loop']}")
     return [*lines, "  " + "; ".join(f"{', '.join(w)} in {u}" for u, w in units.items())]
 

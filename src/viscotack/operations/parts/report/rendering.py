@@ -14,6 +14,7 @@ from viscotack.identify import RateForecast
 from viscotack.identify.study import Answer
 from viscotack.lab.tack import Cycle, Measured
 from viscotack.materials.passport_words import in_words
+from viscotack.units import readable
 from viscotack.version import __version__
 
 if TYPE_CHECKING:
@@ -74,16 +75,16 @@ def _facts(found: Answer) -> list[tuple[str, str]]:
     study, fit = found.study, found.fit
     temperature = fit.passport.temperature
     loads = [one.preload or 0.0 for one in fit.series]
-    preload = f"{1e3 * min(loads):.4g} to {1e3 * max(loads):.4g} mN, where retractions begin"
+    preload = f"{_text(min(loads), 'N', to=max(loads))}, where retractions begin"
     if study.preload is not None:
-        preload = _unit(study.preload, 1e3, "mN")
+        preload = _text(study.preload, "N")
     return [
-        ("sphere radius", _unit(study.radius, 1e3, "mm")),
+        ("sphere radius", _text(study.radius, "m")),
         ("material", fit.passport.name or str(study.material)),
         ("temperature", "not stated" if temperature is None else f"{temperature - 273.15:.4g} °C"),
         ("preload", preload),
-        ("work of adhesion", _interval(found, "work_of_adhesion", 1e3, "mJ/m²")),
-        ("range of attraction h₀", _interval(found, "equilibrium_gap", 1e9, "nm")),
+        ("work of adhesion", _interval(found, "work_of_adhesion", "J/m2")),
+        ("range of attraction h₀", _interval(found, "equilibrium_gap", "m")),
         *_growth(found),
         ("Tabor number", f"{fit.tabor:.3g}"),
         ("residuals over their uncertainty", f"{fit.scatter:.2g}"),
@@ -95,13 +96,13 @@ def _growth(found: Answer) -> list[tuple[str, str]]:
     grown = found.fit.growth
     if grown is None:
         return []
-    opening = f"{1e6 * grown.opening_speed:.3g} µm/s"
+    opening = _text(grown.opening_speed, "m/s", digits=3)
     return [
         (
             f"strength over that at rest where the gap opens with {opening}",
-            _interval(found, "strengthening", 1.0, ""),
+            _interval(found, "strengthening", "1"),
         ),
-        ("exponent of growth", _interval(found, "exponent", 1.0, "")),
+        ("exponent of growth", _interval(found, "exponent", "1")),
         ("chance of as much without growth", f"{grown.chance:.2g}"),
     ]
 
@@ -111,8 +112,8 @@ def _shares(found: Answer) -> list[tuple[str, ...]]:
     grown = found.fit.growth
     return [
         (
-            f"{1e6 * one.speed:.4g}",
-            f"{1e6 * one.edge_speed:.3g}",
+            _text(one.speed, "m/s"),
+            _text(one.edge_speed, "m/s", digits=3),
             f"{one.energy:.3g}",
             f"{one.bulk:.3g}",
             f"{one.interface:.3g}",
@@ -121,13 +122,16 @@ def _shares(found: Answer) -> list[tuple[str, ...]]:
     ]
 
 
-def _interval(found: Answer, name: str, scale: float, unit: str) -> str:
+def _interval(found: Answer, name: str, unit: str) -> str:
     fit = found.fit
-    ends, value = fit.intervals[name], scale * fit.best.values[name]
-    low = f"{scale * ends.low:.3g}" if ends.closed_below else "no lower end"
-    high = f"{scale * ends.high:.3g}" if ends.closed_above else "no upper end"
-    number = f"{value:.4g} {unit}".strip()
-    return f"{number} ({low} to {high}, {fit.level:.0%})"
+    ends = fit.intervals[name]
+    if ends.told:
+        both = _text(ends.low, unit, digits=3, to=ends.high)
+    else:
+        low = _text(ends.low, unit, digits=3) if ends.closed_below else "no lower end"
+        high = _text(ends.high, unit, digits=3) if ends.closed_above else "no upper end"
+        both = f"{low} to {high}"
+    return f"{_text(fit.best.values[name], unit)} ({both}, {fit.level:.0%})"
 
 
 def _tests(found: Answer) -> list[tuple[str, ...]]:
@@ -141,11 +145,11 @@ def _tests(found: Answer) -> list[tuple[str, ...]]:
 def _cycle(cycle: Cycle) -> tuple[str, ...]:
     return (
         str(cycle.number),
-        _measured(cycle.speed, 1e6),
-        _measured(cycle.pull_off_force, 1e3),
-        _measured(cycle.work_of_separation, 1e9),
-        _measured(cycle.preload, 1e3),
-        f"{cycle.dwell_time:.3g}",
+        _measured(cycle.speed, "m/s"),
+        _measured(cycle.pull_off_force, "N"),
+        _measured(cycle.work_of_separation, "J"),
+        _measured(cycle.preload, "N"),
+        _text(cycle.dwell_time, "s", digits=3),
     )
 
 
@@ -159,9 +163,9 @@ def _series(found: Answer) -> list[tuple[str, ...]]:
     fit = found.fit
     return [
         (
-            f"{1e6 * one.speed:.4g}",
-            _measured(one.force, 1e3),
-            f"{1e3 * force:.4g}",
+            _text(one.speed, "m/s"),
+            _measured(one.force, "N"),
+            _text(force, "N"),
             f"{100 * (one.force.value / force - 1):+.2g} %",
         )
         for one, force in zip(fit.series, fit.forces, strict=True)
@@ -177,23 +181,21 @@ def _forecast(forecast: RateForecast) -> dict[str, Any]:
     )
     temperature = forecast.temperature
     return {
-        "rows": [
-            (f"{1e6 * v:.4g}", f"{1e3 * P:.4g}", f"{1e3 * low:.4g}", f"{1e3 * high:.4g}")
-            for v, P, low, high in columns
-        ],
-        "preload": _unit(forecast.preload, 1e3, "mN"),
+        "rows": [(_text(v, "m/s"), *(_text(P, "N") for P in forces)) for v, *forces in columns],
+        "preload": _text(forecast.preload, "N"),
         "temperature": "" if temperature is None else f"{temperature - 273.15:.4g} °C",
-        "dwell": "until all has relaxed" if forecast.dwell is None else f"{forecast.dwell:.4g} s",
+        "dwell": "until all has relaxed" if forecast.dwell is None else _text(forecast.dwell, "s"),
         "level": f"{forecast.level:.0%}",
     }
 
 
-def _measured(one: Measured, scale: float) -> str:
-    return f"{scale * one.value:.4g} ± {scale * one.uncertainty:.1g}"
+def _measured(one: Measured, unit: str) -> str:
+    return _text(one.value, unit, uncertainty=one.uncertainty).replace("+-", "±")
 
 
-def _unit(value: float, scale: float, unit: str) -> str:
-    return f"{scale * value:.4g} {unit}"
+def _text(value: float, unit: str, **more: Any) -> str:
+    """Return a quantity as a page spells it."""
+    return readable(value, unit, **more).replace(" u", " µ").replace("/m2", "/m²")
 
 
 def _drawing(figure: "Figure") -> Any:
