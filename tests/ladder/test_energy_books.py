@@ -73,7 +73,8 @@ def test_books_begin_with_the_energy_of_the_spring(groups):
     assert energy.spring[0] == pytest.approx(result.force[0] ** 2 / (2 * K), rel=1e-12, abs=0)
     # nothing is added when the machine takes hold: the drive has moved by a small step only
     travel = np.diff(result.depth[:2] + result.force[:2] / K)[0]
-    assert abs(energy.drive[1]) <= 1.01 * max(result.force[:2]) * abs(travel)
+    round_off = 1e-14 * energy.spring[0]  # of a drive that follows a held depth
+    assert abs(energy.drive[1]) <= 1.01 * max(result.force[:2]) * abs(travel) + round_off
 
 
 @pytest.mark.parametrize("groups", PRESSED.values(), ids=PRESSED)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from viscotack.bem import equilibrium
 from viscotack.bem.flank import flank_share
 from viscotack.bem.interface import AtNodes, OnPanels, interface, resolved
 from viscotack.materials import Elastic, StandardSolid
@@ -12,6 +13,7 @@ from viscotack.protocol import AtDepth
 from viscotack.result.observables import pull_off_force, work_to_pull_off
 from viscotack.theory import maugis
 from viscotack.traction import Dugdale, Exponential, LennardJones, Tabulated, effective_range
+from viscotack.traction.law import energy_and_traction
 
 ELASTIC = Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 SOLID = StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
@@ -25,6 +27,7 @@ LAWS = {
     "lennard-jones": LennardJones(1.0, 1.0),
     "step": Dugdale(1.0, 1.0, rise=0.01, fall=0.05),
     "table": TABLE,
+    "exponential": Exponential(1.0, 1.0, decay=0.3),
 }
 
 
@@ -49,14 +52,14 @@ def test_forces_and_tangent_are_derivatives_of_the_interface_energy(law, rule):
     def derivative(function):
         return np.array([(function(GAPS + h * e) - function(GAPS - h * e)) / (2 * h) for e in unit])
 
-    forces = derivative(lambda gap: rule.at(law, gap).energy())
+    forces = derivative(lambda gap: rule.at(law, gap).energy)
     size = np.max(np.abs(forces))
-    np.testing.assert_allclose(rule.at(law, GAPS).tension(), forces, rtol=1e-6, atol=1e-6 * size)
+    np.testing.assert_allclose(rule.at(law, GAPS).tension, forces, rtol=1e-6, atol=1e-6 * size)
     band = rule.at(law, GAPS).tangent()
     tangent = np.diag(band.diagonal)
     if band.beside is not None:
         tangent = tangent + np.diag(band.beside, -1) + np.diag(band.beside, 1)
-    slopes = derivative(lambda gap: rule.at(law, gap).tension())
+    slopes = derivative(lambda gap: rule.at(law, gap).tension)
     np.testing.assert_allclose(tangent, slopes, rtol=1e-4, atol=1e-4 * np.max(np.abs(slopes)))
 
 
@@ -126,3 +129,21 @@ def test_the_flank_of_a_tip_is_the_integral_over_its_area(exponent):
     third_power = exponent / (1.5 * exponent - 1)
     assert flank_share(LennardJones(1.0, 1.0), 1e3, exponent) == pytest.approx(third_power)
     assert flank_share(Dugdale(1.0, 1.0), gap, exponent) == 1
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+def test_energy_and_traction_of_one_evaluation_are_those_of_two(law):
+    energy, traction = energy_and_traction(law, GAPS)
+    np.testing.assert_array_equal(energy, law.energy(GAPS))
+    np.testing.assert_array_equal(traction, law.traction(GAPS))
+
+
+@pytest.mark.march
+def test_kept_factors_change_forces_by_little_more_than_round_off(monkeypatch):
+    law = LennardJones(1.0, 1.0)
+    kept = pulled(law, 1.0, SOLID)
+    monkeypatch.setattr(equilibrium, "_KEPT", 0.0)
+    newton = pulled(law, 1.0, SOLID)
+    assert kept.statistics["newton_iterations"] > newton.statistics["newton_iterations"]
+    assert pull_off_force(kept) == pytest.approx(pull_off_force(newton), rel=1e-6)
+    assert kept.energy_residual == pytest.approx(newton.energy_residual, rel=0.1)

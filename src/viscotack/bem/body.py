@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,7 @@ from viscotack.bem.books import Snapshot
 from viscotack.bem.contacts.contact import Contact, Relaxed
 from viscotack.bem.equilibrium import Balance, descend
 from viscotack.bem.growth import Frozen, Opening, Stepped, bend, driven
+from viscotack.bem.interface import Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.memory import Memory, Step
 from viscotack.bem.span import least_gap, room
@@ -56,7 +59,6 @@ class Rates:
     gap: npt.NDArray  # in the frame of the moving edge
     known: bool = True
     followed: npt.NDArray | None = None  # of e, in the frame of the moving edge
-    trail: tuple[Passed, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +82,10 @@ class Extra:
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """Everything at one instant: what is kept of it, and what the next step needs."""
+    """Everything at one instant: what is kept of it, and what the next step needs.
+
+    The trail has the last instants with this one; after rest, this one alone.
+    """
 
     seen: Snapshot
     surface: Surface
@@ -89,6 +94,7 @@ class State:
     nodal: npt.NDArray  # F: nodal forces
     memory: Memory
     rates: Rates
+    trail: tuple[Passed, ...]
     extra: Extra | None = None  # None where the law is one of the gap alone
 
 
@@ -126,16 +132,21 @@ class Body:
     weights: npt.NDArray
     growing: Any = None
 
+    @cached_property
+    def times(self) -> npt.NDArray:
+        """Retardation times of the modes."""
+        return np.asarray(self.modes.times)
+
     def first(self, start: Relaxed) -> State:
         """Return the relaxed state: every mode has come to rest."""
         gap, surface = start.gap, start.surface
         e = gap - (surface.rigid_gap - start.depth)
-        nodal = surface.nodal(self.contact.law, gap)
+        faces = surface.interface.at(self.contact.law, gap)
         many = (len(self.weights), 1)
-        memory = Memory(np.tile(e, many), np.tile(nodal, many))
+        memory = Memory(np.tile(e, many), np.tile(-faces.tension, many))
         opening = None if self.growing is None else Opening.none(gap)
-        rates = _at_rest(gap)
-        return self.state(0.0, gap, start.depth, surface, e, memory, rates, opening)
+        edge, rates = surface.edge(gap, self.contact.law.edge_gap), _at_rest(gap)
+        return self.state(0.0, start.depth, edge, surface, faces, e, memory, rates, opening)
 
     def after(self, state: State, s: Step, hold: Hold, most_iterations: int) -> Trial:
         """Return what a step leads to."""
@@ -161,27 +172,26 @@ class Body:
                 least_gain=_LEAST_GAIN,
                 most_iterations=most_iterations,
             )
-        gap = balance.gap
+        gap, opening, bent = balance.gap, None, 0.0
+        if stepped is not None:
+            speed = stepped.speed(gap) if speed is None else speed
+            opening = stepped.opening(state.gap, speed, s.length)
+            bent = bend(stepped, gap, opening, surface.area)
+        faces = self._faces(surface, balance, opening)
         e = (gap - free + balance.depth) / s.compliance
-        nodal = surface.nodal(law, gap)
-        moved = surface.edge(gap, self.contact.law.edge_gap) - state.seen.edge
-        moved = 0.0 if np.isnan(moved) else moved
+        edge = surface.edge(gap, self.contact.law.edge_gap)
+        moved = 0.0 if isnan(edge - state.seen.edge) else edge - state.seen.edge
         change = e - state.relaxed
-        most = float(np.max(np.abs(change - s.length * state.rates.relaxed)))
+        most = float(np.abs(change - s.length * state.rates.relaxed).max())
         rates = Rates(
             relaxed=change / s.length,
             edge=moved / s.length,
             gap=(gap - _shifted(state, moved)) / s.length,
         )
-        memory = state.memory.advanced(s, state.relaxed, e, state.nodal, nodal)
-        time = state.seen.time + s.length
-        opening, bent = None, 0.0
-        if stepped is not None:
-            speed = stepped.speed(gap) if speed is None else speed
-            opening = stepped.opening(state.gap, speed, s.length)
-            bent = bend(stepped, gap, opening, surface.area)
-        after = self.trailing(
-            state, self.state(time, gap, balance.depth, surface, e, memory, rates, opening)
+        memory = state.memory.advanced(s, state.relaxed, e, state.nodal, -faces.tension)
+        time, depth = state.seen.time + s.length, balance.depth
+        after = self.state(
+            time, depth, edge, surface, faces, e, memory, rates, opening, state.trail
         )
         error = (s.curvature * most if state.rates.known else 0.0) if balance.stable else np.inf
         return Trial(after, error, balance.iterations, balance.released, bent)
@@ -196,11 +206,22 @@ class Body:
         def carried(fields: npt.NDArray) -> npt.NDArray:
             return CubicSpline(old, fields, axis=-1)(nodes)
 
-        d = surface.free_beyond(old[-1], carried(state.memory.displacement))
+        last, many = state.rates, len(self.weights)
+        followed = () if last.followed is None else (last.followed,)
+        fields = carried(
+            np.vstack([state.memory.displacement, state.gap, last.relaxed, last.gap, *followed])
+        )
+        d = surface.free_beyond(old[-1], fields[:many])
+        rates = replace(
+            last,
+            relaxed=fields[many + 1],
+            gap=fields[many + 2],
+            followed=fields[many + 3] if followed else None,
+        )
         memory = Memory(d, d @ surface.stiffness)
         c = self.modes.instantaneous
         free = surface.rigid_gap + self.weights @ d
-        guess = np.maximum(carried(state.gap), least_gap(self.contact.span))
+        guess = np.maximum(fields[many], least_gap(self.contact.span))
         opening = None if state.extra is None else state.extra.opening.carried(carried)
         machine, balance, speed = self.net(hold, state), None, None
         law: Any = self.law(opening)
@@ -215,16 +236,13 @@ class Body:
         if opening is not None and opening.length:
             speed = law.speed(balance.gap) if speed is None else speed
             opening = replace(opening, speed=speed)
-        e = (balance.gap - free + balance.depth) / c
-        rates = state.rates
-        rates = replace(
-            rates,
-            relaxed=carried(rates.relaxed),
-            gap=carried(rates.gap),
-            followed=None if rates.followed is None else carried(rates.followed),
-        )
         gap, depth = balance.gap, balance.depth
-        return self.state(state.seen.time, gap, depth, surface, e, memory, rates, opening)
+        e = (gap - free + depth) / c
+        edge = surface.edge(gap, self.contact.law.edge_gap)
+        faces = self._faces(surface, balance, opening)
+        time = state.seen.time
+        moved = self.state(time, depth, edge, surface, faces, e, memory, rates, opening)
+        return replace(moved, trail=state.trail) if len(state.trail) > 1 else moved
 
     def law(self, opening: Opening | None) -> Any:
         """Return the law at opening speeds, frozen; None for the law at rest."""
@@ -232,25 +250,25 @@ class Body:
             return self.contact.law
         return Frozen(self.contact.law, 1 + self.growing.growth(opening.speed))
 
-    @staticmethod
-    def at_rest(state: State) -> State:
+    def at_rest(self, state: State) -> State:
         """Return the state without rates, where the last ones tell nothing of the next."""
         extra = state.extra
         if extra is not None:
             extra = replace(extra, opening=extra.opening.forgotten())
-        return replace(state, rates=_at_rest(state.gap), extra=extra)
+        passed = self._passed(state.seen, state.surface, state.relaxed, state.nodal, state.memory)
+        return replace(state, rates=_at_rest(state.gap), trail=(passed,), extra=extra)
 
-    def trailing(self, before: State, after: State) -> State:
-        """Return a state that remembers those before it."""
-        passed = before.rates.trail or (self._passed(before),)
-        passed = (*passed[1 - _TRAIL :], self._passed(after))
-        return replace(after, rates=replace(after.rates, trail=passed))
-
-    def _passed(self, state: State) -> Passed:
-        memory, e, F = state.memory, state.relaxed, state.nodal
+    def _passed(
+        self, seen: Snapshot, surface: Surface, e: npt.NDArray, F: npt.NDArray, memory: Memory
+    ) -> Passed:
         each = np.einsum("ij,ij->i", e - memory.displacement, F - memory.force)
-        heat = self.weights / np.asarray(self.modes.times) * each
-        return Passed(state.seen, state.surface.unit * heat)
+        return Passed(seen, surface.unit * (self.weights / self.times * each))
+
+    def _faces(self, surface: Surface, balance: Balance, opening: Opening | None) -> Faces:
+        """Return the interface of a balance with the law at these opening speeds, frozen."""
+        if opening is None:
+            return balance.faces
+        return surface.interface.at(self.law(opening), balance.gap)
 
     def net(self, hold: Hold, state: State) -> Hold:
         """Return the hold less the force on the flank, which no node carries; it hardly changes."""
@@ -263,31 +281,35 @@ class Body:
     def state(
         self,
         time: float,
-        gap: npt.NDArray,
         depth: float,
+        edge: float,
         surface: Surface,
+        faces: Faces,
         relaxed: npt.NDArray,
         memory: Memory,
         rates: Rates,
         opening: Opening | None,
+        before: tuple[Passed, ...] = (),
     ) -> State:
-        """Return the state at an instant, with what is to be seen of it."""
-        law, at_rest = self.law(opening), self.contact.law
-        nodal = surface.nodal(law, gap)
+        """Return the state at an instant, with what is to be seen of it, after the ones before."""
+        law, gap, nodal = self.law(opening), faces.gap, -faces.tension
+        resting, extra = faces, None
+        if opening is not None:
+            at_rest = self.contact.law
+            resting = surface.interface.at(at_rest, gap)
+            flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
+            extra = Extra(opening, faces.tension - resting.tension, flank)
         instant = 0.5 * self.modes.instantaneous * float(relaxed @ nodal)
         seen = Snapshot(
             time=time,
             depth=depth,
-            edge=surface.edge(gap, at_rest.edge_gap),
-            force=surface.force(law, gap),
+            edge=edge,
+            force=surface.unit * float(nodal.sum()) + surface.flank_force(law, gap),
             elastic=surface.unit * (instant + memory.stored(self.weights)),
-            interface=surface.interface_energy(at_rest, gap),
+            interface=surface.unit * resting.energy + surface.flank_energy(self.contact.law, gap),
         )
-        extra = None
-        if opening is not None:
-            flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
-            extra = Extra(opening, surface.nodal(at_rest, gap) - nodal, flank)
-        return State(seen, surface, gap, relaxed, nodal, memory, rates, extra)
+        trail = (*before[1 - _TRAIL :], self._passed(seen, surface, relaxed, nodal, memory))
+        return State(seen, surface, gap, relaxed, nodal, memory, rates, trail, extra)
 
 
 def _at_rest(gap: npt.NDArray) -> Rates:

@@ -8,20 +8,21 @@ that depth and past alone would leave, the gap g makes the energy
 stationary; :math:`\varphi` is the interface energy of the traction law. The tangent
 S/c + diag(A phi'') is symmetric, and its Cholesky factor exists exactly where the state is stable.
 :func:`descend` is Newton's method on this energy, always downhill: from a good guess it stays on
-the branch in two or three iterations; from a bad one, or where a branch ends, it finds the stable
-state that a contact without inertia would.
+the branch in two or three iterations, mostly with the factor of the first; from a bad one, or where
+a branch ends, it finds the stable state that a contact without inertia would.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from scipy.linalg import get_lapack_funcs
 
 from viscotack.bem.clock import look
-from viscotack.bem.interface import Band
+from viscotack.bem.interface import Band, Faces
 from viscotack.bem.machine import Hold
 from viscotack.bem.span import released, room
 from viscotack.bem.surface import Surface
@@ -43,6 +44,11 @@ _CURVED = 30.0
 # A gap [h0] that is gone: a law that repels without bound lets none come near, and where another is
 # pressed harder than it repels, every step closes the gap further.
 GONE = 1e-6
+# A factor is kept for the next iteration where an undamped one has left less than this part of the
+# unbalanced forces. It converges linearly, so what it may leave in the end is this part of the
+# tractions, about what Newton would: the books feel it in first order. Where gaps no longer change,
+# the last iteration has a factor of its own.
+_KEPT, _KEPT_LEAVES = 0.1, 1e-8
 # A step may close at most this part of the room at a node: beyond, the repulsion explodes.
 _LARGEST_CLOSING = 0.3
 
@@ -51,10 +57,12 @@ _LARGEST_CLOSING = 0.3
 class Balance:
     """A gap and a depth, how many iterations they took, and whether they are stable.
 
-    `released` says that a dead load has pulled the surfaces apart: nothing holds it.
+    `faces` is the interface at these gaps. `released` says that a dead load has pulled the surfaces
+    apart: nothing holds it.
     """
 
     gap: npt.NDArray
+    faces: Faces
     depth: float
     iterations: int
     stable: bool
@@ -112,18 +120,20 @@ def factored(solid: _Elastic, curvature: Band) -> npt.NDArray | None:
     return _factor(solid.matrix, curvature)
 
 
-def solved(factor: npt.NDArray, right: npt.NDArray) -> npt.NDArray:
+def solved(factor: Any, right: npt.NDArray) -> npt.NDArray:
     """Return what a factored tangent makes of a right side."""
     return _potrs(factor, right, lower=1)[0]
 
 
 def _factor(stiffness: npt.NDArray, curvature: Band):
     """Return the Cholesky factor of stiffness + curvature, or None where it is not stable."""
-    tangent = stiffness.copy(order="F")
-    tangent.flat[:: len(tangent) + 1] += curvature.diagonal
-    if curvature.beside is not None:  # only the lower half is used
-        tangent.flat[len(tangent) :: len(tangent) + 1] += curvature.beside
-    factor, info = _potrf(tangent, lower=1, overwrite_a=1, clean=0)
+    tangent, next_diagonal = stiffness.copy(), len(stiffness) + 1
+    entries = tangent.reshape(-1)
+    entries[::next_diagonal] += curvature.diagonal
+    if curvature.beside is not None:  # only the upper half is used
+        entries[1::next_diagonal] += curvature.beside
+    # rows are columns to LAPACK, and the upper half is the lower one
+    factor, info = _potrf(tangent.T, lower=1, overwrite_a=1, clean=0)
     return None if info else factor
 
 
@@ -143,18 +153,6 @@ def _stiffened(stiffness: npt.NDArray, curvature: Band):
     factor = _factor(stiffness, Band(np.maximum(diagonal, 0.0)))
     # under a dead load the solid alone does not resist all of them
     return _factor(stiffness, Band(diagonal + 1.1 * softest)) if factor is None else factor
-
-
-def _limited(change: npt.NDArray, room: npt.NDArray) -> float:
-    """Return the largest part of the change that closes no gap too far."""
-    closing = float(np.max(-change / room))
-    return min(1.0, _LARGEST_CLOSING / closing) if closing > 0 else 1.0
-
-
-def _balanced(pull: npt.NDArray, tension: npt.NDArray, change: float) -> bool:
-    """Say whether the last change left no more unbalanced than a smooth law does."""
-    left, all_ = float(np.sum(np.abs(pull + tension))), float(np.sum(np.abs(tension)))
-    return left < (_UNBALANCED + _CURVED * change**2) * all_
 
 
 def descend(
@@ -179,45 +177,56 @@ def descend(
     solid = _Elastic.of(surface.stiffness / compliance, free_gap, hold)
     face, gap, span = surface.interface, guess, effective_range(law)
     elastic, pull = solid.at(gap)
-    here = face.at(law, gap)
-    energy = elastic + here.energy()
+    faces = face.at(law, gap)
+    energy = elastic + faces.energy
     # Near the minimum the round-off of the two sums decides, not the slope.
-    size = abs(elastic) + abs(here.energy())
-    tension = here.tension()
+    size = abs(elastic) + abs(faces.energy)
+    residual = pull + faces.tension
+    left, factor, stable, kept = float(np.abs(residual).sum()), None, False, False
     for iteration in range(1, most_iterations + 1):
         look()
-        curvature = here.tangent()
-        factor = _factor(solid.matrix, curvature)
-        stable = factor is not None
         if factor is None:
-            factor = _stiffened(solid.matrix, curvature)
-        residual = pull + tension
-        change, _ = _potrs(factor, -residual, lower=1)
-        scale = room(gap, span)
-        part, slope = _limited(change, scale), float(residual @ change)
+            curvature = faces.tangent()
+            factor = _factor(solid.matrix, curvature)
+            stable = factor is not None
+            if factor is None:
+                factor = _stiffened(solid.matrix, curvature)
+        change = -solved(factor, residual)
+        slope, relative = float(residual @ change), change / room(gap, span)
+        closing = -float(relative.min())
+        largest = max(closing, float(relative.max()))
+        part = min(1.0, _LARGEST_CLOSING / closing) if closing > 0 else 1.0
         while True:
             trial = gap + part * change
             elastic, pull = solid.at(trial)
-            here = face.at(law, trial)
-            trial_energy = elastic + here.energy()
+            faces = face.at(law, trial)
+            trial_energy = elastic + faces.energy
             if trial_energy <= energy + 1e-4 * part * slope + 1e-12 * size or part < 1e-6:
                 break
             part *= 0.5
-        largest = float(np.max(np.abs(change) / scale))
         last = stable and largest < _LAST_CHANGE
         if last and part < 1.0 and (iteration == most_iterations or np.array_equal(trial, gap)):
             # So small a change of a stable state gains less than the round-off of the energies,
             # sums of large terms that cancel where a soft spring is far out: they have no say here,
             # and would refuse it for ever.
             gap = gap + change
-            return Balance(gap, solid.depth(gap), iteration, True)
-        gap, energy, tension = trial, trial_energy, here.tension()
-        little = stable and part == 1.0 and -slope < least_gain * size
-        if (last and part == 1.0) or (little and _balanced(pull, tension, largest)):
-            return Balance(gap, solid.depth(gap), iteration, True)
-        if np.min(gap) < GONE:
-            return Balance(gap, solid.depth(gap), iteration, False)
-        opens = change[np.argmin(gap)] > 0  # a load that grows brings them together from there
+            return Balance(gap, face.at(law, gap), solid.depth(gap), iteration, True)
+        gap, energy, residual = trial, trial_energy, pull + faces.tension
+        before, left = left, float(np.abs(residual).sum())
+        whole = stable and part == 1.0
+        # no more unbalanced than a smooth law is after such a change
+        most = _KEPT_LEAVES if kept else _UNBALANCED + _CURVED * largest**2
+        balanced = left < most * float(np.abs(faces.tension).sum())
+        little = -slope < least_gain * size
+        if whole and ((last and not kept) or (little and balanced)):
+            return Balance(gap, faces, solid.depth(gap), iteration, True)
+        smallest = int(gap.argmin())
+        if gap[smallest] < GONE:
+            return Balance(gap, faces, solid.depth(gap), iteration, False)
+        opens = change[smallest] > 0  # a load that grows brings them together from there
         if hold.stiffness == 0 and opens and released(gap, span):
-            return Balance(gap, solid.depth(gap), iteration, False, released=True)
-    return Balance(gap, solid.depth(gap), most_iterations, False)
+            return Balance(gap, faces, solid.depth(gap), iteration, False, released=True)
+        kept = whole and not last and left < _KEPT * before
+        if not kept:
+            factor = None
+    return Balance(gap, faces, solid.depth(gap), most_iterations, False)

@@ -198,6 +198,7 @@ class Found:
     """A balance in the frame of the crack."""
 
     gap: npt.NDArray
+    faces: Faces
     relaxed: npt.NDArray
     depth: float
     iterations: int
@@ -218,7 +219,7 @@ def elastic(
     if not balance.stable:
         return None
     e = (balance.gap - free + balance.depth) / compliance
-    return Found(balance.gap, e, balance.depth, balance.iterations)
+    return Found(balance.gap, balance.faces, e, balance.depth, balance.iterations)
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,7 +245,7 @@ class Balancing:
             tangent = _Tangent.of(here, self)
             if tangent is None:
                 return None
-            e, depth = self._linear(gap, here.tension(), tangent)
+            e, depth = self._linear(gap, here.tension, tangent)
             after = self.compliance @ e + self.free - depth
             change, scale = after - gap, room(gap, span)
             closing, largest = float(np.max(-change / scale)), float(np.max(np.abs(change) / scale))
@@ -255,8 +256,8 @@ class Balancing:
             here = face.at(self.law, gap)
             if largest < _LAST_CHANGE:
                 nodal = self.surface.stiffness @ e
-                if np.sum(np.abs(nodal + here.tension())) < _UNBALANCED * np.sum(np.abs(nodal)):
-                    return None if tangent.negative else Found(gap, e, depth, iteration)
+                if np.sum(np.abs(nodal + here.tension)) < _UNBALANCED * np.sum(np.abs(nodal)):
+                    return None if tangent.negative else Found(gap, here, e, depth, iteration)
         return None
 
     def _linear(

@@ -265,7 +265,9 @@ def driven(
         if factor is None:
             return None, None
         if np.sum(np.abs(residual)) < _UNBALANCED * np.sum(np.abs(tension)):
-            return Balance(gap, solid.depth(gap), iteration, True), speed
+            stepped: Any = law
+            faces = surface.interface.at(stepped, gap)
+            return Balance(gap, faces, solid.depth(gap), iteration, True), speed
         change = solved(factor, -residual)
         closing = float(np.max(-change / room(gap, span)))
         opened = opened + change * min(1.0, _LARGEST_CLOSING / max(closing, _LARGEST_CLOSING))

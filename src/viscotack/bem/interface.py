@@ -10,13 +10,13 @@ of the surface makes up for (:func:`viscotack.bem.surface.stiffness`).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.traction import Traction, softening
+from viscotack.traction.law import energy_and_traction
 
 # The tension of a law that the nodes can follow falls by no more [strength squared over work].
 _MOST_SOFTENING = 3.0
@@ -39,16 +39,23 @@ class Band(NamedTuple):
 class Faces(Protocol):
     """The interface at given gaps."""
 
-    def energy(self) -> float:
-        """Return the energy [dg times the unit of area]."""
+    @property
+    def gap(self) -> npt.NDArray:
+        """The gaps at the nodes [h0]."""
         ...
 
+    @property
+    def energy(self) -> float:
+        """Energy [dg times the unit of area]."""
+        ...
+
+    @property
     def tension(self) -> npt.NDArray:
-        """Return the derivative of the energy by the gaps: nodal forces, tension positive."""
+        """Derivative of the energy by the gaps: nodal forces, tension positive."""
         ...
 
     def tangent(self) -> Band:
-        """Return the second derivatives."""
+        """Return the second derivatives of the energy by the gaps."""
         ...
 
 
@@ -78,7 +85,8 @@ class AtNodes:
 
     def at(self, law: Traction, gap: npt.NDArray) -> Faces:
         """Return the interface at gaps at the nodes [h0]."""
-        return _NodeFaces(self.area, law, gap)
+        energy, tension = energy_and_traction(law, gap)
+        return _NodeFaces(self.area, law, gap, float(self.area @ energy), self.area * tension)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,13 +114,21 @@ class OnPanels:
         even = np.abs(step) < _EVEN
         # energy_beyond falls by what lies between
         step = np.where(even, 1.0, step)
-        mean = -np.diff(law.energy_beyond(gap)) / step
-        if not even.any():
-            return _PanelFaces(self.panels, law, gap, step, mean, even, _NO_GAPS)
-        a, b = gap[:-1][even], gap[1:][even]
-        between = a + np.outer(_POINTS, b - a)
-        mean[even] = _WEIGHTS @ law.energy(between)
-        return _PanelFaces(self.panels, law, gap, step, mean, even, between)
+        mean, at_nodes = -np.diff(law.energy_beyond(gap)) / step, law.energy(gap)
+        between = _NO_GAPS
+        if even.any():
+            a, b = gap[:-1][even], gap[1:][even]
+            between = a + np.outer(_POINTS, b - a)
+            mean[even] = _WEIGHTS @ law.energy(between)
+        first, last = (mean - at_nodes[:-1]) / step, (at_nodes[1:] - mean) / step
+        if between.size:
+            pull, t = law.traction(between), _POINTS[:, None]
+            first[even] = _WEIGHTS @ ((1 - t) * pull)
+            last[even] = _WEIGHTS @ (t * pull)
+        energy = float(self.panels @ mean)
+        tension = _spread(self.panels * first, self.panels * last)
+        panels = step, mean, at_nodes, even, between
+        return _PanelFaces(self.panels, law, gap, energy, tension, *panels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,12 +136,8 @@ class _NodeFaces:
     area: npt.NDArray
     law: Traction
     gap: npt.NDArray
-
-    def energy(self) -> float:
-        return float(self.area @ self.law.energy(self.gap))
-
-    def tension(self) -> npt.NDArray:
-        return self.area * self.law.traction(self.gap)
+    energy: float
+    tension: npt.NDArray
 
     def tangent(self) -> Band:
         return Band(self.area * self.law.stiffness(self.gap))
@@ -133,30 +145,21 @@ class _NodeFaces:
 
 @dataclass(frozen=True, eq=False)
 class _PanelFaces:
-    """Means over panels; `even` panels by their points `between`."""
+    """Means over panels, energies at nodes; `even` panels by their points `between`."""
 
     panels: npt.NDArray
     law: Traction
     gap: npt.NDArray
+    energy: float
+    tension: npt.NDArray
     step: npt.NDArray
     mean: npt.NDArray
+    at_nodes: npt.NDArray
     even: npt.NDArray
     between: npt.NDArray
 
-    def energy(self) -> float:
-        return float(self.panels @ self.mean)
-
-    def tension(self) -> npt.NDArray:
-        first = (self.mean - self._at_nodes[:-1]) / self.step
-        last = (self._at_nodes[1:] - self.mean) / self.step
-        if self.between.size:
-            pull, t = self._pull_between, _POINTS[:, None]
-            first[self.even] = _WEIGHTS @ ((1 - t) * pull)
-            last[self.even] = _WEIGHTS @ (t * pull)
-        return _spread(self.panels * first, self.panels * last)
-
     def tangent(self) -> Band:
-        mean, step, energy = self.mean, self.step, self._at_nodes
+        mean, step, energy = self.mean, self.step, self.at_nodes
         pull = self.law.traction(self.gap)
         first = (2 * (mean - energy[:-1]) / step - pull[:-1]) / step
         last = (pull[1:] - 2 * (energy[1:] - mean) / step) / step
@@ -167,14 +170,6 @@ class _PanelFaces:
             last[self.even] = _WEIGHTS @ (t**2 * k)
             both[self.even] = _WEIGHTS @ (t * (1 - t) * k)
         return Band(_spread(self.panels * first, self.panels * last), self.panels * both)
-
-    @cached_property
-    def _at_nodes(self) -> npt.NDArray:
-        return self.law.energy(self.gap)
-
-    @cached_property
-    def _pull_between(self) -> npt.NDArray:
-        return self.law.traction(self.between)
 
 
 def resolved(law: Traction) -> bool:

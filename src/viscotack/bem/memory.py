@@ -32,8 +32,10 @@ class Step:
     ----------
     compliance : float
         Displacement at the end of the step per unit of e there: c + sum w (1 - phi).
-    decay, old, new : ndarray, shape (M,)
-        exp(-x), phi - exp(-x) and 1 - phi of each mode.
+    decay : ndarray, shape (M,)
+        exp(-x) of each mode.
+    drive : ndarray, shape (M, 2)
+        phi - exp(-x) and 1 - phi of each mode.
     curvature : float
         Displacement per unit of the error of a linear e: what the step control weighs.
     """
@@ -43,8 +45,7 @@ class Step:
     length: float
     compliance: float
     decay: npt.NDArray
-    old: npt.NDArray
-    new: npt.NDArray
+    drive: npt.NDArray
     curvature: float
 
 
@@ -60,8 +61,7 @@ def step(modes: Modes, length: float) -> Step:
         length=length,
         compliance=modes.instantaneous + float(w @ (1 - phi)),
         decay=decay,
-        old=phi - decay,
-        new=1 - phi,
+        drive=np.array([phi - decay, 1 - phi]).T,
         # A parabola of unit height over the step leaves x/6 in a slow mode, 1/x in a fast one.
         curvature=float(w @ (x / (6 + x * x))),
     )
@@ -76,13 +76,13 @@ class Memory:
 
     def inherited(self, s: Step, e: npt.NDArray) -> npt.NDArray:
         """Return the displacement at the end of a step that the past alone causes."""
-        return (s.weights * s.decay) @ self.displacement + float(s.weights @ s.old) * e
+        return (s.weights * s.decay) @ self.displacement + float(s.weights @ s.drive[:, 0]) * e
 
     def advanced(self, s: Step, e: npt.NDArray, e1: npt.NDArray, F: npt.NDArray, F1: npt.NDArray):
         """Return the memory after a step in which e and F changed linearly to e1 and F1."""
 
         def recur(field: npt.NDArray, first: npt.NDArray, last: npt.NDArray) -> npt.NDArray:
-            return s.decay[:, None] * field + np.outer(s.old, first) + np.outer(s.new, last)
+            return s.decay[:, None] * field + s.drive @ np.array([first, last])
 
         return Memory(recur(self.displacement, e, e1), recur(self.force, F, F1))
 

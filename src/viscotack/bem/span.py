@@ -24,12 +24,12 @@ _LEAST_ROOM = 0.1
 
 def separated(gap: npt.NDArray, span: float) -> bool:
     """Return whether surfaces have separated for all that matters."""
-    return float(np.min(gap)) > 1 + _SEPARATED * span
+    return float(gap.min()) > 1 + _SEPARATED * span
 
 
 def released(gap: npt.NDArray, span: float) -> bool:
     """Return whether surfaces are so far apart that nothing holds a dead load any more."""
-    return float(np.min(gap)) > 1 + _RELEASED * span
+    return float(gap.min()) > 1 + _RELEASED * span
 
 
 def least_gap(span: float) -> float:

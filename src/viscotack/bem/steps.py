@@ -201,7 +201,7 @@ def travel(run: Run, at: Place) -> float:
     Once apart, tractions change over the gap. Pressed deep, forces change over the depth, which
     grows like F^(2/3) by Hertz; adhesion is a small matter there.
     """
-    apart = max(float(np.min(at.state.gap)) - 1, 0.0)
+    apart = max(float(at.state.gap.min()) - 1, 0.0)
     pressed = max(at.seen.force, 0.0) ** (2 / 3)
     reach = run.body.contact.travel * (1 + pressed) + apart
     return _looser(run, at) * run.settings.travel * reach

@@ -79,7 +79,7 @@ class Surface:
 
     def nodal(self, law: Traction, gap: npt.NDArray) -> npt.NDArray:
         """Return the nodal forces, compression positive."""
-        return -self.interface.at(law, gap).tension()
+        return -self.interface.at(law, gap).tension
 
     def force(self, law: Traction, gap: npt.NDArray) -> float:
         """Return the normal force [output unit], compression positive, with that of the flank."""
@@ -93,10 +93,9 @@ class Surface:
         law = getattr(law, "rim", law)
         return self.flank * float(law.energy(gap[-1])) if self.flank else 0.0
 
-    def interface_energy(self, law: Traction, gap: npt.NDArray) -> float:
-        """Return the interface energy [output force times h0], zero for surfaces far apart."""
-        nodal = self.unit * self.interface.at(law, gap).energy()
-        return nodal + (self.flank * float(law.energy_beyond(gap[-1])) if self.flank else 0.0)
+    def flank_energy(self, law: Traction, gap: npt.NDArray) -> float:
+        """Return the interface energy [output force times h0] of the flank beyond the last node."""
+        return self.flank * float(law.energy_beyond(gap[-1])) if self.flank else 0.0
 
     def edge(self, gap: npt.NDArray, edge_gap: float) -> float:
         """Return the contact edge, where the gap last passes edge_gap; nan without one."""

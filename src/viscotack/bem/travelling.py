@@ -12,6 +12,8 @@ Where an edge rests, where no balance is found or where a branch ends, steps are
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import prod
 
 import numpy as np
 import numpy.typing as npt
@@ -91,7 +93,7 @@ class Ahead:
 
 def ahead(run: Run, at: Place) -> Ahead | None:
     """Return where the edge is expected after the next step; None where not to be followed."""
-    trail, edge = at.state.rates.trail, at.seen.edge
+    trail, edge = at.state.trail, at.seen.edge
     if run.body.growing is not None:  # its speeds are those of the gap at a place
         return None
     if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
@@ -117,14 +119,15 @@ def ahead(run: Run, at: Place) -> Ahead | None:
 def _told_apart(trail: tuple[Passed, ...], dt: float) -> bool:
     """Return whether the clock tells the last instants, and the next one, apart."""
     time = [passed.seen.time for passed in trail]
-    return min(*np.diff(time), dt) > _TICK * time[-1]
+    shortest = min(later - earlier for earlier, later in pairwise(time))
+    return min(shortest, dt) > _TICK * time[-1]
 
 
 def _expected(trail: tuple[Passed, ...], dt: float) -> float:
     """Return the travel of the edge in the next step, by the places it has been at."""
-    time = np.array([passed.seen.time for passed in trail])
-    edge = np.array([passed.seen.edge for passed in trail])
-    if not np.all(edge > 0):
+    time = [passed.seen.time for passed in trail]
+    edge = [passed.seen.edge for passed in trail]
+    if not all(place > 0 for place in edge):
         return 0.0
     parabola = _extrapolated(time[-3:], edge[-3:], dt)
     if len(trail) > 3:
@@ -134,13 +137,10 @@ def _expected(trail: tuple[Passed, ...], dt: float) -> float:
     return parabola
 
 
-def _extrapolated(time: npt.NDArray, edge: npt.NDArray, dt: float) -> float:
-    t, x = (time - time[-1]) / dt, edge - edge[-1]
-    value = 0.0
-    for k in range(len(t)):
-        others = np.delete(t, k)
-        value += x[k] * float(np.prod((1 - others) / (t[k] - others)))
-    return value
+def _extrapolated(time: list[float], edge: list[float], dt: float) -> float:
+    t, x = [(at - time[-1]) / dt for at in time], [at - edge[-1] for at in edge]
+    parts = (prod((1 - s) / (t[k] - s) for s in t[:k] + t[k + 1 :]) for k in range(len(t)))
+    return sum(part * place for part, place in zip(parts, x, strict=True))
 
 
 def travelled(run: Run, at: Place, goal: Ahead) -> Attempt | None:
@@ -286,8 +286,10 @@ def _after(
     )
     memory = Memory(d, d @ surface.stiffness)
     time = at.seen.time + dt
-    after = run.body.state(time, found.gap, found.depth, surface, e, memory, rates, None)
-    return run.body.trailing(at.state, after), bend
+    after = run.body.state(
+        time, found.depth, edge, surface, found.faces, e, memory, rates, None, at.state.trail
+    )
+    return after, bend
 
 
 def _strain(
@@ -308,7 +310,7 @@ def _strain(
 
 def _work(leg: Leg, after: State, dt: float) -> float:
     """Return the work at the indenter over the last step."""
-    passed = after.rates.trail
+    passed = after.trail
     last, now = passed[-2].seen, passed[-1].seen
     if leg.dead_load:  # linear in time, while the depth is not
         fallen = now.force * now.depth - last.force * last.depth
@@ -325,7 +327,7 @@ def _work(leg: Leg, after: State, dt: float) -> float:
 
 def _heat(after: State, dt: float) -> npt.NDArray:
     """Return the heat of each mode over the last step."""
-    passed = after.rates.trail
+    passed = after.trail
     return _integral(passed, np.array([p.heat for p in passed]), dt)
 
 

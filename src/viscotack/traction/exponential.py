@@ -64,6 +64,14 @@ class Exponential:
         x, fading = self._opening(gap)
         return -self.work_of_adhesion * (1 + x) * fading
 
+    def energy_and_traction(
+        self, gap: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return the energy [J/m^2] and the traction [Pa] at a gap [m] in one evaluation."""
+        x, fading = self._opening(gap)
+        pull = self.work_of_adhesion / self._length * x * fading
+        return -self.work_of_adhesion * (1 + x) * fading, pull
+
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; negative far apart.
 

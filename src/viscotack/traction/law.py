@@ -69,6 +69,14 @@ def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return h
 
 
+def energy_and_traction(
+    law: Traction, gap: npt.ArrayLike
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Return energy [J/m^2] and traction [Pa] of a law, in one evaluation where it offers one."""
+    both = getattr(law, "energy_and_traction", None)
+    return both(gap) if both is not None else (law.energy(gap), law.traction(gap))
+
+
 def effective_range(law: Traction) -> float:
     r"""Return the range of a law over its equilibrium gap: that of a Lennard-Jones law as strong.
 

@@ -62,6 +62,16 @@ class LennardJones:
         x2 = self._inverse_gap(gap) ** 2
         return -(self.work_of_adhesion / 3) * (4 * x2 - (x2 * x2) ** 2)
 
+    def energy_and_traction(
+        self, gap: npt.ArrayLike
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return the energy [J/m^2] and the traction [Pa] at a gap [m] in one evaluation."""
+        x = self._inverse_gap(gap)
+        x2 = x * x
+        x3 = x2 * x
+        pull = (8 * self.work_of_adhesion / (3 * self.equilibrium_gap)) * (x3 - x3 * x3 * x3)
+        return -(self.work_of_adhesion / 3) * (4 * x2 - (x2 * x2) ** 2), pull
+
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; negative far apart.
 
