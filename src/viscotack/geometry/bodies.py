@@ -4,10 +4,10 @@ A body answers :meth:`Body.influence`, how far pressures on its surface move it,
 that it was made for, and its twin in other units of length, :meth:`Body.reduced`; `word` names it
 in files. A class with these names is a body, wherever it was written; docs/own.md goes through one.
 
-A pressure :math:`\cos \xi x` on a layer of the thickness b moves its surface by
-:math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, plane strain. The transfer function kappa
-rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to 0, of a thin layer, which sinks by
-:math:`c \, p b / E^*`, to 1, the half-plane.
+A pressure :math:`\cos \xi x` on a layer of the thickness b in plane strain moves its surface by
+:math:`\frac{2}{E^* \xi} \, \kappa(\xi b) \cos \xi x`, and a pressure :math:`J_0(\xi r)` does
+likewise. The transfer function kappa rises from the ``foundation`` :math:`c = 2 \kappa(t)/t`, t to
+0, of a thin layer, which sinks by :math:`c \, p b / E^*`, to 1, the half-plane.
 """
 
 from __future__ import annotations
@@ -128,6 +128,10 @@ class Layer:
 
     def influence(self, nodes: npt.NDArray, symmetry: str) -> Array:
         """Return the displacement at node i under hat j, for E* = 1, in the unit of the nodes."""
+        if symmetry == "revolution":
+            from viscotack.geometry.layer_of_revolution import influence
+
+            return influence(nodes, self.thickness, self.base)
         from viscotack.geometry.layer import layer_influence
 
         return layer_influence(nodes, self.thickness, self.base)

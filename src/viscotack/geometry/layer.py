@@ -122,6 +122,13 @@ def layer_influence(x: npt.NDArray, thickness: float, base: Base) -> npt.NDArray
     return thickness * G
 
 
+def own_displacement(y: npt.NDArray, base: Base) -> npt.NDArray:
+    """Return the displacement at the top of each hat under it alone, lengths in b, for E* = 1."""
+    flank = np.diff(y)
+    chord = _potential(base).value(flank, False) / flank
+    return np.concatenate([chord[:1], chord]) + np.concatenate([chord, [0.0]])
+
+
 @dataclass(frozen=True, eq=False)
 class _Potential:
     """F for one base: r(y) below y = 1 and E(y) above as one table, c/2 and A."""

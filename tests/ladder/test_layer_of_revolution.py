@@ -1,0 +1,146 @@
+"""The compliance of a layer under pressure of revolution: identities, limits and orders."""
+
+import numpy as np
+import pytest
+from scipy.special import jv
+
+from viscotack.bem.surface import relaxed_stiffness
+from viscotack.geometry import Bonded, Frictionless, Layer, half_space
+from viscotack.geometry.hats import hat_areas
+from viscotack.geometry.layer_of_revolution import influence
+
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.49, 0.5))]
+SQUEEZED = Bonded(poisson_ratio=0.5)
+
+
+def graded(edge, finest, outer, growth=0.08, widest=np.inf):
+    """Return nodes that are dense around an edge, and at most so far apart inside it."""
+    steps = finest * (1 + growth) ** np.arange(200)
+    inner, away = np.cumsum(np.minimum(steps, widest)), np.cumsum(steps)
+    inner = np.append(inner, np.arange(inner[-1] + widest, edge, widest) if widest < 1 else [])
+    nodes = np.concatenate([edge - inner, [edge], edge + away])
+    return np.append(0.0, np.sort(nodes[(nodes > finest) & (nodes < outer)]))
+
+
+def by_waves(r, thickness, base):
+    """Return the influence matrix, each hat by its Hankel transform as a difference of caps."""
+    y = r / thickness
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    edges = np.linspace(0.0, 20.0, 10 + int(4 * y[-1]))
+    half = np.diff(edges)[:, None] / 2
+    t = (edges[:-1, None] + half * (1 + nodes)).ravel()
+    weight = 2 * (half * weights).ravel() * (base.transfer(t) - 1)
+    x = np.multiply.outer(t, y)
+    small, large = np.minimum(x, 0.3), np.maximum(x, 0.3)
+    series = 1 / 4 - small**2 / 48 + small**4 / 1536 - small**6 / 92160 + small**8 / 8847360
+    cap = y**4 * np.where(x < 0.3, series, 2 * jv(2, large) / large**2)
+    ramps = np.diff(cap, axis=1) / np.diff(y * y)
+    last = y[-1] ** 2 * jv(1, x[:, -1]) / x[:, -1] - ramps[:, -1]
+    hats = np.column_stack([ramps[:, 0], np.diff(ramps, axis=1), last])
+    moved = (jv(0, x.T) * weight) @ hats
+    return half_space.influence(r) + thickness * moved
+
+
+# identity
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+@pytest.mark.parametrize("thickness", [0.1, 1.0, 300.0])
+def test_hats_move_the_surface_as_their_hankel_transforms_say(thickness, base):
+    r = graded(1.5, 0.01, 2.2)
+    found, exact = influence(r, thickness, base), by_waves(r, thickness, base)
+    assert np.max(np.abs(found - exact) / np.diag(exact)[:, None]) < 1e-7
+    pressure = np.maximum(4 - r * r, 0.0)
+    assert found @ pressure == pytest.approx(exact @ pressure, abs=1e-7 * np.max(exact @ pressure))
+
+
+def test_the_unit_of_length_does_not_matter():
+    r = graded(1.0, 0.02, 3.0)
+    for base in BASES:
+        other = influence(1e-6 * r, 0.2e-6, base)
+        assert other == pytest.approx(1e-6 * influence(r, 0.2, base), rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_equal_hats_become_reciprocal_as_they_become_finer(base):
+    def off(panels):
+        r = np.linspace(0.0, 2.0, panels + 1)
+        B = influence(r, 0.5, base) / hat_areas(r, "revolution")
+        inner = B[r > 1][:, r > 1][:-1, :-1]
+        return np.max(np.abs(inner - inner.T)) / np.max(inner)
+
+    coarse, fine = off(40), off(80)
+    assert fine < 3e-3 and fine < coarse / 2.2
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+@pytest.mark.parametrize("thickness", [0.05, 0.1, 0.3, 3.0, 300.0])
+def test_the_compliance_has_a_stiffness(thickness, base):
+    for edge, finest, outer in ((1.5, 0.003, 6.0), (0.4, 0.01, 20.0), (4.0, 0.001, 10.0)):
+        # what is squeezed out needs nodes that tell thicknesses apart
+        widest = 0.3 * thickness if base.foundation < 0.2 else edge / 24
+        nodes = graded(edge, min(finest, thickness / 10), outer, growth=0.07, widest=widest)
+        S = relaxed_stiffness(Layer(thickness, base), "revolution", nodes, 24.0)
+        np.linalg.cholesky(S)
+
+
+# limit
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_a_thick_layer_is_a_half_space_as_a_over_b(base):
+    r = graded(1.0, 0.02, 2.0)
+    exact, error = half_space.influence(r), []
+    for thickness in (100.0, 200.0, 400.0):
+        found = influence(r, thickness, base)
+        error.append(np.max(np.abs((found - exact) @ np.ones(len(r)))))
+    assert np.polyfit(np.log([100.0, 200.0, 400.0]), np.log(error), 1)[0] == pytest.approx(
+        -1, abs=0.01
+    )
+    assert error[-1] < 0.02 * np.max(exact @ np.ones(len(r)))
+
+
+@pytest.mark.parametrize("base", BASES[:4], ids=repr)
+def test_a_thin_layer_is_a_foundation(base):
+    r = np.linspace(0.0, 1.0, 201)
+    moved = influence(r, 0.02, base) @ (1 - r * r)
+    inside = (r > 0.1) & (r < 0.6)
+    c = base.foundation
+    # u = c b p + e b^3 laplacian(p), the second of which is known where c is 0
+    assert moved[inside] == pytest.approx(0.02 * c * (1 - r * r)[inside], abs=8 * 0.02**3)
+
+
+def test_an_incompressible_thin_layer_is_squeezed_out():
+    # u = -(4/3) b^3 laplacian(p)/E*
+    r = np.linspace(0.0, 1.0, 401)
+    moved = influence(r, 0.02, SQUEEZED) @ (1 - r * r)
+    assert moved[(r > 0.1) & (r < 0.6)] == pytest.approx(16 / 3 * 0.02**3, rel=2e-3)
+
+
+def test_far_nodes_are_springs_side_by_side():
+    r = np.concatenate([np.linspace(0.0, 1.0, 51), 1.0 + np.cumsum(0.02 * 1.3 ** np.arange(20))])
+    for base in BASES:
+        G = influence(r, 0.1, base)
+        wide = np.flatnonzero(np.diff(r) > 0.1) + 1
+        own = G[np.ix_(wide[1:], wide[1:])]
+        assert np.count_nonzero(own - np.diag(np.diag(own))) == 0 and np.all(np.diag(own) > 0)
+        assert own[-2, -2] == pytest.approx(0.1 * base.foundation, rel=0.1, abs=4e-3)
+
+
+def test_a_stiffer_base_makes_a_stiffer_layer():
+    r = 1 - np.linspace(1, 0, 61) ** 3
+    for thickness in (0.3, 1.0, 10.0):
+        force = [
+            np.sum(
+                hat_areas(r, "revolution")
+                * np.linalg.solve(influence(r, thickness, base), np.ones(61))
+            )
+            for base in BASES
+        ]
+        assert np.all(np.diff(force) > 0) and force[0] > 2.0
+
+
+def test_a_contact_that_is_too_wide_for_the_table_is_refused_in_words():
+    r = np.linspace(0.0, 400.0, 801)
+    with pytest.raises(ValueError, match="out to 400 thicknesses"):
+        influence(r, 1.0, Frictionless())
