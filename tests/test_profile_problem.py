@@ -11,7 +11,7 @@ from viscotack.app.cli import application
 from viscotack.errors import OutOfRange
 from viscotack.forecast import predict
 from viscotack.forecast.advice import advise
-from viscotack.geometry import Cone, FlatPunch, Layer, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, FlatPunch, PowerLawProfile, Sphere
 from viscotack.materials import Elastic, StandardSolid
 from viscotack.methods import solve
 from viscotack.problem import Groups, Problem
@@ -144,8 +144,6 @@ def test_parts_of_the_wrong_kind_are_refused():
         problem(1e-3)
     with pytest.raises(ValueError, match="protocol cannot be a AtDepth; try Retraction"):
         Problem(SOLID, LAW, Cone(0.1), AtDepth(1e-6))
-    with pytest.raises(ValueError, match="a cone presses a half-space, got Layer"):
-        Problem(SOLID, LAW, CONE, Retraction(START, 1e-5), body=Layer(1e-3))
     with pytest.raises(ValueError, match="exponent must lie between 1 and 10, got 0.5"):
         PowerLawProfile(1.0, 0.5)
     with pytest.raises(ValueError, match=r"a flat punch presses a layer, got HalfSpace\(\)"):

@@ -179,7 +179,7 @@ def test_a_case_in_si_comes_from_a_file(case_file, capsys, tmp_path):
         ('"50 um"', '"50 kg"', "[layer] thickness: '50 kg' does not measure the right thing"),
         ("preload_stress", "preload_radius", "needs exactly one of preload_depth, preload_stress"),
         ('[layer]\nthickness = "50 um"\nbase = "bonded"\n', "", "the table [layer] is missing"),
-        ("[punch]", "[sphere]", "a [layer] goes with a [punch]; a sphere presses a half-space"),
+        ("[punch]", "[sphere]", "[sphere] radius is missing"),
     ],
 )
 def test_a_wrong_case_is_refused_with_table_and_key(old, new, words, case_file, capsys):

@@ -56,6 +56,8 @@ class Grading:
     scar_spacing, scar_half_width : float
         Spacing and half width of the zone kept fine around the first edge; without a width
         there is none, for a solid that remembers nothing.
+    widest : float
+        Largest distance of nodes in the contact.
     """
 
     spacing: float
@@ -65,6 +67,7 @@ class Grading:
     outer_radius: float
     scar_spacing: float
     scar_half_width: float
+    widest: float = np.inf
 
     def widened(self, factor: float) -> Grading:
         """Return the grading for a crack whose zone has grown by this factor, a power of two."""
@@ -113,9 +116,9 @@ class Grading:
         """
         first = max(first_edge - self.half_width, length)
         first /= 2.0 ** np.floor(np.log2(first / length))
-        coarsest = _coarsest(first, self.spacing)
+        coarsest = self._coarsest(first)
         many = 1 + len(self._growing(first, self.growth_inside, largest=coarsest))
-        h, largest = self.spacing, _coarsest(length, self.spacing)
+        h, largest = self.spacing, self._coarsest(length)
 
         def away(growth: float) -> npt.NDArray:
             grown = np.minimum(np.arange(1, many + 1) * np.log1p(growth), np.log(largest / h))
@@ -127,6 +130,10 @@ class Grading:
         growth = brentq(lambda growth: float(away(growth)[-1]) - length, 0.0, 1.0, xtol=1e-12)
         points = away(float(growth))  # type: ignore[arg-type]
         return points * (length / points[-1])
+
+    def _coarsest(self, length: float) -> float:
+        """Return the largest distance of nodes in a contact that goes so far from the middle."""
+        return max(min(length / 24, self.widest), self.spacing)
 
     def _growing(
         self, length: float, growth: float, *, first: float | None = None, largest: float = np.inf
@@ -147,11 +154,6 @@ class Grading:
             from_scar = self.scar_spacing + self._healed * left
             points.append(points[-1] + min(step, from_scar))
         return start + np.array(points[1:-1]) * (length / points[-1])
-
-
-def _coarsest(length: float, spacing: float) -> float:
-    """Return the largest distance of nodes in the contact, which goes so far from the middle."""
-    return max(length / 24, spacing)
 
 
 def check_count(nodes: float) -> None:

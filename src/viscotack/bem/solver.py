@@ -194,7 +194,7 @@ def contact_of(groups: Groups) -> Contact:
         raise InputError(
             f"the Tabor number{over} must be between {low:g} and {high:g} for a simulation, got "
             f"{groups.effective_tabor:.4g}; below take theory.bradley, above theory.jkr on a "
-            "half-space"
+            "half-space and theory.elastic.indenter on another body"
         )
     assert groups.tabor is not None
     match groups.geometry, groups.body:

@@ -97,7 +97,7 @@ class Layer:
     """
 
     word: ClassVar[str] = "layer"
-    symmetries: ClassVar[tuple[str, ...]] = ("plane",)
+    symmetries: ClassVar[tuple[str, ...]] = ("revolution", "plane")
 
     thickness: Annotated[
         float, Quantity("m", "b", "thickness of the layer", above=0, example="50 um")

@@ -128,11 +128,6 @@ def _stated(
             "docs/input.md"
         )
     found = {name: Table(path, name, tables, beside) for name in names}
-    if not plain and Layer.word in bodies:
-        raise InputError(
-            f"{path}: a [layer] goes with a [punch]; a {shape} presses a half-space, and a layer "
-            "under it is not known: leave the table out"
-        )
     material = _material(found["material"], nouns, temperature)
     law = law_from_table(found["interface"], nouns.laws)
     kind = plane if plain else revolution

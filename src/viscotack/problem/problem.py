@@ -75,8 +75,8 @@ class Problem:
         AtForce and LoadTo are mean stresses [Pa], positive in compression, and a stiffness is per
         area [Pa/m].
     body : HalfSpace, Layer or a body of the user's
-        What is pressed; a half-space when left out. A flat punch needs a layer, the others a
-        half-space, or a body that was made for their symmetry.
+        What is pressed; a half-space when left out. A flat punch needs a layer, the others may
+        press either, or a body that was made for their symmetry.
 
     Raises
     ------
@@ -442,8 +442,8 @@ def _check_body(shape: Any, body: Any) -> None:
             f"a flat punch presses a layer, got {body}; try body=Layer(thickness=1e-4)"
         )
     raise InputError(
-        f"a {shape.word} presses a half-space, got {body}; a {body.word} under it is not known: "
-        "leave it out, or take a FlatPunch"
+        f"the body {body} is one of plane strain, and a {shape.word} does not press it; leave it "
+        "out, or take a FlatPunch"
     )
 
 

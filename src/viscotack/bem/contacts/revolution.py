@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -35,10 +35,10 @@ from viscotack.bem.shut import check_open
 from viscotack.bem.span import least_gap
 from viscotack.bem.surface import Surface, relaxed_stiffness
 from viscotack.errors import InputError
-from viscotack.geometry import Body, HalfSpace, Sphere
+from viscotack.geometry import Body, HalfSpace, Layer, Sphere
 from viscotack.geometry.hats import hat_areas, panel_areas
 from viscotack.protocol import Apart, AtDepth, AtForce, AtRadius, Start
-from viscotack.theory.elastic import on_body
+from viscotack.theory.elastic import indenter
 from viscotack.traction import Traction, effective_range
 
 # Contact radii of the outputs are in (pi R^2 dg/E0*)^(1/3), this many beta.
@@ -51,6 +51,9 @@ _DEPTH_TOLERANCE = 1e-6
 _RISING = 0.2 / np.sqrt(2)
 # Where surfaces overlap by this part of the range there is a contact without adhesion as well.
 _FIRM = 0.2
+# A glued layer with a foundation softer than this is squeezed sideways rather than compressed, and
+# its nodes tell thicknesses apart in the whole contact, by default three of them to one.
+_INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 # The edge has been found when it lies within this part of the fine zone around its nodes.
 _CENTRED = 0.25
 
@@ -120,8 +123,9 @@ class RevolutionContact(ABC):
         """How far adhesion draws a contact of radius beta out beside that on a half-space."""
         if self.body == HalfSpace():
             return 1.0
-        out = on_body.drawn(np.ones(1), Sphere(1.0), self.body, 1.0)
-        return min(1.0, float(out[0]) / np.sqrt(2 * np.pi))
+        solid: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+        out = indenter.drawn(1.0, shape=Sphere(1.0), body=self.body, **solid)
+        return min(1.0, float(out) / np.sqrt(2 * np.pi))
 
     @property
     def edge_unit(self) -> float:
@@ -172,7 +176,11 @@ class RevolutionContact(ABC):
         # Reach counts from the plane, or from the contact where adhesion lifts its edge far above.
         rise = settings.reach * self.span + max(depth, self.rise(edge), 0.0)
         outer = max(self.radius_of_rise(rise), 2.5 * edge)
-        return settings.grading(self.zone, self.law, outer, more=catching)
+        fine = settings.grading(self.zone, self.law, outer, more=catching)
+        if isinstance(self.body, Layer) and self.body.base.foundation < _INCOMPRESSIBLE:
+            widest = _SQUEEZED * self.body.thickness / settings.nodes_per_zone
+            return replace(fine, widest=widest)
+        return fine
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start; by force, the load-stable contact.

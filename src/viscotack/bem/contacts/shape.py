@@ -16,8 +16,8 @@ from scipy.optimize import brentq, minimize_scalar
 
 from viscotack.bem.contacts.revolution import RevolutionContact
 from viscotack.errors import InputError
-from viscotack.geometry import Shape
-from viscotack.theory.elastic import indenter
+from viscotack.geometry import Layer, Shape
+from viscotack.theory.elastic import indenter, on_layer
 
 # Radii [beta] between which contacts are looked for.
 _LEAST, _MOST = 1e-6, 1e9
@@ -67,8 +67,19 @@ class ShapeContact(RevolutionContact):
         return self.tabor * indenter.gap(nodes, contact_radius=radius, **self._jkr)
 
     def relaxed_pull_off(self, edge: float) -> float:
-        """Return no bound: a shape may have several contacts, each with a pull-off of its own."""
-        return np.inf
+        """Return the force [output unit] with which the relaxed solid pulls off at this edge.
+
+        Of a power on a layer, as :meth:`.sphere.SphereContact.relaxed_pull_off`. There is no bound
+        for other shapes, which may have several contacts, each with a pull-off of its own.
+        """
+        if not isinstance(self.body, Layer) or not isinstance(self.shape, on_layer.POWERS):
+            return np.inf
+        pressed = self.rise(edge) - 0.5 * self.span if edge > 0 else 0.0
+        if not pressed > 0:
+            return 0.0
+        radius = self.radius_of_rise(pressed)
+        force = on_layer.relaxed_pull_off(radius, self.shape, self.body)
+        return max(force, 0.0) / (1.5 * np.pi)
 
     def flank_power(self, radius: float) -> tuple[float, float]:
         """Return r/f', and r f'/f."""

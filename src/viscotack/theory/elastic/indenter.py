@@ -7,42 +7,34 @@ With the slope f' of the profile, the adhesionless contact of radius a has the d
 
 (Sneddon (1965), doi:10.1016/0020-7225(65)90019-4), and with adhesion, Eq. 2.10 and 2.11 of Maghami,
 PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}` and
-:math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On
-another body than the half-space they follow from its influence matrix (:mod:`.on_body`).
+:math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On a
+layer they follow from an integral equation (:mod:`.on_layer`), on another body from its influence
+matrix (:mod:`.on_body`).
 Range: short-range adhesion, small slopes, a slope that does not fall outwards.
 """
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.geometry import Body, HalfSpace
+from viscotack.geometry import Body, HalfSpace, Layer
 from viscotack.theory._checks import Number, Values, plain, positive
-from viscotack.theory.elastic import on_body
+from viscotack.theory.elastic import on_body, on_layer
 
-# Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+from ._sneddon import ANGLE, WEIGHT, Flank, half_space_depth, mean_slope
+
 _HALF_SPACE = HalfSpace()
-_ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
-
-
-class Flank(Protocol):
-    """A profile that says how steep it is."""
-
-    def gap(self, position: Values) -> Array: ...  # noqa: D102
-    def flank(self, position: Values) -> Array: ...  # noqa: D102
 
 
 def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE) -> Number:
     """Return the depth [m] at which a contact has this radius [m] without adhesion."""
     a = positive(contact_radius=contact_radius)
     if body != _HALF_SPACE:
-        return plain(on_body.bare_depth(a, shape, body))
-    return plain(a * _mean(shape, a, np.ones_like(_ANGLE)))
+        return plain(_on(body).bare_depth(a, shape, body))
+    return plain(half_space_depth(a, shape))
 
 
 def depth(
@@ -64,12 +56,28 @@ def depth(
     >>> f"{depth(1e-4, shape=Sphere(1e-3), **solid) * 1e6:.3f} um"
     '4.395 um'
     """
-    a = positive(contact_radius=contact_radius)
+    a, length = positive(contact_radius=contact_radius), work_of_adhesion / contact_modulus
+    if body != _HALF_SPACE:
+        return plain(_on(body).depth(a, shape, body, length))
+    return plain(half_space_depth(a, shape) - np.sqrt(2 * np.pi * a * length))
+
+
+def drawn(
+    contact_radius: Values,
+    *,
+    shape: Flank,
+    contact_modulus: float,
+    work_of_adhesion: float,
+    body: Body = _HALF_SPACE,
+) -> Number:
+    r"""Return by how much adhesion draws out a contact of this radius [m], a depth [m].
+
+    On a half-space :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}`.
+    """
+    a, length = positive(contact_radius=contact_radius), work_of_adhesion / contact_modulus
     if body == _HALF_SPACE:
-        drawn = np.sqrt(2 * np.pi * a * work_of_adhesion / contact_modulus)
-    else:
-        drawn = on_body.drawn(a, shape, body, work_of_adhesion / contact_modulus)
-    return plain(bare_depth(a, shape=shape, body=body) - drawn)
+        return plain(np.sqrt(2 * np.pi * a * length))
+    return plain(_on(body).drawn(a, shape, body, length))
 
 
 def force(
@@ -83,8 +91,8 @@ def force(
     """Return the force [N] of a contact of this radius [m], positive in compression."""
     a, E = positive(contact_radius=contact_radius), contact_modulus
     if body != _HALF_SPACE:
-        return plain(E * on_body.force(a, shape, body, work_of_adhesion / E))
-    bare = 2 * E * a**2 * _mean(shape, a, np.sin(_ANGLE) ** 2)
+        return plain(E * _on(body).force(a, shape, body, work_of_adhesion / E))
+    bare = 2 * E * a**2 * mean_slope(shape, a, np.sin(ANGLE) ** 2)
     return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
 
 
@@ -107,15 +115,15 @@ def gap(
     solid: Any = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     deep = float(depth(a, shape=shape, body=body, **solid))
     if body != _HALF_SPACE:
-        around = on_body.gap(np.ravel(r), a, deep, shape, body)
+        around = _on(body).gap(np.ravel(r), a, deep, shape, body)
         return np.maximum(np.reshape(around, np.shape(r)), 0.0)
     # t = a sin(angle) takes the root off the edge of the contact where r is near it
-    t = a * np.sin(_ANGLE)
-    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(_ANGLE) * _WEIGHT
+    t = a * np.sin(ANGLE)
+    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(ANGLE) * WEIGHT
     lifted = deep * np.arcsin(a / r) - (hollow / np.sqrt(r[..., None] ** 2 - t**2)).sum(axis=-1)
     return np.maximum(shape.gap(r) - deep + 2 / np.pi * lifted, 0.0)
 
 
-def _mean(shape: Flank, a: npt.NDArray, weight: Array) -> npt.NDArray:
-    """Return the integral of the slope over the angle, with a weight."""
-    return (np.asarray(shape.flank(np.multiply.outer(a, np.sin(_ANGLE)))) * weight) @ _WEIGHT
+def _on(body: Body) -> Any:
+    """Return the module that answers for a body."""
+    return on_layer if isinstance(body, Layer) else on_body

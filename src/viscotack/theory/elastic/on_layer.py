@@ -1,0 +1,233 @@
+r"""JKR for a rigid indenter of revolution on a layer, by an integral equation.
+
+The pressure of a contact of radius a on a layer of thickness b is that on a half-space for a
+function g,
+
+.. math:: \hat p(\xi) = \frac{2}{\pi} \int_0^a g(s) \cos \xi s\, ds, \qquad
+          P = 4 \int_0^a g(s)\, ds ,
+
+which solves Lebedev and Ufliand's equation (1958, doi:10.1016/0021-8928(58)90036-X), here for any
+transfer function :math:`\kappa` and profile,
+
+.. math:: \frac{E^*}{2} [\delta - D(s)] = g(s) + \frac{2}{\pi} \int_0^a k(s, t)\, g(t)\, dt, \quad
+          k(s, t) = \int_0^\infty [\kappa(\xi b) - 1] \cos \xi s \cos \xi t\, d\xi ,
+
+D being the depth of the bare contact on the half-space. At its edge it releases the energy
+:math:`G = 2 g(a)^2/(\pi a E^*)`, so with :math:`g_1` for the disc, D = 0 and :math:`\delta = 1`,
+and :math:`g_D` for the profile, E* = 2,
+
+.. math:: \delta = \frac{g_D(a) - \sqrt{2 \pi a \Delta\gamma_0/E^*}}{g_1(a)}, \qquad
+          P = 2 E^* \int_0^a [\delta\, g_1 - g_D]\, ds .
+
+The kernel is a sum of values of one function of s - t and s + t, tabulated once for each base.
+Nodes s = a sin(angle) are dense at the edge; errors are of the order of 1e-8. Beyond 100
+thicknesses the solution is continued as a power of the radius.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import scipy
+
+from viscotack.arrays import Array
+from viscotack.geometry import Base, Cone, Layer, PowerLawProfile, Sphere
+
+from ._sneddon import half_space_depth
+
+# Gauss panels in the angle: so many, and one more per so many thicknesses, each of so many points.
+_PANELS, _WIDER, _POINTS = 3, 4.0, 16
+# Gauss panels in t, up to where the transfer function is 1, each of this phase.
+_LAST, _PHASE = 18.0, 12.0
+# Radius [b] up to which the equation is solved.
+_LARGEST = 100.0
+# Places of the table of the kernel, and the degree of its splines.
+_PLACES, _DEGREE = 240, 7
+# Solutions per decade of radius for shapes that are powers, and of how many one is interpolated.
+_PER_DECADE, _AROUND = 10, 8
+_MIDDLE = (_AROUND - 1) / 2
+POWERS = (Sphere, Cone, PowerLawProfile)
+# So many thicknesses from a contact a layer does not move: exp(-0.74 times that) if incompressible.
+_BESIDE = 25.0
+# Of a logarithm of the radius, for a derivative.
+_STEP = 0.01
+_LAST_STEP = round(_PER_DECADE * np.log10(_LARGEST))
+
+
+def bare_depth(a: npt.NDArray, shape: Any, body: Layer) -> npt.NDArray:
+    """Return the depth [m] at which a contact has this radius [m] without adhesion."""
+    disc, profile, _, _ = _sums(a, shape, body)
+    return profile / disc
+
+
+def drawn(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray:
+    """Return by how much adhesion draws a contact of this radius out [m].
+
+    The `length` is the work of adhesion over the contact modulus [m].
+    """
+    return np.sqrt(2 * np.pi * a * length) / _sums(a, shape, body)[0]
+
+
+def depth(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray:
+    """Return the depth [m] of a contact of this radius [m]."""
+    disc, profile, _, _ = _sums(a, shape, body)
+    return (profile - np.sqrt(2 * np.pi * a * length)) / disc
+
+
+def force(a: npt.NDArray, shape: Any, body: Layer, length: float) -> npt.NDArray:
+    """Return the force over the contact modulus [m^2] of a contact of this radius [m]."""
+    disc, profile, K, M = _sums(a, shape, body)
+    return (profile - np.sqrt(2 * np.pi * a * length)) / disc * K - M
+
+
+def relaxed_pull_off(a: float, shape: Any, body: Layer) -> float:
+    """Return the pull-off force over the contact modulus [m^2] of a relaxed contact of this radius.
+
+    Whatever the work of adhesion: depth and force of a contact are those without adhesion less what
+    grows like its root, so that where the force is least over the radius is a matter of the radius.
+    """
+    radius = a * np.exp(_STEP * np.array([-1.0, 0.0, 1.0]))
+    disc, profile, K, M = _sums(radius, shape, body)
+    bare, out = profile / disc * K - M, np.sqrt(radius) / disc * K
+    return float(out[1] * (bare[2] - bare[0]) / (out[2] - out[0]) - bare[1])
+
+
+def stiffness(a: npt.NDArray, body: Layer) -> npt.NDArray:
+    """Return the force per depth over the contact modulus [m] of a flat disc of this radius [m]."""
+    return _sums(a, Sphere(1.0), body)[2]
+
+
+def gap(position: npt.NDArray, a: float, depth: float, shape: Any, body: Layer) -> npt.NDArray:
+    r"""Return the gap [m] at some distances from the axis [m] around a contact at a depth [m].
+
+    .. math:: u(r) = \frac{4}{\pi E^*} \left[ \int_0^a \frac{g(s)\, ds}{\sqrt{r^2 - s^2}}
+              + \int_0^\infty [\kappa(\xi b) - 1] \int_0^a g(s) \cos \xi s\, ds\, J_0(\xi r)\, d\xi
+              \right]
+    """
+    b = body.thickness
+    y, solved = np.maximum(position, a) / b, _solved(min(a / b, _LARGEST), body.base)
+    s, weight = solved.s, solved.weight
+    of, of_edge = solved.profile(shape, b)
+    g, edge = depth * solved.disc - of, depth * solved.disc_edge - of_edge
+    root = np.sqrt(np.maximum(np.subtract.outer(y * y, s * s), np.finfo(float).tiny))
+    # what is left of g without its value at the edge vanishes where the root does
+    moved = ((g - edge) / root) @ weight + edge * np.arcsin(np.minimum(solved.a / y, 1.0))
+    near = y < solved.a + _BESIDE
+    t, kernel = _waves(body.base, float(np.max(y[near], initial=0.0)) + solved.a)
+    depths = kernel * (np.cos(np.multiply.outer(t, s)) @ (g * weight))
+    moved[near] += scipy.special.j0(np.multiply.outer(y[near], t)) @ depths
+    return shape.gap(position) - depth + 2 / np.pi * np.where(near, moved, 0.0)
+
+
+def _sums(a: npt.NDArray, shape: Any, body: Layer) -> Any:
+    """Return g of disc and profile at the edge, and their forces, for E* = 2 and E* = 1."""
+    b = body.thickness
+    each = [_continued(float(radius) / b, shape, body) for radius in np.ravel(a)]
+    return [np.reshape(values, np.shape(a)) for values in zip(*each, strict=True)]
+
+
+def _continued(a: float, shape: Any, body: Layer) -> Array:
+    """Return the four sums at a radius [b], beyond the largest one as powers."""
+    values = _interpolated if type(shape) in POWERS else _direct
+    if a <= _LARGEST:
+        return values(a, shape, body)
+    last, before = (np.log(values(x, shape, body)) for x in (_LARGEST, _LARGEST / 1.2))
+    return np.exp(last + (last - before) * np.log(a / _LARGEST) / np.log(1.2))
+
+
+def _interpolated(a: float, shape: Any, body: Layer) -> Array:
+    """Return the four sums of a power at a radius [b], by polynomials of their logarithms."""
+    place = np.log10(a) * _PER_DECADE
+    first = min(int(np.floor(place)) - _AROUND // 2 + 1, _LAST_STEP - _AROUND + 1)
+    x, found = place - first - _MIDDLE, 0.0
+    for coefficient in _polynomials(first, shape, body):
+        found = found * x + coefficient
+    return np.exp(found)
+
+
+@lru_cache(maxsize=4096)
+def _polynomials(first: int, shape: Any, body: Layer) -> Array:
+    """Return the coefficients of the polynomials through some radii of the table."""
+    table = np.array([_at_step(first + k, shape, body) for k in range(_AROUND)])
+    return np.asarray(np.linalg.solve(np.vander(np.arange(_AROUND) - _MIDDLE), table), dtype=float)
+
+
+@lru_cache(maxsize=4096)
+def _at_step(step: int, shape: Any, body: Layer) -> Array:
+    """Return the logarithms of the four sums at a radius of the table."""
+    return np.log(_direct(10 ** (step / _PER_DECADE), shape, body))
+
+
+def _direct(a: float, shape: Any, body: Layer) -> Array:
+    """Return the four sums at a radius [b]."""
+    b, solved = body.thickness, _solved(a, body.base)
+    g, edge = solved.profile(shape, b)
+    force_of_disc, force_of_profile = 2 * b * (solved.weight @ np.column_stack([solved.disc, g]))
+    return np.array([solved.disc_edge, edge, force_of_disc, force_of_profile])
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """The equation at a radius a, lengths in b: nodes and weights, g of the disc for E* = 2."""
+
+    a: float
+    s: npt.NDArray
+    weight: npt.NDArray
+    inverse: npt.NDArray
+    kernel_at_edge: npt.NDArray
+    disc: npt.NDArray
+
+    @property
+    def disc_edge(self) -> float:
+        """The g of the disc at the edge."""
+        return 1 - float(self.kernel_at_edge @ self.disc)
+
+    def profile(self, shape: Any, b: float) -> tuple[npt.NDArray, float]:
+        """Return g of a profile at the nodes and at the edge [m] for E* = 2."""
+        D = half_space_depth(b * np.append(self.s, self.a), shape)
+        g = self.inverse @ D[:-1]
+        return g, float(D[-1] - self.kernel_at_edge @ g)
+
+
+@lru_cache(maxsize=64)
+def _solved(a: float, base: Base) -> _Solved:
+    """Return the solved equation at a radius [b]."""
+    s, weight = _nodes(a)
+    table = _kernel(base)
+    places = np.append(s, a)[:, None]
+    k = (table(np.abs(places - s)) + table(places + s)) * weight / np.pi
+    inverse = np.linalg.inv(np.eye(len(s)) + k[:-1])
+    return _Solved(a, s, weight, inverse, k[-1], inverse.sum(axis=1))
+
+
+def _nodes(a: float) -> tuple[npt.NDArray, npt.NDArray]:
+    """Return nodes and weights from 0 to a radius [b]."""
+    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
+    edges = np.linspace(0.0, np.pi / 2, _PANELS + int(a / _WIDER) + 1)
+    half = np.diff(edges)[:, None] / 2
+    angle = (edges[:-1, None] + half * (1 + nodes)).ravel()
+    return a * np.sin(angle), a * np.cos(angle) * (half * weights).ravel()
+
+
+@lru_cache(maxsize=16)
+def _kernel(base: Base) -> Callable[[npt.NDArray], npt.NDArray]:
+    """Return the integral of (kappa - 1) cos(t x) over t as a function of x."""
+    place = np.linspace(0.0, np.log1p(2 * _LARGEST), _PLACES)
+    t, kernel = _waves(base, 2 * _LARGEST)
+    values = [float(np.cos(t * x) @ kernel) for x in np.expm1(place)]
+    spline = scipy.interpolate.make_interp_spline(place, values, k=_DEGREE)
+    return lambda x: spline(np.log1p(x))
+
+
+def _waves(base: Base, largest: float) -> tuple[npt.NDArray, npt.NDArray]:
+    """Return wave numbers [1/b] and kappa - 1 times their weights, for distances up to one [b]."""
+    nodes, weights = np.polynomial.legendre.leggauss(_POINTS)
+    edges = np.linspace(0.0, _LAST, 8 + int(_LAST * largest / _PHASE) + 1)
+    half = np.diff(edges)[:, None] / 2
+    t = (edges[:-1, None] + half * (1 + nodes)).ravel()
+    return t, (half * weights).ravel() * (base.transfer(t) - 1)

@@ -1,0 +1,176 @@
+"""A sphere on a layer: JKR by two independent ways, its limits, and simulations that tend to it."""
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+import viscotack as vt
+from viscotack.geometry import Bonded, Cone, Frictionless, Layer, Sphere
+from viscotack.theory.elastic import indenter, jkr, on_body, on_layer
+
+pytestmark = pytest.mark.march
+
+BASES = [Frictionless(), *(Bonded(poisson_ratio=nu) for nu in (0.0, 0.3, 0.45, 0.49, 0.5))]
+SQUEEZED = Bonded(poisson_ratio=0.5)
+UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+SOLID = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+RADII = np.geomspace(0.05, 5.0, 6)
+
+
+def pull_off(layer):
+    """Find the pull-off force of JKR [pi R dg]."""
+
+    def force(x):
+        return indenter.force(np.exp(x), shape=Sphere(1.0), body=layer, **UNITS)
+
+    x = np.linspace(-4.0, 1.0, 101)
+    least = int(np.argmin([force(each) for each in x]))
+    found = minimize_scalar(force, bracket=(x[least - 1], x[least], x[least + 1]))
+    return -found.fun / np.pi
+
+
+def on(layer, tabor, accuracy=2e-3, **more):
+    given = dict(material=ELASTIC, start=vt.AtForce(1.0), rate=1.0) | more
+    groups = vt.Groups(tabor, body=layer, **given)
+    result = vt.solve(groups, until="pull-off", accuracy=accuracy, estimate_error=False)
+    assert abs(result.energy_residual) < 1e-3
+    return vt.pull_off_force(result)
+
+
+# --- JKR on a layer -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", [Sphere(1.0), Cone(1.0)], ids=["sphere", "cone"])
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_the_integral_equation_and_the_influence_matrix_agree(base, shape):
+    layer = Layer(0.4, base)
+    bare = np.asarray(indenter.bare_depth(RADII, shape=shape, body=layer))
+    assert on_body.bare_depth(RADII, shape, layer) == pytest.approx(bare, rel=5e-4)
+    drawn = np.asarray(indenter.drawn(RADII, shape=shape, body=layer, **UNITS))
+    assert on_body.drawn(RADII, shape, layer, 1.0) == pytest.approx(drawn, rel=5e-4)
+    force = np.asarray(indenter.force(RADII, shape=shape, body=layer, **UNITS))
+    size = np.asarray(
+        indenter.force(RADII, shape=shape, body=layer, **UNITS | {"work_of_adhesion": 0.0})
+    )
+    assert (
+        np.max(np.abs(on_body.force(RADII, shape, layer, 1.0) - force) / (size + abs(force))) < 5e-4
+    )
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_the_gap_around_a_contact_is_that_of_the_influence_matrix(base):
+    layer, r = Layer(0.4, base), np.linspace(1.3, 6.0, 60)
+    depth = float(indenter.depth(1.2, shape=Sphere(1.0), body=layer, **UNITS))
+    found = on_layer.gap(r, 1.2, depth, Sphere(1.0), layer)
+    assert found == pytest.approx(on_body.gap(r, 1.2, depth, Sphere(1.0), layer), abs=2e-4)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_the_stiffness_of_a_disc_grows_by_the_energy_that_its_edge_releases(base):
+    # a wider disc: E* K'/2 delta^2 = 2 pi a G
+    a, layer = np.array([0.02, 0.3, 4.0]), Layer(0.2, base)
+    step = 1e-3 * a
+    slope = (on_layer.stiffness(a + step, layer) - on_layer.stiffness(a - step, layer)) / (2 * step)
+    drawn = np.asarray(indenter.drawn(a, shape=Sphere(1.0), body=layer, **UNITS))
+    assert slope == pytest.approx(4 * np.pi * a / drawn**2, rel=1e-4)
+
+
+def test_solutions_are_interpolated_without_loss():
+    for base in BASES:
+        layer, a = Layer(1.0, base), 10 ** np.linspace(-2.3, 1.8, 7)
+        direct = np.array([on_layer._direct(x, Sphere(1.0), layer) for x in a])
+        found = np.array([on_layer._interpolated(x, Sphere(1.0), layer) for x in a])
+        assert found == pytest.approx(direct, rel=2e-5)
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_a_thick_layer_is_a_half_space(base):
+    layer, a = Layer(300.0, base), np.linspace(0.5, 2.0, 4)
+    force = np.asarray(jkr.force(a, radius=1.0, **UNITS))
+    found = np.asarray(indenter.force(a, shape=Sphere(1.0), body=layer, **UNITS))
+    assert np.max(np.abs(found - force)) < 1e-4 * np.max(np.abs(force))
+    assert pull_off(layer) == pytest.approx(1.5, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("base", "limit"), [(BASES[0], 2.0), (BASES[1], 2.0), (BASES[2], 2.0), (SQUEEZED, 3.0)]
+)
+def test_a_thin_layer_holds_what_springs_or_a_squeezed_film_hold(base, limit):
+    found = [pull_off(Layer(b, base)) for b in (0.02, 0.01, 0.005)]
+    # off by the radius over the thickness
+    away = np.abs(np.array(found) - limit)
+    assert np.all(np.diff(away) < 0)
+    assert 2 * found[2] - found[1] == pytest.approx(limit, rel=0.03)
+    assert found[2] == pytest.approx(limit, rel=0.01 if limit == 2 else 0.04)
+
+
+def test_an_incompressible_film_tends_to_three_pi_r_dg_within_one_percent():
+    assert pull_off(Layer(2e-4, SQUEEZED)) == pytest.approx(3.0, rel=0.01)
+
+
+def test_a_disc_on_a_thin_layer_has_the_stiffness_of_springs_or_of_a_squeezed_film():
+    a = np.array([1.0])
+    for base in BASES[:3]:
+        springs = np.pi / (0.02 * base.foundation)
+        assert on_layer.stiffness(a, Layer(0.02, base))[0] == pytest.approx(springs, rel=0.03)
+    squeezed = 3 * np.pi / 32 / 0.0101**3
+    assert on_layer.stiffness(a, Layer(0.0101, SQUEEZED))[0] == pytest.approx(squeezed, rel=0.07)
+
+
+# --- simulations ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("solid", [ELASTIC, SOLID], ids=["elastic", "relaxing"])
+def test_a_simulation_on_a_thick_layer_is_that_on_a_half_space(solid):
+    test = dict(material=solid, rate=10.0, start=vt.AtForce(1.0))
+    thick = on(Layer(3e4, SQUEEZED), 1.0, **test)
+    assert thick == pytest.approx(on(vt.HalfSpace(), 1.0, **test), rel=1e-4)
+
+
+CASES = [
+    (BASES[0], 0.1, 5e-3),
+    (BASES[2], 1.0, 5e-3),
+    (BASES[3], 0.1, 5e-3),
+    (BASES[4], 0.1, 1e-2),
+    (SQUEEZED, 0.1, 1e-2),
+    (SQUEEZED, 0.5, 1e-2),
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("base", "thickness", "most"), CASES)
+def test_simulations_tend_to_jkr_on_the_layer_as_the_tabor_number_grows(base, thickness, most):
+    layer = Layer(thickness, base)
+    coarse, fine = on(layer, 8.0), on(layer, 16.0)
+    limit = fine + (fine - coarse) / 3  # of second order in the Tabor number
+    assert 1.5 * limit == pytest.approx(pull_off(layer), rel=most)
+
+
+@pytest.mark.parametrize("base", [BASES[0], SQUEEZED], ids=repr)
+def test_a_thin_layer_at_a_moderate_tabor_number_conserves_its_energy(base):
+    force = on(Layer(0.05, base), 4.0, accuracy=1e-2)
+    assert 0.9 < force < 1.5 * 2
+
+
+@pytest.mark.parametrize(
+    "start", [vt.AtDepth(3.0), vt.AtForce(0.5), vt.AtRadius(1.1), vt.Apart(10.0)]
+)
+def test_every_start_is_found_on_a_layer(start):
+    more = {"moves": (vt.Approach(1.0, vt.AtDepth(3.0)),)} if isinstance(start, vt.Apart) else {}
+    groups = vt.Groups(2.0, SOLID, start, 3.0, body=Layer(0.5, BASES[2]), **more)
+    result = vt.solve(groups, accuracy=1e-2, estimate_error=False)
+    assert abs(result.energy_residual) < 2e-3 and vt.pull_off_force(result) > 1.0
+    found = {"AtDepth": result.depth, "AtForce": result.force, "AtRadius": result.contact_radius}
+    if type(start).__name__ in found:
+        (wanted,) = vars(start).values()
+        assert found[type(start).__name__][0] == pytest.approx(wanted, rel=1e-4)
+
+
+def test_a_layer_responds_at_lower_rates_and_saturates_sooner():
+    rates = (0.3, 30.0)
+    rise = {}
+    for body in (vt.HalfSpace(), Layer(0.2, BASES[2])):
+        slow, fast = (on(body, 1.0, 1e-2, material=SOLID, rate=rate) for rate in rates)
+        rise[body.word] = fast / slow
+    assert rise["layer"] < rise["half-space"]
