@@ -44,18 +44,22 @@ def on(layer, tabor, accuracy=2e-3, **more):
 @pytest.mark.parametrize("shape", [Sphere(1.0), Cone(1.0)], ids=["sphere", "cone"])
 @pytest.mark.parametrize("base", BASES, ids=repr)
 def test_the_integral_equation_and_the_influence_matrix_agree(base, shape):
+    of = RADII, shape, Layer(0.4, base)
+    assert on_body.bare_depth(*of) == pytest.approx(on_layer.bare_depth(*of), rel=5e-4)
+    assert on_body.drawn(*of, 1.0) == pytest.approx(on_layer.drawn(*of, 1.0), rel=5e-4)
+    assert on_body.depth(*of, 1.0) == pytest.approx(on_layer.depth(*of, 1.0), rel=5e-4, abs=5e-4)
+    force, size = on_layer.force(*of, 1.0), on_layer.force(*of, 0.0)
+    assert np.max(np.abs(on_body.force(*of, 1.0) - force) / (size + abs(force))) < 5e-4
+
+
+@pytest.mark.parametrize("base", BASES, ids=repr)
+def test_the_pull_off_at_a_radius_is_that_of_the_work_of_adhesion_which_has_it(base):
     layer = Layer(0.4, base)
-    bare = np.asarray(indenter.bare_depth(RADII, shape=shape, body=layer))
-    assert on_body.bare_depth(RADII, shape, layer) == pytest.approx(bare, rel=5e-4)
-    drawn = np.asarray(indenter.drawn(RADII, shape=shape, body=layer, **UNITS))
-    assert on_body.drawn(RADII, shape, layer, 1.0) == pytest.approx(drawn, rel=5e-4)
-    force = np.asarray(indenter.force(RADII, shape=shape, body=layer, **UNITS))
-    size = np.asarray(
-        indenter.force(RADII, shape=shape, body=layer, **UNITS | {"work_of_adhesion": 0.0})
-    )
-    assert (
-        np.max(np.abs(on_body.force(RADII, shape, layer, 1.0) - force) / (size + abs(force))) < 5e-4
-    )
+    radius = np.linspace(0.5, 1.5, 4001)
+    force = on_layer.force(radius, Sphere(1.0), layer, 1.0)
+    least = int(np.argmin(force))
+    found = on_layer.relaxed_pull_off(radius[least], Sphere(1.0), layer)
+    assert found == pytest.approx(-force[least], rel=1e-3)
 
 
 @pytest.mark.parametrize("base", BASES, ids=repr)

@@ -24,7 +24,7 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
+from viscotack.geometry import HalfSpace, Layer, Sphere, equivalent_radius
 from viscotack.materials import Material
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.problem.units import InSI, time_unit
@@ -39,6 +39,8 @@ from viscotack.units import positive
 # sphere's and strains are of order a/R: linear elasticity of the half-space ends about here. For
 # another shape it is the steepest flank at the edge of a contact.
 LARGEST_CONTACT = STEEPEST_FLANK = 0.5
+# Depth of a contact beside the thickness of a layer.
+DEEPEST_LAYER = 0.5
 # Tabor numbers that the mesh of a simulation can serve; tested from 0.01 to 10.
 SIMULATED_TABOR = (1e-6, 200.0)
 # The largest for a solid that remembers nothing: nodes catch its crack, which nothing drives on.
@@ -187,7 +189,8 @@ def check(problem: Any) -> None:
     ValueError
         If the relaxed contact of a sphere on a half-space would be larger than half its radius, or
         the flank of another shape, or on another body, steeper than 0.5 at the edge of a contact as
-        JKR has it; or if that is so where the undeformed gap is h_0.
+        JKR has it; if that is so where the undeformed gap is h_0; or if a layer would be pressed to
+        less than half its thickness.
     """
     if isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
         _check_sphere(problem)
@@ -226,6 +229,10 @@ def _check_flank(problem: Any) -> None:
         )
     # the largest contact there may be
     a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    limit = f"the slope of the flank at the edge of its contact would be over {STEEPEST_FLANK}"
+    pressed = _pressed_through(problem)
+    if pressed < a:
+        a, limit = pressed, f"its depth would be over {DEEPEST_LAYER} thicknesses of the layer"
     if a >= exp(_FAR):
         return  # nowhere as steep
     solid: Any = {
@@ -243,9 +250,26 @@ def _check_flank(problem: Any) -> None:
             given, most, unit = state.contact_radius, a, "m"
         if given > most:
             raise InputError(
-                f"{state} lies beyond small strain: the slope of the flank at the edge of its "
-                f"contact would be over {STEEPEST_FLANK}; it may be up to {most:.3g} {unit}"
+                f"{state} lies beyond small strain: {limit}; it may be up to {most:.3g} {unit}"
             )
+
+
+def _pressed_through(problem: Any) -> float:
+    """Return the radius [m] of a contact as deep as a layer may be pressed, inf for no such one."""
+    body = problem.body
+    if not isinstance(body, Layer):
+        return np.inf
+
+    def excess(radius: float) -> float:
+        depth = indenter.bare_depth(radius, shape=problem.geometry, body=body)
+        return log(float(depth) / (DEEPEST_LAYER * body.thickness))
+
+    least, most = 1e-3 * body.thickness, 1e3 * body.thickness
+    if excess(most) < 0:
+        return np.inf
+    if excess(least) >= 0:
+        return least
+    return float(scipy.optimize.brentq(excess, least, most))  # type: ignore[arg-type]
 
 
 def _where(function: Any, value: float) -> float:

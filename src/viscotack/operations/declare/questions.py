@@ -5,7 +5,7 @@ units and examples; :func:`stated` makes the problem of the answers.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -134,6 +134,8 @@ class Door:
         The solid that is meant where none is stated.
     in_si : bool
         Whether the answer may be asked in SI.
+    more : mapping
+        Cards of numbers that may be left out, as `numbers`.
     """
 
     word: str
@@ -142,6 +144,7 @@ class Door:
     starts: tuple[str, ...]
     material: str
     in_si: bool = False
+    more: Mapping[str, Quantity] = field(default_factory=dict)
 
     @cached_property
     def questions(self) -> tuple[Question, ...]:
@@ -151,8 +154,8 @@ class Door:
             for word, words in _MATERIALS.items()
         )
         asked = [
-            *(Question(name, question_of(card)) for name, card in self.numbers.items()),
-            *((Question("bonded", _GLUED),) if self.word == "punch" else ()),
+            *(Question(n, question_of(card)) for n, card in {**self.numbers, **self.more}.items()),
+            Question("bonded", _GLUED),
             Question("material", f"{solid}. {_OTHER_MATERIALS}", text=True),
             Question("temperature", f"{_TEMPERATURE} {_ALONE}", text=True),
             Question("modulus-ratio", question_of(card_of(ModulusRatio))),
@@ -195,15 +198,26 @@ _GLUED = (
     "its base."
 )
 _TABOR = {"tabor": cards(Groups)["tabor"].card}
+_LAYER = {
+    "thickness": Quantity(
+        "beta",
+        "b/beta",
+        "thickness of the layer, a half-space when left out; beta = (R^2 dg0/E0*)^(1/3)",
+        above=0,
+    )
+}
 _PUNCH = plane.SIZES | {"cohesion": cards(Groups)["cohesion"].card}
 
-SPHERE = Door("sphere", _TABOR, revolution.GROUPS, tuple(STARTS), "power-law", in_si=True)
+SPHERE = Door(
+    "sphere", _TABOR, revolution.GROUPS, tuple(STARTS), "power-law", in_si=True, more=_LAYER
+)
 PROFILE = Door(
     "profile",
     _TABOR | {"profile-exponent": cards(PowerLawProfile)["exponent"].card},
     revolution.GROUPS,
     tuple(STARTS),
     "power-law",
+    more=_LAYER,
 )
 PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
 # Of either: what a sphere is asked, and what a punch alone.
@@ -258,16 +272,24 @@ def stated(door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()) -> 
         "stiffness": _positive(given, "stiffness", None),
     }
     if door is PUNCH:
-        glued = "bonded" in given
-        base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
-        body = Layer(numbers["thickness"], base)
-        parts |= {"geometry": FlatPunch(numbers["size"]), "body": body}
+        parts |= {"geometry": FlatPunch(numbers["size"]), "body": _layer(given)}
         return Groups(tabor=None, cohesion=numbers["cohesion"], **parts)
     if door is PROFILE:
         q = numbers.pop("profile_exponent")
         parts["geometry"] = PowerLawProfile(1 / q, q)
+    if "thickness" in given:
+        parts["body"] = _layer(given)
+    elif "bonded" in given:
+        raise InputError("--bonded is of a layer: give its --thickness as well")
     groups = Groups(**numbers, **parts)
     return _in_si(groups, given, "s" if elastic else unit) if in_si else groups
+
+
+def _layer(given: Mapping[str, Any]) -> Layer:
+    """Return the layer that the answers state."""
+    glued = "bonded" in given
+    base = Bonded(poisson_ratio=given["bonded"]) if glued else Frictionless()
+    return Layer(_LAYER["thickness"].checked("--thickness", given["thickness"], "1"), base)
 
 
 def material_from(given: Mapping[str, Any], nouns: Nouns | None = None) -> tuple[Material, str]:

@@ -1,0 +1,118 @@
+"""A lens on a film through every door, and refused by each tier that has not learned it."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import viscotack as vt
+from command_line import exit_status
+from doors import Http, Question, by_command, by_form, by_http, by_python, by_study
+from viscotack.campaign import Store, read_plan, run
+
+CASE = """
+[material]
+model = "sls"
+rubbery_modulus = "1 MPa"
+glassy_modulus = "10 MPa"
+tau0 = "1 s"
+poisson_ratio = 0.49
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "1 um"
+[sphere]
+radius = "2 mm"
+[layer]
+thickness = "60 um"
+base = "bonded"
+[protocol]
+preload_depth = "1 um"
+speed = "10 um/s"
+"""
+
+
+@pytest.fixture
+def problem(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("case.toml").write_text(CASE)
+    return vt.read_case("case.toml")
+
+
+def test_a_case_file_states_it(problem):
+    assert problem.body == vt.Layer(60e-6, vt.Bonded(poisson_ratio=0.49))
+    unit = problem.scales().radius / 3.141592653589793 ** (1 / 3)
+    assert problem.groups().body.thickness == pytest.approx(60e-6 / unit)
+
+
+def test_it_is_saved_and_loaded(problem, tmp_path):
+    result = vt.solve(problem, until="pull-off", accuracy=1e-2, estimate_error=False)
+    vt.save(result, tmp_path / "run.npz")
+    again = vt.load(tmp_path / "run.npz")
+    assert again.problem == problem and vt.pull_off_force(again) == vt.pull_off_force(result)
+    stiff = vt.solve(
+        replace(problem, body=vt.HalfSpace()), until="pull-off", accuracy=1e-2, estimate_error=False
+    )
+    assert abs(vt.pull_off_force(stiff) / vt.pull_off_force(result) - 1) > 0.02
+
+
+@pytest.mark.parametrize("send", [by_http, by_form])
+def test_every_door_gives_the_same_answer(send, problem):
+    question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.01})
+    http = Http()
+    try:
+        found = by_python(question)
+        assert found.record["thickness"] == problem.groups().body.thickness
+        assert found == by_command(question) == by_study(question) == send(question, http)
+    finally:
+        http.close()
+
+
+def test_flags_state_a_layer(capsys):
+    flags = (
+        "simulate sphere --tabor 1 --material elastic --preload 1 --accuracy 0.01 --json".split()
+    )
+    assert exit_status([*flags, "--thickness", "0.5", "--bonded", "0.3"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    groups = vt.Groups(
+        1.0,
+        vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0),
+        vt.AtDepth(1.0),
+        1.0,
+        body=vt.Layer(0.5, vt.Bonded(poisson_ratio=0.3)),
+    )
+    assert found["thickness"] == 0.5
+    result = vt.solve(groups, accuracy=0.01)
+    assert found["pull_off_force"] == pytest.approx(vt.pull_off_force(result), rel=1e-12)
+
+
+def test_a_poisson_ratio_without_a_thickness_is_refused(capsys):
+    flags = "simulate sphere --tabor 1 --material elastic --preload 1 --bonded 0.3".split()
+    assert exit_status(flags) == 2
+    assert "give its --thickness as well" in capsys.readouterr().err
+
+
+def test_a_campaign_varies_the_thickness(problem, tmp_path):
+    Path("plan.toml").write_text(
+        'problem = "case.toml"\n[settings]\naccuracy = 2e-2\n'
+        '[[grid]]\nbody.thickness = ["30 um", "60 um"]\n'
+    )
+    assert run(read_plan("plan.toml"), tmp_path / "study", workers=1).failed == 0
+    rows = Store(tmp_path / "study").results().to_pylist()
+    assert rows[0]["pull_off_force_N"] != rows[1]["pull_off_force_N"]
+
+
+@pytest.mark.parametrize("ask", [vt.predict, vt.advise, vt.crack_contact])
+def test_tiers_that_have_not_learned_layers_refuse_in_words(problem, ask):
+    with pytest.raises(vt.InputError, match="layer|Bonded"):
+        ask(problem)
+
+
+def test_a_film_is_not_pressed_beyond_half_its_thickness(problem):
+    deep = vt.Retraction(vt.AtDepth(40e-6), 1e-5)
+    with pytest.raises(vt.InputError, match="over 0.5 thicknesses of the layer"):
+        replace(problem, protocol=deep)
+    replace(problem, protocol=deep, body=vt.Layer(300e-6, problem.body.base))
+    with pytest.raises(vt.InputError, match="over 0.5 thicknesses"):
+        replace(problem, protocol=vt.Retraction(vt.AtForce(10.0), 1e-5))
