@@ -178,3 +178,9 @@ def test_a_layer_responds_at_lower_rates_and_saturates_sooner():
         slow, fast = (on(body, 1.0, 1e-2, material=SOLID, rate=rate) for rate in rates)
         rise[body.word] = fast / slow
     assert rise["layer"] < rise["half-space"]
+
+
+@pytest.mark.slow
+def test_a_thin_incompressible_layer_holds_less_than_jkr_at_a_finite_range():
+    layer = Layer(0.05, SQUEEZED)
+    assert 1.5 * on(layer, 16.0) / pull_off(layer) == pytest.approx(0.953, abs=0.005)
