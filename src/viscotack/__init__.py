@@ -37,8 +37,10 @@ if TYPE_CHECKING:
     from .geometry import Frictionless as Frictionless
     from .geometry import HalfSpace as HalfSpace
     from .geometry import Layer as Layer
+    from .geometry import MeasuredProfile as MeasuredProfile
     from .geometry import PowerLawProfile as PowerLawProfile
     from .geometry import Sphere as Sphere
+    from .geometry import WavySphere as WavySphere
     from .materials import Elastic as Elastic
     from .materials import FractionalZener as FractionalZener
     from .materials import Prony as Prony
@@ -125,6 +127,8 @@ _NAMES = {
         "FlatPunch",
         "Cone",
         "PowerLawProfile",
+        "WavySphere",
+        "MeasuredProfile",
         "Layer",
         "Frictionless",
         "HalfSpace",

@@ -2,18 +2,25 @@
 
 from .bases import Base, Bonded, Frictionless
 from .bodies import Body, HalfSpace, Layer
+from .measured import MeasuredProfile
 from .shapes import (
     Cone,
     FlatPunch,
     PowerLawProfile,
     Shape,
     Sphere,
+    detail,
+    end,
     equivalent_radius,
     numbers,
 )
+from .wavy import WavySphere
 
 # Word in a file -> class.
-SHAPES = {shape.word: shape for shape in (Sphere, Cone, PowerLawProfile, FlatPunch)}
+SHAPES = {
+    shape.word: shape
+    for shape in (Sphere, Cone, PowerLawProfile, WavySphere, MeasuredProfile, FlatPunch)
+}
 BODIES = {body.word: body for body in (HalfSpace, Layer)}
 
 __all__ = [
@@ -27,9 +34,13 @@ __all__ = [
     "Frictionless",
     "HalfSpace",
     "Layer",
+    "MeasuredProfile",
     "PowerLawProfile",
     "Shape",
     "Sphere",
+    "WavySphere",
+    "detail",
+    "end",
     "equivalent_radius",
     "numbers",
 ]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import OutOfRange
-from viscotack.geometry import HalfSpace
+from viscotack.geometry import HalfSpace, detail
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import (
     Apart,
@@ -55,6 +55,11 @@ def groups_of(problem: Any) -> Groups:
         raise OutOfRange(
             "the theory of a contact with a crack for its edge is one of the half-space, got a "
             f"{groups.body.word}; `viscotack simulate` answers it"
+        )
+    if np.isfinite(detail(groups.geometry)):
+        raise OutOfRange(
+            "the theory of a contact with a crack for its edge has one edge, and a "
+            f"{groups.geometry.word} may have several; `viscotack simulate` answers it"
         )
     return groups
 

@@ -24,7 +24,7 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere, equivalent_radius
+from viscotack.geometry import HalfSpace, Sphere, detail, end, equivalent_radius
 from viscotack.materials import Material
 from viscotack.problem.outputs import REVOLUTION
 from viscotack.problem.units import InSI, time_unit
@@ -45,6 +45,8 @@ SIMULATED_TABOR = (1e-6, 200.0)
 ELASTIC_TABOR = 30.0
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
+# Radii per detail of a shape at which its slope is looked at, and the most of them.
+_LOOKS, _MOST_LOOKS = 16, 100_000
 OUTPUTS = REVOLUTION
 # What a protocol's numbers are in, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
@@ -120,11 +122,20 @@ def check_groups(groups: Any) -> None:
             f"a {groups.geometry.word} has a Tabor number and no cohesion: give tabor=3.24, say, "
             f"got tabor={groups.tabor} and cohesion={groups.cohesion}"
         )
-    slope = float(groups.geometry.flank(1.0))
+    shape = groups.geometry
+    if np.isfinite(detail(shape)):
+        radius = equivalent_radius(shape, 1.0)
+        if abs(radius - 1) > 1e-6:
+            raise InputError(
+                f"the {shape.word} of dimensionless groups must be reduced, of equivalent radius "
+                f"1, got {radius:g}; problem.groups().geometry is so"
+            )
+        return
+    slope = float(shape.flank(1.0))
     if abs(slope - 1) > 1e-6:
         raise InputError(
             "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
-            f"got {groups.geometry!r} of slope {slope:g}; problem.groups().geometry is so"
+            f"got {shape!r} of slope {slope:g}; problem.groups().geometry is so"
         )
 
 
@@ -217,7 +228,7 @@ def _check_sphere(problem: Any) -> None:
 
 def _check_flank(problem: Any) -> None:
     shape, h0 = problem.geometry, problem.traction.equilibrium_gap
-    rim = _where(lambda r: float(shape.gap(r)), h0)
+    rim = _where_risen(shape, h0)
     flank = float(shape.flank(rim))
     if flank > STEEPEST_FLANK:
         raise InputError(
@@ -225,7 +236,7 @@ def _check_flank(problem: Any) -> None:
             f"is equilibrium_gap = {h0:.3g} m, and the theory holds to {STEEPEST_FLANK}"
         )
     # the largest contact there may be
-    a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    a = _where_steep(shape)
     if a >= exp(_FAR):
         return  # nowhere as steep
     solid: Any = {
@@ -246,6 +257,31 @@ def _check_flank(problem: Any) -> None:
                 f"{state} lies beyond small strain: the slope of the flank at the edge of its "
                 f"contact would be over {STEEPEST_FLANK}; it may be up to {most:.3g} {unit}"
             )
+
+
+def _where_risen(shape: Any, gap: float) -> float:
+    """Return where a shape is steepest up to this gap [m], or where it has it if it never falls."""
+    if np.isinf(detail(shape)):
+        return _where(lambda r: float(shape.gap(r)), gap)
+    r = _radii(shape)
+    near = r[np.asarray(shape.gap(r)) <= gap]
+    return float(near[np.argmax(np.abs(shape.flank(near)))])
+
+
+def _where_steep(shape: Any) -> float:
+    """Return the largest radius [m] up to which the flank is not too steep, and the shape known."""
+    if np.isinf(detail(shape)):
+        return _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    r = _radii(shape)
+    steep = np.flatnonzero(np.abs(shape.flank(r)) > STEEPEST_FLANK)
+    return float(r[steep[0]]) if steep.size else float(r[-1])
+
+
+def _radii(shape: Any) -> Any:
+    """Return radii [m] at which a shape with details is looked at."""
+    far = min(end(shape), equivalent_radius(shape, 1.0))
+    many = int(min(_LOOKS * far / detail(shape), _MOST_LOOKS))
+    return np.linspace(0.0, far, max(many, _LOOKS) + 1)
 
 
 def _where(function: Any, value: float) -> float:

@@ -9,25 +9,32 @@ With the slope f' of the profile, the adhesionless contact of radius a has the d
 PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E^*}` and
 :math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On
 another body than the half-space they follow from its influence matrix (:mod:`.on_body`).
-Range: short-range adhesion, small slopes, a slope that does not fall outwards.
+Range: short-range adhesion, small slopes, and a contact without holes. Where the slope falls
+outwards (:func:`viscotack.geometry.detail`) depth and force are those of a contact that was pressed
+together to its edge; they may have several branches, and several minima
+(:mod:`viscotack.theory.elastic.wavy`).
 """
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
-from viscotack.geometry import Body, HalfSpace
+from viscotack.geometry import Body, HalfSpace, detail
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.elastic import on_body
 
 # Gauss-Legendre nodes in the angle: exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
+# One such panel is for so many details of a profile; beyond so many panels there are no more.
+_DETAILS, _MOST_PANELS = 1.0, 64
+# Slopes that are looked up at once.
+_AT_ONCE = 1_000_000
 _HALF_SPACE = HalfSpace()
-_ANGLE, _WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
 
 
 class Flank(Protocol):
@@ -42,7 +49,7 @@ def bare_depth(contact_radius: Values, *, shape: Flank, body: Body = _HALF_SPACE
     a = positive(contact_radius=contact_radius)
     if body != _HALF_SPACE:
         return plain(on_body.bare_depth(a, shape, body))
-    return plain(a * _mean(shape, a, np.ones_like(_ANGLE)))
+    return plain(a * _mean(shape, a, 0))
 
 
 def depth(
@@ -84,7 +91,7 @@ def force(
     a, E = positive(contact_radius=contact_radius), contact_modulus
     if body != _HALF_SPACE:
         return plain(E * on_body.force(a, shape, body, work_of_adhesion / E))
-    bare = 2 * E * a**2 * _mean(shape, a, np.sin(_ANGLE) ** 2)
+    bare = 2 * E * a**2 * _mean(shape, a, 2)
     return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
 
 
@@ -110,12 +117,33 @@ def gap(
         around = on_body.gap(np.ravel(r), a, deep, shape, body)
         return np.maximum(np.reshape(around, np.shape(r)), 0.0)
     # t = a sin(angle) takes the root off the edge of the contact where r is near it
-    t = a * np.sin(_ANGLE)
-    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(_ANGLE) * _WEIGHT
+    angle, weight = _angles(shape, a)
+    t = a * np.sin(angle)
+    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(angle) * weight
     lifted = deep * np.arcsin(a / r) - (hollow / np.sqrt(r[..., None] ** 2 - t**2)).sum(axis=-1)
     return np.maximum(shape.gap(r) - deep + 2 / np.pi * lifted, 0.0)
 
 
-def _mean(shape: Flank, a: npt.NDArray, weight: Array) -> npt.NDArray:
-    """Return the integral of the slope over the angle, with a weight."""
-    return (np.asarray(shape.flank(np.multiply.outer(a, np.sin(_ANGLE)))) * weight) @ _WEIGHT
+def _mean(shape: Flank, a: npt.NDArray, power: int) -> npt.NDArray:
+    """Return the integral of the slope over the angle, with a power of its sine."""
+    angle, weight = _angles(shape, float(np.max(a, initial=0.0)))
+    sine = np.sin(angle)
+    weight = weight * sine**power
+    radii = np.ravel(a)
+    parts = np.array_split(radii, -(-radii.size * sine.size // _AT_ONCE) or 1)
+    means = [np.asarray(shape.flank(np.multiply.outer(part, sine))) @ weight for part in parts]
+    return np.reshape(np.concatenate(means), np.shape(a))
+
+
+def _angles(shape: Flank, radius: float) -> tuple[Array, Array]:
+    """Return angles and weights for a contact of this radius at most."""
+    panels = np.ceil(radius / (_DETAILS * detail(shape)))
+    return _rule(int(np.clip(panels, 1, _MOST_PANELS)))
+
+
+@lru_cache(maxsize=_MOST_PANELS)
+def _rule(panels: int) -> tuple[Array, Array]:
+    """Return the nodes and the weights of so many panels from 0 to pi/2."""
+    width = np.pi / 2 / panels
+    angle = width * (np.arange(panels)[:, None] + (_NODES + 1) / 2)
+    return np.ravel(angle), np.tile(width / 2 * _WEIGHTS, panels)
