@@ -9,7 +9,10 @@ from scipy.special import struve
 
 import viscotack as vt
 from viscotack.bem.contacts.shape import ShapeContact
+from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
+from viscotack.bem.solver import contact_of
+from viscotack.result import observables
 from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
 from viscotack.traction import LennardJones
@@ -221,3 +224,100 @@ def test_si_gives_what_groups_do():
     E = solid.contact_modulus
     assert E == pytest.approx(4e6 / 3)
     assert pulled == pytest.approx(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.05), rel=0.1)
+
+
+# --- several edges --------------------------------------------------------------------------------
+
+
+def ring(r):
+    return r * r / 2 + 8 * np.exp(-r * r)
+
+
+@pytest.fixture(scope="module")
+def ring_result():
+    groups = vt.Groups(
+        tabor=4.0,
+        material=ELASTIC,
+        start=vt.Apart(12.0),
+        moves=(vt.Approach(1.0, vt.AtDepth(5.0)),),
+        rate=1.0,
+        geometry=reduced(ring),
+    )
+    return vt.solve(groups, accuracy=1e-2)
+
+
+def test_both_edges_of_a_ring_are_reported(ring_result):
+    touching = np.isfinite(ring_result.contact_radius)
+    assert np.all(ring_result.rings[touching] == 1) and np.all(ring_result.rings[~touching] == 0)
+    assert np.all(np.isnan(ring_result.inner_radius[~touching]))
+    inner, outer = ring_result.inner_radius[touching], ring_result.contact_radius[touching]
+    # the lowest place is between them
+    lowest = RADII[np.argmin([ring(r) for r in RADII])] / np.pi ** (1 / 3)
+    assert np.all((inner > 0) & (inner < lowest) & (lowest < outer))
+    answer = vt.summary(ring_result)
+    assert answer["most_rings"] == answer["rings_at_pull_off"] == 1
+    assert 0.5 < answer["inner_radius_at_pull_off"] < answer["contact_radius_at_pull_off"]
+    # it opens from inside as well as from outside
+    after = ring_result.move[touching] == 1
+    assert inner[after][-1] > 1.1 * inner[after][0]
+
+
+def test_a_ring_pulls_alike_from_rest_and_after_its_approach(ring_result):
+    rest = replace(ring_result.groups, start=vt.AtDepth(5.0), moves=())
+    found = vt.solve(rest, until="pull-off", accuracy=1e-2)
+    assert found.error_estimate is not None and ring_result.error_estimate is not None
+    error = found.error_estimate["force"] + ring_result.error_estimate["force"]
+    assert found.pull_off_force == pytest.approx(ring_result.pull_off_force, rel=error)
+
+
+def test_edges_are_saved_and_written(ring_result, tmp_path):
+    vt.save(ring_result, tmp_path / "ring.npz")
+    again = vt.load(tmp_path / "ring.npz")
+    for name in ("rings", "inner_radius"):
+        assert np.array_equal(getattr(again, name), getattr(ring_result, name), equal_nan=True)
+    vt.write_csv(again, tmp_path / "ring.csv")
+    header = (tmp_path / "ring.csv").read_text().splitlines()[0].split(",")
+    assert {"inner_radius", "rings"} <= set(header)
+
+
+def test_parts_of_a_contact_that_comes_together_are_counted():
+    # a groove around a tip: it closes with a jump on the way in, whose energy is booked
+    def groove(r):
+        return r * r / 2 + 0.8 * np.exp(-(((r - 1) / 0.25) ** 2))
+
+    groups = vt.Groups(
+        tabor=4.0,
+        material=RELAXING,
+        start=vt.Apart(12.0),
+        moves=(vt.Approach(1.0, vt.AtDepth(8.0)),),
+        rate=None,
+        geometry=reduced(groove),
+    )
+    result = vt.solve(groups, accuracy=1e-2)
+    assert vt.summary(result)["most_rings"] == 2
+    assert result.rings is not None and result.rings[-1] == 1
+    assert result.energy_residual is not None and result.energy_residual < 5e-3
+
+
+def test_nodes_are_fine_at_each_edge(ring_result):
+    contact = contact_of(ring_result.groups)
+    settings = Settings.for_accuracy(1e-2)
+    start = contact.relaxed(vt.AtDepth(5.0), settings)
+    grading = contact.grading(settings, 5.0)
+    mesh = Mesh(grading, contact.zone, start.lattice, grading, start.edge)
+    inner = start.surface.inner_edges(start.gap, contact.law.edge_gap)
+    assert len(inner) == 1 and mesh.left_by(start.edge, inner)
+    mesh = mesh.around(start.edge, contact.zone, inner)
+    assert not mesh.left_by(start.edge, inner)
+    nodes = mesh.nodes()
+    for edge in (*inner, start.edge):
+        around = np.searchsorted(nodes, edge)
+        assert np.diff(nodes)[around - 3 : around + 3] == pytest.approx(grading.spacing, rel=0.3)
+
+
+def test_a_sphere_has_no_inner_edge():
+    groups = vt.Groups(tabor=1.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0)
+    result = vt.solve(groups, accuracy=1e-2)
+    assert result.rings is None and "most_rings" not in vt.summary(result)
+    with pytest.raises(vt.InputError, match="one edge"):
+        observables.most_rings(result)

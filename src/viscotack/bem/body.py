@@ -282,6 +282,7 @@ class Body:
             force=surface.force(law, gap),
             elastic=surface.unit * (instant + memory.stored(self.weights)),
             interface=surface.interface_energy(at_rest, gap),
+            inner=surface.inner_edges(gap, at_rest.edge_gap),
         )
         extra = None
         if opening is not None:

@@ -144,9 +144,9 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
     left: list[Mesh] = []
     missing = 0.0
     for _ in range(_MOST_MESHES):
-        edge = at.seen.edge
+        edges = at.seen.edge, at.seen.inner
         # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
-        if not at.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
+        if not at.mesh.left_by(*edges) or any(mesh.had(*edges) for mesh in left):
             break
         left.append(at.mesh)
         before, at = at, _on_new_nodes(run, at)
@@ -174,7 +174,7 @@ def _on_new_nodes(run: Run, at: Place) -> Place:
 
 def _staying(at: Place) -> Place:
     """Return the march on the nodes it has, which count as those around its edge."""
-    return replace(at, mesh=replace(at.mesh, edge=at.seen.edge))
+    return replace(at, mesh=replace(at.mesh, edge=at.seen.edge, inner=at.seen.inner))
 
 
 def _let_go(run: Run, now: Snapshot, time: float) -> None:

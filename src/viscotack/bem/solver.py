@@ -26,7 +26,7 @@ from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.errors import InputError
-from viscotack.geometry import Cone, FlatPunch, HalfSpace, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups
 from viscotack.problem.revolution import SIMULATED_TABOR
@@ -280,7 +280,18 @@ def _result(
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
+        **_parts_of_contact(groups, contact, states),
     )
+
+
+def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) -> dict[str, Any]:
+    """Return the inner edge and the number of rings of a shape that may have several edges."""
+    if np.isinf(detail(groups.geometry)):
+        return {}
+    return {
+        "inner_radius": np.array([s.hole for s in states]) / contact.edge_unit,
+        "rings": np.array([s.rings for s in states]),
+    }
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:

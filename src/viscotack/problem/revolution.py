@@ -26,7 +26,7 @@ import scipy
 from viscotack.errors import InputError
 from viscotack.geometry import HalfSpace, Sphere, detail, end, equivalent_radius
 from viscotack.materials import Material
-from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
@@ -47,7 +47,6 @@ ELASTIC_TABOR = 30.0
 _FAR = log(1e15)
 # Radii per detail of a shape at which its slope is looked at, and the most of them.
 _LOOKS, _MOST_LOOKS = 16, 100_000
-OUTPUTS = REVOLUTION
 # What a protocol's numbers are in, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
@@ -89,6 +88,11 @@ class Scales:
     time: float
     edge_speed: float
     stress: float
+
+
+def outputs(shape: Any) -> Kind:
+    """Return what the numbers of an answer are called; of a shape with details those of rings."""
+    return REVOLUTION if np.isinf(detail(shape)) else DETAILED
 
 
 def radius_of(problem: Any) -> float:

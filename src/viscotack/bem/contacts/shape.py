@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +22,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.contacts.revolution import RevolutionContact
-from viscotack.bem.mesh import Grading, check_count
+from viscotack.bem.mesh import Grading, check_count, finer
 from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
 from viscotack.geometry import Shape, detail, end
@@ -41,8 +41,6 @@ _CHORD, _PER_DETAIL, _GRID = 0.01, 12, 16
 _UNBOUND = (
     "the indenter does not rise to {:g} h0 within {:g} lengths beta; a shape rises without bound"
 )
-# Nodes make way for those of the shape where they are so many times as far from each other.
-_COARSER = 1.3
 # Where the gap is wider than by so many ranges of the law, each panel may be wider than the one
 # before by this part.
 _NEAR, _WIDER = 3.0, 0.2
@@ -217,32 +215,13 @@ class DetailedGrading(Grading):
         The nodes of the shape; they stay where they are, so that nothing is interpolated there.
     """
 
+    rings: ClassVar[bool] = True
+
     own: npt.NDArray
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
         return finer(super().nodes(edge, first_edge), self.own)
-
-
-def finer(nodes: npt.NDArray, own: npt.NDArray) -> npt.NDArray:
-    """Return nodes with others in their place where those are closer to each other.
-
-    Examples
-    --------
-    >>> finer(np.array([0.0, 1.0, 1.5, 2.0, 8.0]), np.linspace(3.0, 6.0, 4))
-    array([0. , 1. , 1.5, 2. , 3. , 4. , 5. , 6. , 8. ])
-    """
-    middle = (own[1:] + own[:-1]) / 2
-    width = np.interp((nodes[1:] + nodes[:-1]) / 2, middle, np.diff(own), left=np.inf, right=np.inf)
-    coarse = np.diff(nodes) > _COARSER * width
-    edge = np.diff(np.concatenate([[False], coarse, [False]]).astype(int))
-    kept = np.ones(len(nodes), dtype=bool)
-    parts = []
-    for first, last in zip(np.flatnonzero(edge == 1), np.flatnonzero(edge == -1), strict=True):
-        kept[first + 1 : last] = False
-        low, high = nodes[first] + width[first] / 2, nodes[last] - width[last - 1] / 2
-        parts.append(own[(own > low) & (own < high)])
-    return np.sort(np.concatenate([nodes[kept], *parts]))
 
 
 def _lowest(function: Callable[[float], float]) -> float:
