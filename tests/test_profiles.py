@@ -1,6 +1,8 @@
 """Profiles of any form: tables of heights, waves, worn tips, cups; several edges."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,10 +10,14 @@ import pytest
 from scipy.special import struve
 
 import viscotack as vt
+from doors import Http, Question, by_command, by_form, by_http, by_python, by_study, run
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
+from viscotack.campaign import read_plan
+from viscotack.files.toml import read_toml, toml_value
+from viscotack.problem.schema import schema
 from viscotack.result import observables
 from viscotack.theory import jkr
 from viscotack.theory.elastic import indenter
@@ -321,3 +327,59 @@ def test_a_sphere_has_no_inner_edge():
     assert result.rings is None and "most_rings" not in vt.summary(result)
     with pytest.raises(vt.InputError, match="one edge"):
         observables.most_rings(result)
+
+
+# --- every door -----------------------------------------------------------------------------------
+
+_ASK = ("predict", "advise")
+ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401, 100)]
+TABLES = {
+    "measured-profile": {"points": ROWS},
+    "wavy-sphere": {"radius": "5 mm", "amplitude": "0.2 um", "wavelength": "100 um"},
+}
+
+
+@pytest.mark.parametrize(
+    ("word", "send"), [("measured-profile", by_http), ("wavy-sphere", by_form)]
+)
+def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    keys = "\n".join(f"{key} = {toml_value(value)}" for key, value in TABLES[word].items())
+    Path("case.toml").write_text(CASE.format(table=word, keys=keys))
+    question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.02})
+    found = by_python(question)
+    assert found.record["pull_off_force"] > 0 and found.record["most_rings"] == 1
+    http = Http()
+    try:
+        assert found == by_command(question) == by_study(question) == send(question, http)
+        tables = Question("simulate", question.given | {"problem": read_toml(Path("case.toml"))})
+        assert by_http(tables, http).record == found.record
+    finally:
+        http.close()
+    kind = type(vt.read_case("case.toml").geometry).__name__
+    assert (
+        f"the shape is {kind}" in by_python(Question("predict", {"problem": "case.toml"})).refused
+    )
+    assert "simulate" in by_python(Question("advise", {"problem": "case.toml"})).refused
+
+
+def test_the_example_of_a_worn_lens_is_a_profile():
+    example = Path(__file__).parents[1] / "examples" / "from_toml" / "worn.toml"
+    assert isinstance(vt.read_case(example).geometry, vt.MeasuredProfile)
+    status, out, _ = run(["simulate", "profile", example, "--accuracy", "0.02", "--json"])
+    assert status == 0 and json.loads(out)["pull_off_force_N"] == pytest.approx(4.77e-3, rel=0.03)
+
+
+def test_a_campaign_varies_the_amplitude(tmp_path):
+    keys = 'radius = "5 mm"\namplitude = "0.2 um"\nwavelength = "100 um"'
+    (tmp_path / "case.toml").write_text(CASE.format(table="wavy-sphere", keys=keys))
+    plan = 'problem = "case.toml"\n[[grid]]\ngeometry.amplitude = ["0.1 um", "0.3 um"]\n'
+    (tmp_path / "plan.toml").write_text(plan + "[settings]\naccuracy = 0.02\n")
+    cases = read_plan(tmp_path / "plan.toml").cases
+    assert len(cases) == 2
+
+
+def test_records_of_both_shapes_fit_the_schema():
+    known = schema()["$defs"]
+    assert {"MeasuredProfile", "WavySphere"} <= known.keys()
+    assert known["MeasuredProfile"]["properties"]["points"]["units"] == ["m", "m"]

@@ -195,9 +195,10 @@ def door_of(word: str) -> "Door":
 
 def indenter_of(problem: Any) -> str:
     """Return the word of the indenter of a problem in SI, as commands have it."""
-    from viscotack.geometry import Cone
+    from viscotack.geometry import Cone, MeasuredProfile
 
-    return "profile" if isinstance(problem.geometry, Cone) else problem.geometry.word
+    is_profile = isinstance(problem.geometry, Cone | MeasuredProfile)
+    return "profile" if is_profile else problem.geometry.word
 
 
 def _checked(problem: Any) -> Any:
