@@ -56,7 +56,7 @@ class MeasuredProfile:
     ...     lambda r: max(r**2 - 1e-4**2, 0) / (2 * 5e-3), np.linspace(0, 5e-4, 51)
     ... )
     >>> f"{worn.gap(3e-4) * 1e6:.2f} um, equivalent radius {worn.equivalent_radius(0) * 1e3:.2f} mm"
-    '8.00 um, equivalent radius 5.01 mm'
+    '8.00 um, equivalent radius 5.02 mm'
     """
 
     word: ClassVar[str] = "measured-profile"

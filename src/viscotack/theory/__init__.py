@@ -35,6 +35,7 @@ from .elastic import (
     maugis,
     profiles,
     transition,
+    wavy,
 )
 from .sphere import bounds, detachment, rate, unloading
 
@@ -66,4 +67,5 @@ __all__ = [
     "tabulated_modulus",
     "transition",
     "unloading",
+    "wavy",
 ]

@@ -12,6 +12,7 @@ from . import (
     profiles,
     relaxed,
     transition,
+    wavy,
 )
 
 __all__ = [
@@ -26,4 +27,5 @@ __all__ = [
     "profiles",
     "relaxed",
     "transition",
+    "wavy",
 ]
