@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from .forecast import threshold_contact_radius as threshold_contact_radius
     from .geometry import Bonded as Bonded
     from .geometry import Cone as Cone
+    from .geometry import Disc as Disc
     from .geometry import FlatPunch as FlatPunch
     from .geometry import Frictionless as Frictionless
     from .geometry import HalfSpace as HalfSpace
@@ -129,6 +130,7 @@ _NAMES = {
         "PowerLawProfile",
         "WavySphere",
         "MeasuredProfile",
+        "Disc",
         "Layer",
         "Frictionless",
         "HalfSpace",

@@ -1,6 +1,7 @@
 """A sphere with waves: Guduru's theory against quadrature, its limits, and simulations."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +13,11 @@ from viscotack.theory.elastic import indenter
 
 SPHERE = {"radius": 0.2}
 WAVES = {"amplitude": 1e-6, "wavelength": 1e-3}
-SOLID = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
+SOLID: Any = {"contact_modulus": 1e6, "work_of_adhesion": 0.05}
 A = np.linspace(2e-4, 2e-2, 60)
 # In groups: R, E0* and dg are 1.
 SHAPE = {"radius": 1.0, "amplitude": 0.06, "wavelength": 0.5}
-UNITS = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+UNITS: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
 
 
 # --- 1 identity -----------------------------------------------------------------------------------

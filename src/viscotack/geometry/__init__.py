@@ -2,6 +2,7 @@
 
 from .bases import Base, Bonded, Frictionless
 from .bodies import Body, HalfSpace, Layer
+from .disc import Disc
 from .measured import MeasuredProfile
 from .shapes import (
     Cone,
@@ -19,7 +20,7 @@ from .wavy import WavySphere
 # Word in a file -> class.
 SHAPES = {
     shape.word: shape
-    for shape in (Sphere, Cone, PowerLawProfile, WavySphere, MeasuredProfile, FlatPunch)
+    for shape in (Sphere, Cone, PowerLawProfile, WavySphere, MeasuredProfile, Disc, FlatPunch)
 }
 BODIES = {body.word: body for body in (HalfSpace, Layer)}
 
@@ -30,6 +31,7 @@ __all__ = [
     "Body",
     "Bonded",
     "Cone",
+    "Disc",
     "FlatPunch",
     "Frictionless",
     "HalfSpace",

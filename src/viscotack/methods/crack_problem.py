@@ -58,8 +58,9 @@ def groups_of(problem: Any) -> Groups:
         )
     if np.isfinite(detail(groups.geometry)):
         raise OutOfRange(
-            "the theory of a contact with a crack for its edge has one edge, and a "
-            f"{groups.geometry.word} may have several; `viscotack simulate` answers it"
+            "the theory of a contact with a crack for its edge is one of shapes that rise ever "
+            f"more steeply from the tip, and a {groups.geometry.word} does not; `viscotack "
+            "simulate` answers it"
         )
     return groups
 

@@ -24,7 +24,7 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere, detail, end, equivalent_radius
+from viscotack.geometry import Disc, HalfSpace, Sphere, detail, end, equivalent_radius
 from viscotack.materials import Material
 from viscotack.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.problem.units import InSI, time_unit
@@ -204,7 +204,9 @@ def check(problem: Any) -> None:
         the flank of another shape, or on another body, steeper than 0.5 at the edge of a contact as
         JKR has it; or if that is so where the undeformed gap is h_0.
     """
-    if isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
+    if isinstance(problem.geometry, Disc):
+        _check_disc(problem)
+    elif isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
         _check_sphere(problem)
     else:
         _check_flank(problem)
@@ -228,6 +230,28 @@ def _check_sphere(problem: Any) -> None:
             f"sphere radius of {R:.3g} m: the forces would reach where a sphere is no longer a "
             f"paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
         )
+
+
+def _check_disc(problem: Any) -> None:
+    disc, most = problem.geometry, LARGEST_CONTACT * problem.geometry.radius
+    rim = float(disc.flank(disc.radius))
+    if rim > 2 * STEEPEST_FLANK:
+        raise InputError(
+            f"the rounded edge is too steep: its slope is {rim:.3g} at the rim, and it may be up "
+            f"to {2 * STEEPEST_FLANK:g}, that of a quarter of a circle; make it wider"
+        )
+    # a stiff contact of the radius of the disc: P = 2 E* a depth
+    stiffness = 2 * problem.material.contact_modulus * disc.radius
+    for state in states(problem.protocol):
+        if isinstance(state, AtRadius):
+            continue
+        is_depth = isinstance(state, AtDepth)
+        depth = state.depth if is_depth else state.force / stiffness
+        if depth > most:
+            raise InputError(
+                f"{state} lies beyond small strain: it presses the disc deeper than half its "
+                f"radius, {most:.3g} m"
+            )
 
 
 def _check_flank(problem: Any) -> None:

@@ -28,6 +28,7 @@ from .crack import (
 from .elastic import (
     adhesion_map,
     bradley,
+    disc,
     dmt,
     hertz,
     jkr,
@@ -48,6 +49,7 @@ __all__ = [
     "crack",
     "crack_regimes",
     "detachment",
+    "disc",
     "dmt",
     "elastic",
     "empirical",

@@ -3,6 +3,7 @@
 from . import (
     adhesion_map,
     bradley,
+    disc,
     dmt,
     hertz,
     indenter,
@@ -18,6 +19,7 @@ from . import (
 __all__ = [
     "adhesion_map",
     "bradley",
+    "disc",
     "dmt",
     "hertz",
     "indenter",
