@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.cards import check_carded
-from viscotack.geometry import MeasuredProfile, PowerLawProfile, detail
+from viscotack.geometry import MeasuredProfile, PowerLawProfile, detail, equivalent_radius
 from viscotack.materials.branched_solids import Elastic
 from viscotack.problem import Problem
 from viscotack.protocol import AtForce, Retraction
@@ -137,8 +137,10 @@ def _contact(shape: Any, size: float) -> Iterator[Finding]:
     pulled = -float(np.min(indenter.force(a, **theory)))
     at = float(a[np.argmin(indenter.force(a, **theory))])
     # a range so short that JKR holds to a few parts in a hundred, and that nodes can follow
-    part = 0.03 if np.isinf(detail(shape)) else 0.1
-    gap = part * float(np.cbrt(at * (work / modulus) ** 2 * 1.0))
+    adhesion, part, radius = work / modulus, 0.03, at
+    if np.isfinite(detail(shape)):
+        part, radius = 0.1, equivalent_radius(shape, adhesion)
+    gap = part * float(np.cbrt(radius * adhesion**2))
     law = LennardJones(work, gap)
     problem = Problem(solid, law, shape, Retraction(AtForce(0.0), 1e-6))
     result = simulated.run(problem)
