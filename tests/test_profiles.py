@@ -16,7 +16,10 @@ from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
 from viscotack.bem.solver import contact_of
 from viscotack.campaign import read_plan
+from viscotack.check.tiers import problems
 from viscotack.files.toml import read_toml, toml_value
+from viscotack.forecast.simulation import SIMULATION
+from viscotack.forecast.tiers import TIERS
 from viscotack.problem.schema import schema
 from viscotack.result import observables
 from viscotack.theory import jkr
@@ -25,6 +28,7 @@ from viscotack.traction import LennardJones
 
 ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
 RADII = np.linspace(0.0, 6.0, 241)
 WAVY = vt.WavySphere(1.0, 0.06, 0.5)
 SOLID: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
@@ -161,6 +165,18 @@ def test_theories_of_one_edge_refuse_in_words(shape):
         vt.solve(replace(groups, tabor=300.0))
     with pytest.raises(vt.InputError, match="shape is"):
         vt.predict(groups)
+
+
+@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
+@pytest.mark.parametrize("shape", [WAVY, reduced(worn), vt.Disc(1.0)], ids=lambda x: x.word)
+def test_no_cheap_tier_answers_for_a_shape_that_it_was_not_shown(tier, shape):
+    case = next(case for case in problems() if tier.covers(case) == "")
+    # punches have a cohesion, and a layer under them
+    others = {"tabor": 3.0, "cohesion": None, "body": vt.HalfSpace(), "start": vt.AtDepth(5.0)}
+    stranger = replace(case, geometry=shape, **(others if case.in_plane_strain else {}))
+    assert f"the shape is {type(shape).__name__}" in tier.covers(stranger)
+    with pytest.raises(vt.OutOfRange, match="the shape is"):
+        tier.answer(stranger)
 
 
 # --- the ways in ----------------------------------------------------------------------------------
