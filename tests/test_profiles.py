@@ -11,6 +11,7 @@ from scipy.special import struve
 
 import viscotack as vt
 from doors import Http, Question, by_command, by_form, by_http, by_python, by_study, run
+from viscotack.bem import jumps
 from viscotack.bem.contacts.shape import ShapeContact
 from viscotack.bem.mesh import Mesh
 from viscotack.bem.settings import Settings
@@ -400,3 +401,15 @@ def test_records_of_both_shapes_fit_the_schema():
     known = schema()["$defs"]
     assert {"MeasuredProfile", "WavySphere"} <= known.keys()
     assert known["MeasuredProfile"]["properties"]["points"]["units"] == ["m", "m"]
+
+
+def test_a_march_goes_on_where_new_nodes_have_no_compliance(monkeypatch):
+    def failing(*given):
+        raise ArithmeticError("not positive definite")
+
+    monkeypatch.setattr(jumps, "around_edge", failing)
+    groups = vt.Groups(
+        tabor=2.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0, geometry=reduced(worn)
+    )
+    result = vt.solve(groups, accuracy=2e-2, estimate_error=False)
+    assert result.pull_off_force > 1

@@ -161,9 +161,13 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
 def _on_new_nodes(run: Run, at: Place) -> Place:
     """Return the march on nodes around its edge, where it was if it finds no balance on them.
 
-    That happens on the brink of a jump: the march then goes on with the nodes it has.
+    That happens on the brink of a jump, or where edges come so close that panels are too uneven for
+    a compliance that is positive definite: the march then goes on with the nodes it has.
     """
-    moved = around_edge(run.body, at)
+    try:
+        moved = around_edge(run.body, at)
+    except ArithmeticError:
+        return _staying(at)
     if isinstance(moved, Place):
         run.history.meshes += 1
         return moved
