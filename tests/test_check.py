@@ -61,6 +61,11 @@ SHAPES_CHECKED = {
     "sphere": vt.Sphere(1e-3),
     "cone": vt.Cone(0.1),
     "profile": vt.PowerLawProfile(1e6, 3.0),
+    "wavy-sphere": vt.WavySphere(radius=1e-3, amplitude=0.2e-6, wavelength=4e-5),
+    "measured-profile": vt.MeasuredProfile.sampled(
+        lambda r: max(r * r - 4e-10, 0.0) / 2e-3, np.linspace(0.0, 1.2e-3, 121)
+    ),
+    "disc": vt.Disc(1e-4, edge_width=9e-5, edge_height=1e-5),
     "rounded-cone": ROUNDED(0.2, 2e-5),
 }
 BODIES = {

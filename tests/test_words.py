@@ -34,6 +34,8 @@ WORDS = {
     "time_at_pull_off": "s",
     "contact_radius_at_pull_off": "m",
     "cohesive_radius_at_pull_off": "m",
+    "inner_radius_at_pull_off": "m",
+    "rings_at_pull_off": "1",
     "ligament_at_pull_off": "m",
     "crack_speed_at_pull_off": "m_per_s",
     "amplification_at_pull_off": "1",

@@ -33,12 +33,15 @@ if TYPE_CHECKING:
     from .forecast import threshold_contact_radius as threshold_contact_radius
     from .geometry import Bonded as Bonded
     from .geometry import Cone as Cone
+    from .geometry import Disc as Disc
     from .geometry import FlatPunch as FlatPunch
     from .geometry import Frictionless as Frictionless
     from .geometry import HalfSpace as HalfSpace
     from .geometry import Layer as Layer
+    from .geometry import MeasuredProfile as MeasuredProfile
     from .geometry import PowerLawProfile as PowerLawProfile
     from .geometry import Sphere as Sphere
+    from .geometry import WavySphere as WavySphere
     from .materials import Elastic as Elastic
     from .materials import FractionalZener as FractionalZener
     from .materials import Prony as Prony
@@ -125,6 +128,9 @@ _NAMES = {
         "FlatPunch",
         "Cone",
         "PowerLawProfile",
+        "WavySphere",
+        "MeasuredProfile",
+        "Disc",
         "Layer",
         "Frictionless",
         "HalfSpace",

@@ -307,6 +307,7 @@ class Body:
             force=surface.unit * float(nodal.sum()) + surface.flank_force(law, gap),
             elastic=surface.unit * (instant + memory.stored(self.weights)),
             interface=surface.unit * resting.energy + surface.flank_energy(self.contact.law, gap),
+            inner=surface.inner_edges(gap, at_rest.edge_gap),
         )
         trail = (*before[1 - _TRAIL :], self._passed(seen, surface, relaxed, nodal, memory))
         return State(seen, surface, gap, relaxed, nodal, memory, rates, trail, extra)

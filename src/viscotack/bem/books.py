@@ -32,6 +32,17 @@ class Snapshot:
     force: float  # [output unit]
     elastic: float
     interface: float
+    inner: tuple[float, ...] = ()  # edges within the outermost [unit of the mesh], ascending
+
+    @property
+    def rings(self) -> int:
+        """How many parts the contact has: rings, or a disc at the axis; 0 without an edge."""
+        return len(self.inner) // 2 + 1 if self.edge > 0 else 0
+
+    @property
+    def hole(self) -> float:
+        """The inner edge of the outermost part [unit of the mesh], 0 of a disc; nan without one."""
+        return max(self.inner, default=0.0) if self.edge > 0 else np.nan
 
     @property
     def stored(self) -> float:

@@ -144,9 +144,9 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
     left: list[Mesh] = []
     missing = 0.0
     for _ in range(_MOST_MESHES):
-        edge = at.seen.edge
+        edges = at.seen.edge, at.seen.inner
         # where the gap is flat each mesh has the edge elsewhere: to and fro, for the same force
-        if not at.mesh.left_by(edge) or any(mesh.had(edge) for mesh in left):
+        if not at.mesh.left_by(*edges) or any(mesh.had(*edges) for mesh in left):
             break
         left.append(at.mesh)
         before, at = at, _on_new_nodes(run, at)
@@ -161,9 +161,13 @@ def _chased(run: Run, at: Place) -> tuple[Place, float]:
 def _on_new_nodes(run: Run, at: Place) -> Place:
     """Return the march on nodes around its edge, where it was if it finds no balance on them.
 
-    That happens on the brink of a jump: the march then goes on with the nodes it has.
+    That happens on the brink of a jump, or where edges come so close that panels are too uneven for
+    a compliance that is positive definite: the march then goes on with the nodes it has.
     """
-    moved = around_edge(run.body, at)
+    try:
+        moved = around_edge(run.body, at)
+    except ArithmeticError:
+        return _staying(at)
     if isinstance(moved, Place):
         run.history.meshes += 1
         return moved
@@ -174,7 +178,7 @@ def _on_new_nodes(run: Run, at: Place) -> Place:
 
 def _staying(at: Place) -> Place:
     """Return the march on the nodes it has, which count as those around its edge."""
-    return replace(at, mesh=replace(at.mesh, edge=at.seen.edge))
+    return replace(at, mesh=replace(at.mesh, edge=at.seen.edge, inner=at.seen.inner))
 
 
 def _let_go(run: Run, now: Snapshot, time: float) -> None:

@@ -173,7 +173,7 @@ def _judged(run: Run, at: Place, until: str) -> Place:
         if not last:
             return _begun(run, at, at.number + 1)
         history.outcome = "end"
-    elif at.mesh.left_by(at.seen.edge) or _narrowed(run, at):
+    elif at.mesh.left_by(at.seen.edge, at.seen.inner) or _narrowed(run, at):
         return followed(run, at)
     return at
 

@@ -21,11 +21,13 @@ growth, to the energy that the edge releases. Outside there is next to no pressu
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
+from viscotack.bem.books import Snapshot
 from viscotack.errors import InputError
 
 # Of a mesh: a matrix of these has 130 MB, and a run holds several.
@@ -34,6 +36,9 @@ MOST_NODES = 4000
 # but no faster than this: no pressure is there any more, only what slow modes remember.
 _HEALED, _FASTEST_GROWTH = 2.0, 0.25
 
+
+# Nodes make way for others where they are so many times as far from each other.
+_COARSER = 1.3
 
 # Of the first crack's zone: below which part nodes are made finer, and the smallest that there is.
 _NARROWED, _NARROWEST = 0.75, 2.0**-8
@@ -60,6 +65,9 @@ class Grading:
         Largest distance of nodes in the contact.
     """
 
+    # whether there may be edges within the outermost one, for which there are fine nodes as well
+    rings: ClassVar[bool] = False
+
     spacing: float
     half_width: float
     growth_inside: float
@@ -72,6 +80,15 @@ class Grading:
     def widened(self, factor: float) -> Grading:
         """Return the grading for a crack whose zone has grown by this factor, a power of two."""
         return replace(self, spacing=self.spacing * factor, half_width=self.half_width * factor)
+
+    def around(self, edge: float, first_edge: float) -> npt.NDArray:
+        """Return fine nodes around an inner edge, on the lattice, with growing distances beside."""
+        h = self.spacing
+        edge = first_edge + h * round((edge - first_edge) / h)
+        fine = h * np.arange(1, int(self.half_width / h) + 1)
+        beside = np.concatenate([fine, fine[-1] + self._growing(edge, self.growth_outside)])
+        nodes = edge + np.concatenate([-beside[::-1], [0.0], beside])
+        return nodes[nodes > h / 2]
 
     def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
         """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
@@ -156,6 +173,27 @@ class Grading:
         return start + np.array(points[1:-1]) * (length / points[-1])
 
 
+def finer(nodes: npt.NDArray, own: npt.NDArray) -> npt.NDArray:
+    """Return nodes with others in their place where those are closer to each other.
+
+    Examples
+    --------
+    >>> finer(np.array([0.0, 1.0, 1.5, 2.0, 8.0]), np.linspace(3.0, 6.0, 4))
+    array([0. , 1. , 1.5, 2. , 3. , 4. , 5. , 6. , 8. ])
+    """
+    middle = (own[1:] + own[:-1]) / 2
+    width = np.interp((nodes[1:] + nodes[:-1]) / 2, middle, np.diff(own), left=np.inf, right=np.inf)
+    coarse = np.diff(nodes) > _COARSER * width
+    edge = np.diff(np.concatenate([[False], coarse, [False]]).astype(int))
+    kept = np.ones(len(nodes), dtype=bool)
+    parts = []
+    for first, last in zip(np.flatnonzero(edge == 1), np.flatnonzero(edge == -1), strict=True):
+        kept[first + 1 : last] = False
+        low, high = nodes[first] + width[first] / 2, nodes[last] - width[last - 1] / 2
+        parts.append(own[(own > low) & (own < high)])
+    return np.sort(np.concatenate([nodes[kept], *parts]))
+
+
 def check_count(nodes: float) -> None:
     """Refuse a mesh with too many nodes, before there is a matrix of them."""
     if not nodes <= MOST_NODES:
@@ -193,9 +231,10 @@ class Mesh:
     grading: Grading
     edge: float
     narrows: bool = False
+    inner: tuple[float, ...] = ()
 
-    def around(self, edge: float, opening: float) -> Mesh:
-        """Return the mesh around an edge for the length over which the gap opens there.
+    def around(self, edge: float, opening: float, inner: tuple[float, ...] = ()) -> Mesh:
+        """Return the mesh around the edges for the length over which the gap opens at the outer.
 
         Its fine zone stays within a third of the edge.
         """
@@ -203,27 +242,44 @@ class Mesh:
         grading = self.finest
         if factor >= 2 or (self.narrows and factor < _NARROWED):
             grading = grading.widened(max(2.0 ** np.floor(np.log2(factor)), _NARROWEST))
-        return replace(self, grading=grading, edge=edge)
+        return replace(self, grading=grading, edge=edge, inner=inner if grading.rings else ())
 
     def nodes(self) -> npt.NDArray:
         """Return the nodes, from 0 outwards."""
-        return self.grading.nodes(self.edge, self.lattice)
+        nodes = self.grading.nodes(self.edge, self.lattice)
+        for edge in self.inner:
+            nodes = finer(nodes, self.grading.around(edge, self.lattice))
+        check_count(len(nodes))
+        return nodes
 
     def too_coarse(self, opening: float) -> bool:
         """Return whether the zone has become so short that finer nodes are there for it."""
         now = self.grading.half_width / self.finest.half_width
         return self.narrows and now > _NARROWEST and opening < _NARROWED * now * self.opening
 
-    def left_by(self, edge: float) -> bool:
+    def left_by(self, edge: float, inner: tuple[float, ...] = ()) -> bool:
         """Return whether an edge is half out of the fine nodes, and not about to vanish."""
-        return not self.had(edge) and edge > 2 * self.grading.spacing
+        least = 2 * self.grading.spacing
+        left = edge > least and not self._near(edge, (self.edge,))
+        return left or (self.grading.rings and any(x > least and self._out(x) for x in inner))
 
-    def had(self, edge: float) -> bool:
-        """Return whether an edge is well within the fine nodes."""
-        return not abs(edge - self.edge) > 0.5 * self.grading.half_width
+    def had(self, edge: float, inner: tuple[float, ...] = ()) -> bool:
+        """Return whether the edges are well within the fine nodes."""
+        known = not self.grading.rings or not any(self._out(x) for x in inner)
+        return self._near(edge, (self.edge,)) and known
 
-    def strain(self, before: float, after: float) -> float:
-        """Return 1 where the edge goes so far in a step that it might leave the fine nodes."""
-        if not (before > 2 * self.grading.spacing and after > 0):
-            return 0.0
-        return ((after - before) / (0.4 * self.grading.half_width)) ** 2
+    def _out(self, inner: float) -> bool:
+        """Return whether an inner edge is out of all fine nodes."""
+        return not self._near(inner, (self.edge, *self.inner))
+
+    def _near(self, edge: float, places: tuple[float, ...]) -> bool:
+        return any(not abs(edge - at) > 0.5 * self.grading.half_width for at in places)
+
+    def strain(self, before: Snapshot, after: Snapshot) -> float:
+        """Return 1 where an edge goes so far in a step that it might leave the fine nodes."""
+        pairs = [(before.edge, after.edge)]
+        if self.grading.rings and len(before.inner) == len(after.inner):
+            pairs += zip(before.inner, after.inner, strict=True)
+        least, most = 2 * self.grading.spacing, 0.4 * self.grading.half_width
+        gone = [abs(now - was) for was, now in pairs if was > least and now > 0]
+        return (max(gone, default=0.0) / most) ** 2

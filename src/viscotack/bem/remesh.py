@@ -22,7 +22,7 @@ def around_edge(body: Body, at: Place, edge: float | None = None) -> Place | Bal
     edge given is where it will be instead.
     """
     edge = at.seen.edge if edge is None else edge
-    mesh = at.mesh.around(edge, opening(at.state, body.contact))
+    mesh = at.mesh.around(edge, opening(at.state, body.contact), at.seen.inner)
     state = body.remeshed(at.state, mesh.nodes(), at.hold())
     return state if isinstance(state, Balance) else replace(at, state=state, mesh=mesh)
 

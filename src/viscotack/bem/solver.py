@@ -13,6 +13,7 @@ from viscotack.bem.books import History, Snapshot
 from viscotack.bem.bounds import check_bounds, check_clock, check_held
 from viscotack.bem.clock import TimeUp, met
 from viscotack.bem.contacts.contact import Contact, Relaxed
+from viscotack.bem.contacts.disc import DiscContact
 from viscotack.bem.contacts.profile import ProfileContact
 from viscotack.bem.contacts.punch import PunchContact
 from viscotack.bem.contacts.shape import ShapeContact
@@ -26,7 +27,7 @@ from viscotack.bem.preload import Beginning, shallower
 from viscotack.bem.settings import Settings
 from viscotack.bem.verdict import judged, out_of_time, status_of
 from viscotack.errors import InputError
-from viscotack.geometry import Cone, FlatPunch, HalfSpace, PowerLawProfile, Sphere
+from viscotack.geometry import Cone, Disc, FlatPunch, HalfSpace, PowerLawProfile, Sphere, detail
 from viscotack.materials import Material, Modes
 from viscotack.problem import Case, Groups
 from viscotack.problem.revolution import SIMULATED_TABOR
@@ -202,6 +203,8 @@ def contact_of(groups: Groups) -> Contact:
             return SphereContact(groups.tabor, law)
         case Cone() | PowerLawProfile() as tip, HalfSpace():
             return ProfileContact(groups.tabor, law, tip.exponent)
+        case Disc() as disc, body:
+            return DiscContact(groups.tabor, law, disc, body=body)
         case shape, body:
             return ShapeContact(groups.tabor, law, shape, body=body)
 
@@ -280,7 +283,18 @@ def _result(
         energy_residual=residual,
         fields=_fields(history, contact, time) if fields else None,
         move=np.array(history.legs),
+        **_parts_of_contact(groups, contact, states),
     )
+
+
+def _parts_of_contact(groups: Groups, contact: Contact, states: list[Snapshot]) -> dict[str, Any]:
+    """Return the inner edge and the number of rings of a shape that may have several edges."""
+    if np.isinf(detail(groups.geometry)):
+        return {}
+    return {
+        "inner_radius": np.array([s.hole for s in states]) / contact.edge_unit,
+        "rings": np.array([s.rings for s in states]),
+    }
 
 
 def _fields(history: History, contact: Contact, time: np.ndarray) -> dict[str, np.ndarray]:

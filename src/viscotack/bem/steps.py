@@ -233,6 +233,6 @@ def _strain(run: Run, at: Place, trial: Trial) -> float:
     return max(
         trial.error / (run.settings.step_error * run.body.contact.span * _looser(run, at) ** 2),
         changed(run, at, after),
-        at.mesh.strain(at.seen.edge, after.edge),
+        at.mesh.strain(at.seen, after),
         (trial.bend / (_BEND * run.settings.force_change)) ** 2,
     )

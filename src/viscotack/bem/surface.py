@@ -104,14 +104,28 @@ class Surface:
             return float("nan")
         if below[-1] == len(gap) - 1:
             return self.whole
-        i = int(below[-1])
+        return self._passage(gap, edge_gap, int(below[-1]))
+
+    def inner_edges(self, gap: npt.NDArray, edge_gap: float) -> tuple[float, ...]:
+        """Return the places within the contact edge where the gap passes edge_gap, ascending.
+
+        Where there are any the contact has a hole, or several parts.
+        """
+        below = gap < edge_gap
+        passed = np.flatnonzero(below[1:] != below[:-1])
+        within = passed[:-1] if not below[-1] else passed
+        return tuple(self._passage(gap, edge_gap, int(i)) for i in within)
+
+    def _passage(self, gap: npt.NDArray, edge_gap: float, i: int) -> float:
+        """Return where the gap passes edge_gap between a node and the next."""
         r, g = self.position, gap - edge_gap
         linear = r[i] - g[i] * (r[i + 1] - r[i]) / (g[i + 1] - g[i])
         if i == 0 or i + 2 >= len(r):
             return float(linear)
         # The cubic through four nodes, by Newton from the chord: a linear edge would move in jerks
         # from node to node, and its speed would be noise.
-        x, y = r[i - 1 : i + 3].tolist(), g[i - 1 : i + 3].tolist()
+        way = 1.0 if g[i + 1] > g[i] else -1.0
+        x, y = r[i - 1 : i + 3].tolist(), (way * g[i - 1 : i + 3]).tolist()
         for order in (1, 2, 3):  # divided differences
             y[order:] = [(y[k] - y[k - 1]) / (x[k] - x[k - order]) for k in range(order, 4)]
         at = float(linear)

@@ -98,6 +98,8 @@ def ahead(run: Run, at: Place) -> Ahead | None:
         return None
     if len(trail) < 3 or not edge > 0 or not _told_apart(trail, at.dt):
         return None
+    if at.mesh.inner:  # there are others, and each has a frame of its own
+        return None
     contact = run.body.contact
     if not run.body.weights.size and contact.travel < _MANY_ZONES * contact.span:
         return None

@@ -10,7 +10,7 @@ from viscotack.bem.books import History
 from viscotack.bem.clock import TimeUp
 from viscotack.bem.shut import why
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Sphere
+from viscotack.geometry import HalfSpace, Sphere, end
 from viscotack.protocol import Apart
 from viscotack.result import Outcome, Result
 from viscotack.result.observables import pull_off_force
@@ -31,7 +31,7 @@ def judged(result: Result) -> Result:
     """Return a result, or the same one stopped where its force cannot be trusted."""
     if result.outcome is Outcome.STOPPED:
         return result
-    doubt = _unresolved(result) or _out_of_bounds(result)
+    doubt = _unresolved(result) or _beyond_shape(result) or _out_of_bounds(result)
     if not doubt:
         return result
     return replace(result, status=f"{Outcome.STOPPED} because {doubt}; ask for a better accuracy")
@@ -45,6 +45,19 @@ def _unresolved(result: Result) -> str:
     return (
         f"the pull-off force is not resolved: its error is estimated at {100 * error:.2g} %, "
         f"beside {100 * asked:.2g} % that were asked for"
+    )
+
+
+def _beyond_shape(result: Result) -> str:
+    """Return where the contact was larger than its profile is known; nothing where it was not."""
+    groups = result.groups
+    known, largest = end(groups.geometry), float(np.nanmax(result.contact_radius, initial=0.0))
+    # radii are in pi^(1/3) beta, shapes in beta
+    if groups.in_plane_strain or largest * np.pi ** (1 / 3) <= known:
+        return ""
+    return (
+        f"the contact spread to {largest:.4g} (pi R^2 dg0/E0*)^(1/3), and its profile is known to "
+        f"{known / np.pi ** (1 / 3):.4g}: press less, or give rows farther out"
     )
 
 

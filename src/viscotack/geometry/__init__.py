@@ -2,18 +2,26 @@
 
 from .bases import Base, Bonded, Frictionless
 from .bodies import Body, HalfSpace, Layer
+from .disc import Disc
+from .measured import MeasuredProfile
 from .shapes import (
     Cone,
     FlatPunch,
     PowerLawProfile,
     Shape,
     Sphere,
+    detail,
+    end,
     equivalent_radius,
     numbers,
 )
+from .wavy import WavySphere
 
 # Word in a file -> class.
-SHAPES = {shape.word: shape for shape in (Sphere, Cone, PowerLawProfile, FlatPunch)}
+SHAPES = {
+    shape.word: shape
+    for shape in (Sphere, Cone, PowerLawProfile, WavySphere, MeasuredProfile, Disc, FlatPunch)
+}
 BODIES = {body.word: body for body in (HalfSpace, Layer)}
 
 __all__ = [
@@ -23,13 +31,18 @@ __all__ = [
     "Body",
     "Bonded",
     "Cone",
+    "Disc",
     "FlatPunch",
     "Frictionless",
     "HalfSpace",
     "Layer",
+    "MeasuredProfile",
     "PowerLawProfile",
     "Shape",
     "Sphere",
+    "WavySphere",
+    "detail",
+    "end",
     "equivalent_radius",
     "numbers",
 ]

@@ -1,7 +1,9 @@
 """Shapes: the gap between the rigid indenter and the flat body when they just touch.
 
 A shape of revolution answers :meth:`gap` and its derivative :meth:`flank`, and its twin in other
-units of length, :meth:`reduced`; `word` names it in files. A class with these names is a shape,
+units of length, :meth:`reduced`; `word` names it in files. One whose slope falls somewhere says
+over which length it changes (:func:`detail`), one that is not known everywhere to which radius it
+is (:func:`end`). A class with these names is a shape,
 wherever it was written; docs/own.md goes through one. What scales, limits and outputs it has
 follows from `symmetry`: "revolution", or "plane" for the flat punch in plane strain.
 """
@@ -34,7 +36,7 @@ class Shape(Protocol):
         ...
 
     def flank(self, position: npt.ArrayLike) -> Array:
-        """Return the slope of the gap at a distance from the axis [m]; it does not fall."""
+        """Return the slope of the gap at a distance from the axis [m]; see :func:`detail`."""
         ...
 
     def reduced(self, along: float, height: float) -> "Shape":
@@ -271,6 +273,19 @@ def equivalent_radius(shape: Shape, length: float) -> float:
             f"adhesion over modulus, {length:g} m"
         ) from None
     return beta / float(shape.flank(beta))
+
+
+def detail(shape: Any) -> float:
+    """Return the length over which the slope of a shape changes [m]; inf of one that never falls.
+
+    A shape with a detail may have waves, rings and hollows, and contacts with several edges.
+    """
+    return getattr(shape, "detail", float("inf"))
+
+
+def end(shape: Any) -> float:
+    """Return the radius to which a shape is known [m]; inf of a formula."""
+    return getattr(shape, "end", float("inf"))
 
 
 def numbers(noun: Any) -> Mapping[str, float]:

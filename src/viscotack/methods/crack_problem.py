@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from viscotack.errors import OutOfRange
-from viscotack.geometry import HalfSpace
+from viscotack.geometry import HalfSpace, detail
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import (
     Apart,
@@ -55,6 +55,12 @@ def groups_of(problem: Any) -> Groups:
         raise OutOfRange(
             "the theory of a contact with a crack for its edge is one of the half-space, got a "
             f"{groups.body.word}; `viscotack simulate` answers it"
+        )
+    if np.isfinite(detail(groups.geometry)):
+        raise OutOfRange(
+            "the theory of a contact with a crack for its edge is one of shapes that rise ever "
+            f"more steeply from the tip, and a {groups.geometry.word} does not; `viscotack "
+            "simulate` answers it"
         )
     return groups
 

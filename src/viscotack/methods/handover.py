@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace
+from viscotack.geometry import HalfSpace, detail
 from viscotack.problem import Groups, Problem
 from viscotack.problem.revolution import ELASTIC_TABOR, SIMULATED_TABOR
 from viscotack.result import Outcome, Result
@@ -16,8 +16,9 @@ from .crack_problem import start_of
 
 
 def knows(groups: Groups) -> bool:
-    """Return whether the theory knows shape and body: any shape of revolution on a half-space."""
-    return not groups.in_plane_strain and isinstance(groups.body, HalfSpace)
+    """Return whether the theory knows the problem: a contact with one edge on a half-space."""
+    one_edge = not groups.in_plane_strain and np.isinf(detail(groups.geometry))
+    return bool(one_edge and isinstance(groups.body, HalfSpace))
 
 
 def too_short(groups: Groups) -> bool:

@@ -100,6 +100,16 @@ class Simulate(Operation):
 
     Example: viscotack simulate profile examples/from_toml/cone.toml
     """,
+        "disc": """Pull a disc, the flat end of a cylinder, off a soft viscoelastic half-space.
+
+    By dimensionless numbers, R being a sqrt(a E0*/dg0) with the radius a of the disc, so that the
+    Tabor number is sqrt(a dg0/E0*)/h0; its edge is sharp. In SI by a file that has a table [disc]
+    in place of [sphere]: `radius`, and `edge_width` and `edge_height` of a rounded edge. Kendall's
+    pull-off force is 1.064 of the unit 1.5 pi R dg0.
+
+    Example: viscotack simulate disc --tabor 8 --modulus-ratio 0.1 --exponent 0.8 --preload 0
+    --rate 10
+    """,
         "case": """Simulate what a file states in SI, with whatever indenter.
 
     Shapes of your own have their table by their word, and --with says where they are.

@@ -10,8 +10,17 @@ from typing import Any
 
 from viscotack.cards import cards
 from viscotack.errors import InputError
+from viscotack.files.quantities import read_quantities
 from viscotack.files.toml import read_toml
-from viscotack.geometry import Bonded, Cone, Frictionless, HalfSpace, Layer, PowerLawProfile
+from viscotack.geometry import (
+    Bonded,
+    Cone,
+    Frictionless,
+    HalfSpace,
+    Layer,
+    MeasuredProfile,
+    PowerLawProfile,
+)
 from viscotack.materials import Material, Prony
 from viscotack.materials.checks import rests
 from viscotack.materials.passport import Passport
@@ -42,8 +51,8 @@ def read_case(
     ----------
     path : path
         File with the tables [material], [interface], [protocol] and one for the indenter: [sphere],
-        [cone], [profile], or [punch] and [layer]. Quantities are texts with units, such as
-        ``radius = "5.19 mm"``.
+        [cone], [profile], [wavy-sphere], or [punch] and [layer]. Quantities are texts with units,
+        such as ``radius = "5.19 mm"``.
     also : iterable of classes
         Laws, materials, shapes and bodies of the user's own that the file may name by their words.
     temperature : float, optional
@@ -161,9 +170,11 @@ def _shape_table(path: Path | str, tables: Mapping[str, Any], nouns: Nouns) -> s
 def _shape(table: Table, kind: Any) -> Any:
     """Return the indenter that a table states by the cards of its class.
 
-    A [profile] is a cone by its slope, or the exponent q and one point of z = A r^q, its height at
-    a radius, so that nobody has to type a coefficient in m^(1-q).
+    A [profile] is a measured one by its file, a cone by its slope, or the exponent q and one point
+    of z = A r^q, its height at a radius, so that nobody has to type a coefficient in m^(1-q).
     """
+    if "file" in table.values and kind in (PowerLawProfile, MeasuredProfile):
+        return _measured(table)
     if kind is not PowerLawProfile:
         return table.make(kind, **table.numbers(kind))
     if "slope" in table.values:
@@ -176,6 +187,13 @@ def _shape(table: Table, kind: Any) -> Any:
             f"{table.name} height and at_radius must be positive, got {height} m and {radius} m"
         )
     return table.make(PowerLawProfile, coefficient=height / radius**exponent, exponent=exponent)
+
+
+def _measured(table: Table) -> MeasuredProfile:
+    """Return the profile of a CSV file with the columns radius and height."""
+    columns = read_quantities(table.beside("file", '"tip.csv"'), {"radius": "m", "height": "m"})
+    points = tuple(zip(columns["radius"], columns["height"], strict=True))
+    return table.make(MeasuredProfile, points)
 
 
 def _body(table: Table, kind: Any, material: Material) -> Any:

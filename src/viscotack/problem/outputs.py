@@ -6,7 +6,7 @@ Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. One :class:`Kind` st
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from viscotack.errors import InputError
@@ -171,6 +171,23 @@ REVOLUTION = Kind(
         "1": _PURE,
     },
     energy=_WORK,
+)
+
+
+# Of a shape whose contact may have several edges.
+DETAILED = replace(
+    REVOLUTION,
+    series={
+        **REVOLUTION.series,
+        "inner_radius": Series("inner_radius", "inner radius", _RADIUS),
+        "rings": Series("rings", "rings", _PURE),
+    },
+    observables={
+        **REVOLUTION.observables,
+        "inner_radius_at_pull_off": Output("inner radius there", _RADIUS),
+        "rings_at_pull_off": Output("rings there", _PURE),
+        "most_rings": Output("most rings", _PURE),
+    },
 )
 
 

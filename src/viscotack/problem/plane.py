@@ -17,12 +17,11 @@ import numpy as np
 
 from viscotack.cards import Quantity
 from viscotack.errors import InputError
-from viscotack.problem.outputs import PLANE
+from viscotack.problem.outputs import PLANE, Kind
 from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import Apart, AtRadius, Start, Units
 from viscotack.protocol.words import PUNCH_UNITS
 
-OUTPUTS = PLANE
 # What a protocol's numbers are in, in SI and dimensionless: forces are mean stresses.
 SI = PUNCH_UNITS | {"stiffness": "Pa/m"}
 GROUPS = {
@@ -69,6 +68,11 @@ class PunchScales:
     work: float
     time: float
     crack_speed: float
+
+
+def outputs(shape: Any) -> Kind:
+    """Return what the numbers of an answer are called."""
+    return PLANE
 
 
 def fracture_length(problem: Any) -> float:

@@ -183,7 +183,7 @@ class Problem:
     @property
     def outputs(self) -> Kind:
         """What the numbers of its answer are called and given in."""
-        return self._kind.OUTPUTS
+        return self._kind.outputs(self.geometry)
 
     @property
     def units(self) -> Mapping[str, str]:
@@ -331,7 +331,7 @@ class Groups:
     @property
     def outputs(self) -> Kind:
         """What the numbers of its answer are called and given in."""
-        return self._kind.OUTPUTS
+        return self._kind.outputs(self.geometry)
 
     @property
     def units(self) -> Mapping[str, str]:

@@ -24,9 +24,9 @@ import numpy as np
 import scipy
 
 from viscotack.errors import InputError
-from viscotack.geometry import HalfSpace, Layer, Sphere, equivalent_radius
+from viscotack.geometry import Disc, HalfSpace, Layer, Sphere, detail, end, equivalent_radius
 from viscotack.materials import Material
-from viscotack.problem.outputs import REVOLUTION
+from viscotack.problem.outputs import DETAILED, REVOLUTION, Kind
 from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import AtDepth, AtForce, AtRadius, Start, Units, states
 from viscotack.protocol.words import SPHERE_UNITS
@@ -47,7 +47,8 @@ SIMULATED_TABOR = (1e-6, 200.0)
 ELASTIC_TABOR = 30.0
 # A profile that reaches the limit nowhere near: 10^15 m.
 _FAR = log(1e15)
-OUTPUTS = REVOLUTION
+# Radii per detail of a shape at which its slope is looked at, and the most of them.
+_LOOKS, _MOST_LOOKS = 16, 100_000
 # What a protocol's numbers are in, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
@@ -91,6 +92,11 @@ class Scales:
     stress: float
 
 
+def outputs(shape: Any) -> Kind:
+    """Return what the numbers of an answer are called; of a shape with details those of rings."""
+    return REVOLUTION if np.isinf(detail(shape)) else DETAILED
+
+
 def radius_of(problem: Any) -> float:
     """Return the radius R [m] of the sphere with the same Tabor number and scales."""
     adhesion = problem.traction.work_of_adhesion / problem.material.contact_modulus
@@ -122,11 +128,20 @@ def check_groups(groups: Any) -> None:
             f"a {groups.geometry.word} has a Tabor number and no cohesion: give tabor=3.24, say, "
             f"got tabor={groups.tabor} and cohesion={groups.cohesion}"
         )
-    slope = float(groups.geometry.flank(1.0))
+    shape = groups.geometry
+    if np.isfinite(detail(shape)):
+        radius = equivalent_radius(shape, 1.0)
+        if abs(radius - 1) > 1e-6:
+            raise InputError(
+                f"the {shape.word} of dimensionless groups must be reduced, of equivalent radius "
+                f"1, got {radius:g}; problem.groups().geometry is so"
+            )
+        return
+    slope = float(shape.flank(1.0))
     if abs(slope - 1) > 1e-6:
         raise InputError(
             "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
-            f"got {groups.geometry!r} of slope {slope:g}; problem.groups().geometry is so"
+            f"got {shape!r} of slope {slope:g}; problem.groups().geometry is so"
         )
 
 
@@ -192,7 +207,9 @@ def check(problem: Any) -> None:
         JKR has it; if that is so where the undeformed gap is h_0; or if a layer would be pressed to
         less than half its thickness.
     """
-    if isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
+    if isinstance(problem.geometry, Disc):
+        _check_disc(problem)
+    elif isinstance(problem.geometry, Sphere) and isinstance(problem.body, HalfSpace):
         _check_sphere(problem)
     else:
         _check_flank(problem)
@@ -218,9 +235,31 @@ def _check_sphere(problem: Any) -> None:
         )
 
 
+def _check_disc(problem: Any) -> None:
+    disc, most = problem.geometry, LARGEST_CONTACT * problem.geometry.radius
+    rim = float(disc.flank(disc.radius))
+    if rim > 2 * STEEPEST_FLANK:
+        raise InputError(
+            f"the rounded edge is too steep: its slope is {rim:.3g} at the rim, and it may be up "
+            f"to {2 * STEEPEST_FLANK:g}, that of a quarter of a circle; make it wider"
+        )
+    # a stiff contact of the radius of the disc: P = 2 E* a depth
+    stiffness = 2 * problem.material.contact_modulus * disc.radius
+    for state in states(problem.protocol):
+        if isinstance(state, AtRadius):
+            continue
+        is_depth = isinstance(state, AtDepth)
+        depth = state.depth if is_depth else state.force / stiffness
+        if depth > most:
+            raise InputError(
+                f"{state} lies beyond small strain: it presses the disc deeper than half its "
+                f"radius, {most:.3g} m"
+            )
+
+
 def _check_flank(problem: Any) -> None:
     shape, h0 = problem.geometry, problem.traction.equilibrium_gap
-    rim = _where(lambda r: float(shape.gap(r)), h0)
+    rim = _where_risen(shape, h0)
     flank = float(shape.flank(rim))
     if flank > STEEPEST_FLANK:
         raise InputError(
@@ -228,7 +267,7 @@ def _check_flank(problem: Any) -> None:
             f"is equilibrium_gap = {h0:.3g} m, and the theory holds to {STEEPEST_FLANK}"
         )
     # the largest contact there may be
-    a = _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    a = _where_steep(shape)
     limit = f"the slope of the flank at the edge of its contact would be over {STEEPEST_FLANK}"
     pressed = _pressed_through(problem)
     if pressed < a:
@@ -270,6 +309,31 @@ def _pressed_through(problem: Any) -> float:
     if excess(least) >= 0:
         return least
     return float(scipy.optimize.brentq(excess, least, most))  # type: ignore[arg-type]
+
+
+def _where_risen(shape: Any, gap: float) -> float:
+    """Return where a shape is steepest up to this gap [m], or where it has it if it never falls."""
+    if np.isinf(detail(shape)):
+        return _where(lambda r: float(shape.gap(r)), gap)
+    r = _radii(shape)
+    near = r[np.asarray(shape.gap(r)) <= gap]
+    return float(near[np.argmax(np.abs(shape.flank(near)))])
+
+
+def _where_steep(shape: Any) -> float:
+    """Return the largest radius [m] up to which the flank is not too steep, and the shape known."""
+    if np.isinf(detail(shape)):
+        return _where(lambda r: float(shape.flank(r)), STEEPEST_FLANK)
+    r = _radii(shape)
+    steep = np.flatnonzero(np.abs(shape.flank(r)) > STEEPEST_FLANK)
+    return float(r[steep[0]]) if steep.size else float(r[-1])
+
+
+def _radii(shape: Any) -> Any:
+    """Return radii [m] at which a shape with details is looked at."""
+    far = min(end(shape), equivalent_radius(shape, 1.0))
+    many = int(min(_LOOKS * far / detail(shape), _MOST_LOOKS))
+    return np.linspace(0.0, far, max(many, _LOOKS) + 1)
 
 
 def _where(function: Any, value: float) -> float:

@@ -50,6 +50,8 @@ _UNREADABLE = (
     zlib.error,
 )
 _SERIES = ("time", "depth", "force", "contact_radius", "edge_speed")
+# Series that not every result has, and the type of their numbers.
+_OPTIONAL = {"move": int, "inner_radius": float, "rings": int}
 
 
 class Outcome(StrEnum):
@@ -169,6 +171,11 @@ class Result:
     move : ndarray of int, or None
         Number of the move that led to each step, from 0; the retraction is one more than the last
         move. None in results of version 0.1.
+    inner_radius : ndarray, or None
+        Of a shape that may have several edges: the inner edge of the outermost part of the contact,
+        0 where that is a disc around the axis, nan without a contact. Else None.
+    rings : ndarray of int, or None
+        Of such a shape: how many parts the contact has, each a ring or a disc at the axis.
     shallow_start : ShallowStart or None
         Where the series begin if not at the start that was asked for, which was so deep that its
         depth does not matter.
@@ -195,6 +202,8 @@ class Result:
     energy_residual: float | None = None
     fields: Mapping[str, npt.NDArray[np.float64]] | None = None
     move: npt.NDArray[np.intp] | None = None
+    inner_radius: npt.NDArray[np.float64] | None = None
+    rings: npt.NDArray[np.intp] | None = None
     shallow_start: ShallowStart | None = None
     accuracy: float | None = None
     method: str = "simulation"
@@ -206,8 +215,9 @@ class Result:
         if self.fields is not None:
             arrays = {k: _frozen(v) for k, v in self.fields.items()}
             object.__setattr__(self, "fields", arrays)
-        if self.move is not None:
-            object.__setattr__(self, "move", _frozen(self.move, int))
+        for name, kind in _OPTIONAL.items():
+            if (values := getattr(self, name)) is not None:
+                object.__setattr__(self, name, _frozen(values, kind))
         object.__setattr__(self, "events", tuple(self.events))
         self._check()
 
@@ -216,7 +226,8 @@ class Result:
             raise InputError(
                 f"problem must be a Problem or Groups, got {type(self.problem).__name__}"
             )
-        lengths = {name: getattr(self, name).shape for name in _SERIES}
+        named = {name: getattr(self, name) for name in (*_SERIES, "inner_radius", "rings")}
+        lengths = {name: series.shape for name, series in named.items() if series is not None}
         if len(set(lengths.values())) != 1 or self.time.ndim != 1 or self.time.size == 0:
             raise InputError(
                 f"the series of a result must be equally long and not empty, got {lengths}"
@@ -345,7 +356,9 @@ def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
     if scales is None:
         return table
     return table | {
-        f"{n}_{o.unit.tail}": table[n] * getattr(scales, o.unit.scale) for n, o in outputs.items()
+        f"{n}_{o.unit.tail}": table[n] * getattr(scales, o.unit.scale)
+        for n, o in outputs.items()
+        if o.unit.scale
     }
 
 
@@ -385,8 +398,8 @@ def save(result: Result, path: Target) -> None:
         "fields": result.fields is not None,
     }
     arrays = {name: getattr(result, name) for name in _SERIES}
-    if result.move is not None:
-        arrays["move"] = result.move
+    more = {name: getattr(result, name) for name in _OPTIONAL}
+    arrays |= {name: series for name, series in more.items() if series is not None}
     if result.energy is not None:
         arrays |= {f"energy/{k}": v for k, v in vars(result.energy).items()}
     arrays |= {f"fields/{k}": v for k, v in (result.fields or {}).items()}
@@ -439,7 +452,9 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
 def _is_expected(name: str) -> bool:
     """Return whether a saved result may have an array of this name."""
     group, _, rest = name.partition("/")
-    return name in ("header", "move", *_SERIES) or (group in ("energy", "fields") and bool(rest))
+    return name in ("header", *_SERIES, *_OPTIONAL) or (
+        group in ("energy", "fields") and bool(rest)
+    )
 
 
 def _from_parts(
@@ -464,6 +479,8 @@ def _from_parts(
         energy_residual=header["energy_residual"],
         fields=group("fields"),
         move=arrays.get("move"),
+        inner_radius=arrays.get("inner_radius"),
+        rings=arrays.get("rings"),
         shallow_start=None if began is None else ShallowStart(**began),
         accuracy=header.get("accuracy"),
         method=header.get("method", "simulation"),

@@ -28,6 +28,7 @@ from .crack import (
 from .elastic import (
     adhesion_map,
     bradley,
+    disc,
     dmt,
     hertz,
     jkr,
@@ -35,6 +36,7 @@ from .elastic import (
     maugis,
     profiles,
     transition,
+    wavy,
 )
 from .sphere import bounds, detachment, rate, unloading
 
@@ -47,6 +49,7 @@ __all__ = [
     "crack",
     "crack_regimes",
     "detachment",
+    "disc",
     "dmt",
     "elastic",
     "empirical",
@@ -66,4 +69,5 @@ __all__ = [
     "tabulated_modulus",
     "transition",
     "unloading",
+    "wavy",
 ]

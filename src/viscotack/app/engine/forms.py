@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from viscotack.cards import Field, Pairs, Quantity, card_of, cards
-from viscotack.geometry import Bonded, Frictionless, Layer, PowerLawProfile
+from viscotack.geometry import Bonded, Frictionless, Layer, MeasuredProfile, PowerLawProfile
 from viscotack.problem import plane, revolution
 from viscotack.problem.accuracy import Accuracy
 from viscotack.problem.nouns import Nouns, known
@@ -63,13 +63,16 @@ def forms(also: Iterable[Any] = ()) -> dict[str, Any]:
     Examples
     --------
     >>> [choice["word"] for choice in forms()["shape"]]
-    ['sphere', 'cone', 'profile', 'punch']
+    ['sphere', 'cone', 'profile', 'wavy-sphere', 'punch']
     """
     nouns = known(also)
     return {
         "material": [_choice(word, kind) for word, kind in nouns.materials.items()],
         "interface": _laws(nouns),
-        "shape": [_shape(word, kind) for word, kind in nouns.shapes.items()],
+        # a table of heights is a file's, and cannot be typed
+        "shape": [
+            _shape(w, kind) for w, kind in nouns.shapes.items() if kind is not MeasuredProfile
+        ],
         "layer": {
             "fields": _fields(Layer),
             "bases": [

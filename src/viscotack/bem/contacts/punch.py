@@ -16,11 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.contacts.ended import EndedGrading
 from viscotack.bem.contacts.search import depth_where
 from viscotack.bem.equilibrium import descend
 from viscotack.bem.interface import interface
 from viscotack.bem.machine import Hold
-from viscotack.bem.mesh import Grading, check_count
+from viscotack.bem.mesh import Grading
 from viscotack.bem.settings import Settings
 from viscotack.bem.shut import check_open
 from viscotack.bem.surface import Surface, relaxed_stiffness
@@ -37,27 +38,6 @@ _INCOMPRESSIBLE, _SQUEEZED = 0.2, 1.5
 _COARSE = 33
 # A start by force is found to this part of the travel in depth.
 _DEPTH_TOLERANCE = 1e-8
-
-
-@dataclass(frozen=True)
-class _EndedGrading(Grading):
-    """A grading whose last node is at the end of the punch, and there once.
-
-    No distance is longer than the `coarsest` [a0].
-    """
-
-    coarsest: float = np.inf
-
-    def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
-        nodes = super().nodes(edge, first_edge)
-        inside = nodes < self.outer_radius - self.scar_spacing / 4
-        nodes = nodes[inside]
-        if self.outer_radius - nodes[-1] < 0.5 * (nodes[-1] - nodes[-2]):
-            nodes = nodes[:-1]  # a short panel after long ones would not be resolved
-        nodes = np.append(nodes, self.outer_radius)
-        parts = np.ceil(np.diff(nodes) / self.coarsest - 1e-9).clip(min=1)
-        check_count(float(parts.sum()))
-        return np.interp(np.arange(parts.sum() + 1), np.append(0, np.cumsum(parts)), nodes)
 
 
 @dataclass(frozen=True)
@@ -127,7 +107,7 @@ class PunchContact:
         scar = min(crack.scar_half_width, self.size)  # none of it lies beyond the middle
         finest = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
         finest |= {"scar_half_width": scar}
-        return _EndedGrading(**finest, coarsest=coarsest)
+        return EndedGrading(**finest, coarsest=coarsest)
 
     def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
         """Return the relaxed state of a dimensionless start, the whole punch in contact.

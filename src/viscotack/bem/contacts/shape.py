@@ -1,26 +1,49 @@
 """Any shape of revolution on any body, its JKR contact by numbers.
 
 The reduced profile f has the slope 1 at 1, and its rigid gap is 1 + mu f(r).
+
+Of a shape whose slope falls somewhere (waves, rings, a hollow) depth and force have several radii;
+a relaxed contact is looked for at the largest, as if all had been pressed together within it. What
+opens inside is for the balance to find. Its nodes are no coarser than the shape asks for: a panel
+bends away from its chord, linear in r^2 as the pressure is, by :math:`h^2 |f'' - f'/r| / 8`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
+from scipy.ndimage import maximum_filter1d
 from scipy.optimize import brentq, minimize_scalar
 
+from viscotack.bem.contacts.contact import Relaxed
 from viscotack.bem.contacts.revolution import RevolutionContact
+from viscotack.bem.mesh import Grading, check_count, finer
+from viscotack.bem.settings import Settings
 from viscotack.errors import InputError
-from viscotack.geometry import Layer, Shape
+from viscotack.geometry import Layer, Shape, detail, end
+from viscotack.protocol import Apart, Start
 from viscotack.theory.elastic import indenter, on_layer
 
 # Radii [beta] between which contacts are looked for.
 _LEAST, _MOST = 1e-6, 1e9
+# Of a shape with details: so many radii are looked at per detail, and so many in all.
+_LOOKS, _MOST_LOOKS = 8, 4000
+# As far as this [beta, and details] at first: a contact of radius beta balances adhesion.
+_FAR = 8.0
+# A chord may miss such a shape by this part of the range of the law; the nodes are no more than so
+# many per detail, and are chosen from a grid so fine.
+_CHORD, _PER_DETAIL, _GRID = 0.01, 12, 16
+_UNBOUND = (
+    "the indenter does not rise to {:g} h0 within {:g} lengths beta; a shape rises without bound"
+)
+# Where the gap is wider than by so many ranges of the law, each panel may be wider than the one
+# before by this part.
+_NEAR, _WIDER = 3.0, 0.2
 
 
 @dataclass(frozen=True)
@@ -40,27 +63,26 @@ class ShapeContact(RevolutionContact):
         return self.tabor * self.shape.gap(radius)
 
     def radius_of_rise(self, rise: float) -> float:
-        """Return the radius [beta] at which the indenter has risen by this much [h0]."""
-        return inverse(lambda r: float(self.rise(r)), rise, _LEAST)
+        """Return the largest radius [beta] at which the indenter has risen by this much [h0]."""
+        return self._where_last(self.rise, rise, _LEAST)
 
     def bare_radius(self, depth: float) -> float:
         """Return the contact radius [beta] at a depth [h0] without adhesion."""
         if depth <= 0:
             return 0.0
-        of = {"shape": self.shape, "body": self.body}
-        return inverse(lambda a: self.tabor * float(indenter.bare_depth(a, **of)), depth, _LEAST)
+        return self._where_last(self._bare_depth, depth, _LEAST)
 
-    def jkr_depth(self, radius: float) -> float:
+    def jkr_depth(self, radius: Any) -> Any:
         """Return the JKR depth [h0] at a contact radius [beta]."""
-        return self.tabor * float(indenter.depth(radius, **self._jkr))
+        return self.tabor * indenter.depth(radius, **self._jkr)
 
     def jkr_radius(self, depth: float) -> float:
         """Return the JKR contact radius [beta] at a depth [h0]; past its end the last there was."""
-        return inverse(self.jkr_depth, depth, self._last_by_depth)
+        return self._where_last(self.jkr_depth, depth, self._last_by_depth)
 
     def jkr_radius_at_force(self, force: float) -> float:
         """Return the JKR contact radius [beta] at a force [R dg]; past its end the last."""
-        return inverse(self._jkr_force, force, self._last_by_force)
+        return self._where_last(self._jkr_force, force, self._last_by_force)
 
     def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
         """Return the JKR gap [h0] around a contact of this radius [beta]."""
@@ -86,16 +108,131 @@ class ShapeContact(RevolutionContact):
         flank = float(self.shape.flank(radius))
         return radius / flank, radius * flank / float(self.shape.gap(radius))
 
-    def _jkr_force(self, radius: float) -> float:
-        return float(indenter.force(radius, **self._jkr))
+    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
+        """Return the relaxed state of a start, within the radius to which the shape is known."""
+        found = super().relaxed(start, settings)
+        if found.edge > end(self.shape):
+            raise InputError(
+                f"the relaxed contact of {start} would be larger than the profile is known, "
+                f"{end(self.shape):.4g} lengths beta; press less, or give rows farther out"
+            )
+        return found
+
+    def grading(self, settings: Settings, depth: float) -> Grading:
+        """Return the grading of the nodes, of a shape with details no coarser than they are."""
+        grading = super().grading(settings, depth)
+        if np.isinf(detail(self.shape)):
+            return grading
+        highest = max(depth, self.rise(self.jkr_radius(depth)), 0.0) + _NEAR * self.span
+        near = min(self.radius_of_rise(highest), grading.outer_radius)
+        return DetailedGrading(**asdict(grading), own=self._own_nodes(near, grading.outer_radius))
+
+    def _own_nodes(self, near: float, outer: float) -> npt.NDArray:
+        """Return nodes [beta] whose chords follow the shape, near as it may come to the body.
+
+        Their distances grow from there outwards.
+        """
+        length = detail(self.shape)
+        check_count(near / length)
+        r = np.linspace(0.0, near, max(int(np.ceil(_GRID * near / length)), 64) + 1)
+        ratio = np.asarray(self.shape.flank(r[1:])) / r[1:]
+        bent = r[1:-1] * np.abs(np.diff(ratio)) / np.diff(r[1:])
+        bent = maximum_filter1d(np.pad(bent, (1, 1), mode="edge"), _GRID + 1)
+        allowed = 8 * _CHORD * self.span / (self.tabor * np.maximum(bent, 1e-300))
+        many = np.minimum(1 / np.sqrt(allowed), _PER_DETAIL / length)
+        count = np.concatenate([[0.0], np.cumsum((many[1:] + many[:-1]) / 2 * np.diff(r))])
+        check_count(count[-1])
+        count *= max(1.0, 2 / count[-1])  # two panels at least
+        own = np.interp(np.arange(int(count[-1]) + 1), count, r)
+        step = float(own[-1] - own[-2])
+        longer = int(np.ceil(np.log1p(_WIDER * 2 * outer / step) / np.log1p(_WIDER)))
+        return np.append(own, own[-1] + step * np.cumsum((1 + _WIDER) ** np.arange(1, longer + 1)))
+
+    def _where_last(self, function: Any, value: float, low: float) -> float:
+        """Return the largest radius at which a function that grows in the end has this value."""
+        if np.isinf(detail(self.shape)):
+            return inverse(lambda a: float(function(a)), value, low)
+        far = self._far
+        while True:
+            radii, found = self._seen(function, far)
+            below = np.flatnonzero(found < value)
+            if not below.size:
+                return low
+            last = int(below[-1])
+            if 2 * radii[last] < far:
+                break
+            if far > _MOST:
+                raise InputError(_UNBOUND.format(value, _MOST))
+            far *= 2
+        ends = float(radii[last]), float(radii[last + 1])
+        return float(brentq(lambda a: float(function(a)) - value, *ends, xtol=1e-14 * ends[1]))  # type: ignore[arg-type]
+
+    @property
+    def _far(self) -> float:
+        """The radius [beta] up to which the branches of a shape with details are looked at first.
+
+        Where a profile is known, all of them are within.
+        """
+        known = end(self.shape)
+        return known if np.isfinite(known) else max(_FAR, _FAR * detail(self.shape))
+
+    def _looks(self, far: float) -> npt.NDArray:
+        """Return radii [beta] at which a shape with details is looked at."""
+        many = int(min(_LOOKS * far / detail(self.shape), _MOST_LOOKS))
+        even = np.linspace(0.0, far, max(many, _LOOKS) + 1)[1:]
+        return np.unique(np.concatenate([np.geomspace(_LEAST, far, 100), even]))
+
+    def _bare_depth(self, radius: Any) -> Any:
+        return self.tabor * indenter.bare_depth(radius, shape=self.shape, body=self.body)
+
+    def _jkr_force(self, radius: Any) -> Any:
+        return indenter.force(radius, **self._jkr)
 
     @cached_property
     def _last_by_depth(self) -> float:
-        return _lowest(self.jkr_depth)
+        return self._lowest(self.jkr_depth)
 
     @cached_property
     def _last_by_force(self) -> float:
-        return _lowest(self._jkr_force)
+        return self._lowest(self._jkr_force)
+
+    def _lowest(self, function: Any) -> float:
+        """Return the radius [beta] at which a function is least, of all its minima."""
+        if np.isinf(detail(self.shape)):
+            return _lowest(function)
+        radii, found = self._seen(function, self._far)
+        return float(radii[np.argmin(found)])
+
+    def _seen(self, function: Any, far: float) -> tuple[npt.NDArray, npt.NDArray]:
+        """Return radii [beta] and what a function is there, which is asked for once."""
+        key = function.__name__, far
+        if key not in self._kept:
+            radii = self._looks(far)
+            self._kept[key] = radii, np.asarray(function(radii))
+        return self._kept[key]
+
+    @cached_property
+    def _kept(self) -> dict[tuple[str, float], tuple[npt.NDArray, npt.NDArray]]:
+        return {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class DetailedGrading(Grading):
+    """A grading whose nodes are nowhere coarser than those of the shape.
+
+    Attributes
+    ----------
+    own : ndarray
+        The nodes of the shape; they stay where they are, so that nothing is interpolated there.
+    """
+
+    rings: ClassVar[bool] = True
+
+    own: npt.NDArray
+
+    def nodes(self, edge: float, first_edge: float) -> npt.NDArray:
+        """Return the nodes, from 0 outwards, for an edge and the first edge of the run."""
+        return finer(super().nodes(edge, first_edge), self.own)
 
 
 def _lowest(function: Callable[[float], float]) -> float:
@@ -115,8 +252,5 @@ def inverse(function: Callable[[float], float], value: float, low: float) -> flo
     while function(high) < value:
         high *= 2
         if high > _MOST:
-            raise InputError(
-                f"the indenter does not rise to {value:g} h0 within {_MOST:g} lengths beta; "
-                "a shape rises without bound"
-            )
+            raise InputError(_UNBOUND.format(value, _MOST))
     return float(brentq(lambda a: function(a) - value, low, high, xtol=1e-14 * high))  # type: ignore[arg-type]

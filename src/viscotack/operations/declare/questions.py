@@ -11,7 +11,7 @@ from typing import Any
 
 from viscotack.cards import Quantity, card_of, cards
 from viscotack.errors import InputError
-from viscotack.geometry import Bonded, FlatPunch, Frictionless, Layer, PowerLawProfile, Sphere
+from viscotack.geometry import Bonded, Disc, FlatPunch, Frictionless, Layer, PowerLawProfile, Sphere
 from viscotack.materials import (
     Elastic,
     Material,
@@ -219,6 +219,7 @@ PROFILE = Door(
     "power-law",
     more=_LAYER,
 )
+DISC = Door("disc", _TABOR, revolution.GROUPS, ("preload", "preload-force", "apart"), "power-law")
 PUNCH = Door("punch", _PUNCH, plane.GROUPS, ("preload", "preload-force", "apart"), "sls")
 # Of either: what a sphere is asked, and what a punch alone.
 _OF_SPHERE = {question.name for question in SPHERE.questions}
@@ -277,6 +278,8 @@ def stated(door: Door, answers: Mapping[str, Any], also: Iterable[Any] = ()) -> 
     if door is PROFILE:
         q = numbers.pop("profile_exponent")
         parts["geometry"] = PowerLawProfile(1 / q, q)
+    if door is DISC:
+        parts["geometry"] = Disc(1.0)
     if "thickness" in given:
         parts["body"] = _layer(given)
     elif "bonded" in given:

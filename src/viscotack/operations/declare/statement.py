@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .questions import Door, Question
 
 # Words of what can be stated by numbers.
-INDENTERS = ("sphere", "punch", "profile")
+INDENTERS = ("sphere", "punch", "profile", "disc")
 # Keys of a statement by numbers, and of one by a file.
 _INDENTER, _CASE, _TEMPERATURE = "indenter", "case", "temperature"
 # Answers that may name a file.
@@ -188,16 +188,17 @@ class Stated(Card):
 
 def door_of(word: str) -> "Door":
     """Return the indenter of a word, as it is stated by numbers."""
-    from .questions import PROFILE, PUNCH, SPHERE
+    from .questions import DISC, PROFILE, PUNCH, SPHERE
 
-    return {door.word: door for door in (SPHERE, PUNCH, PROFILE)}[word]
+    return {door.word: door for door in (SPHERE, PUNCH, PROFILE, DISC)}[word]
 
 
 def indenter_of(problem: Any) -> str:
     """Return the word of the indenter of a problem in SI, as commands have it."""
-    from viscotack.geometry import Cone
+    from viscotack.geometry import Cone, MeasuredProfile
 
-    return "profile" if isinstance(problem.geometry, Cone) else problem.geometry.word
+    is_profile = isinstance(problem.geometry, Cone | MeasuredProfile)
+    return "profile" if is_profile else problem.geometry.word
 
 
 def _checked(problem: Any) -> Any:

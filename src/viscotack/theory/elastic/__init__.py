@@ -3,6 +3,7 @@
 from . import (
     adhesion_map,
     bradley,
+    disc,
     dmt,
     hertz,
     indenter,
@@ -12,11 +13,13 @@ from . import (
     profiles,
     relaxed,
     transition,
+    wavy,
 )
 
 __all__ = [
     "adhesion_map",
     "bradley",
+    "disc",
     "dmt",
     "hertz",
     "indenter",
@@ -26,4 +29,5 @@ __all__ = [
     "profiles",
     "relaxed",
     "transition",
+    "wavy",
 ]

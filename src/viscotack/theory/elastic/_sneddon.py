@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
+from viscotack.geometry import detail
 from viscotack.theory._checks import Values
 
 # Exact to round-off for smooth profiles.
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
-ANGLE, WEIGHT = np.pi / 4 * (_NODES + 1), np.pi / 4 * _WEIGHTS
+# One such panel is for so many details of a profile; beyond so many panels there are no more.
+_DETAILS, _MOST_PANELS = 1.0, 64
+# Slopes that are looked up at once.
+_AT_ONCE = 1_000_000
 
 
 class Flank(Protocol):
@@ -22,11 +27,31 @@ class Flank(Protocol):
     def flank(self, position: Values) -> Array: ...  # noqa: D102
 
 
-def mean_slope(shape: Flank, a: npt.NDArray, weight: Array) -> npt.NDArray:
-    """Return the integral of the slope over the angle, with a weight."""
-    return (np.asarray(shape.flank(np.multiply.outer(a, np.sin(ANGLE)))) * weight) @ WEIGHT
+def mean_slope(shape: Flank, a: npt.NDArray, power: int) -> npt.NDArray:
+    """Return the integral of the slope over the angle, with a power of its sine."""
+    angle, weight = angles(shape, float(np.max(a, initial=0.0)))
+    sine = np.sin(angle)
+    weight = weight * sine**power
+    radii = np.ravel(a)
+    parts = np.array_split(radii, -(-radii.size * sine.size // _AT_ONCE) or 1)
+    means = [np.asarray(shape.flank(np.multiply.outer(part, sine))) @ weight for part in parts]
+    return np.reshape(np.concatenate(means), np.shape(a))
 
 
 def half_space_depth(a: npt.NDArray, shape: Flank) -> npt.NDArray:
     """Return the depth [m] of a contact of this radius [m] on a half-space without adhesion."""
-    return a * mean_slope(shape, a, np.ones_like(ANGLE))
+    return a * mean_slope(shape, a, 0)
+
+
+def angles(shape: Flank, radius: float) -> tuple[Array, Array]:
+    """Return angles and weights for a contact of this radius at most."""
+    panels = np.ceil(radius / (_DETAILS * detail(shape)))
+    return _rule(int(np.clip(panels, 1, _MOST_PANELS)))
+
+
+@lru_cache(maxsize=_MOST_PANELS)
+def _rule(panels: int) -> tuple[Array, Array]:
+    """Return the nodes and the weights of so many panels from 0 to pi/2."""
+    width = np.pi / 2 / panels
+    angle = width * (np.arange(panels)[:, None] + (_NODES + 1) / 2)
+    return np.ravel(angle), np.tile(width / 2 * _WEIGHTS, panels)

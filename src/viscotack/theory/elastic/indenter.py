@@ -10,7 +10,10 @@ PhD thesis (2025), depth and force fall by :math:`\sqrt{2 \pi a \Delta\gamma_0/E
 :math:`\sqrt{8 \pi a^3 \Delta\gamma_0 E^*}`. For power laws :mod:`.profiles` has closed forms. On a
 layer they follow from an integral equation (:mod:`.on_layer`), on another body from its influence
 matrix (:mod:`.on_body`).
-Range: short-range adhesion, small slopes, a slope that does not fall outwards.
+Range: short-range adhesion, small slopes, and a contact without holes. Where the slope falls
+outwards (:func:`viscotack.geometry.detail`) depth and force are those of a contact that was pressed
+together to its edge; they may have several branches, and several minima
+(:mod:`viscotack.theory.elastic.wavy`).
 """
 
 from __future__ import annotations
@@ -24,7 +27,7 @@ from viscotack.geometry import Body, HalfSpace, Layer
 from viscotack.theory._checks import Number, Values, plain, positive
 from viscotack.theory.elastic import on_body, on_layer
 
-from ._sneddon import ANGLE, WEIGHT, Flank, half_space_depth, mean_slope
+from ._sneddon import Flank, angles, half_space_depth, mean_slope
 
 _HALF_SPACE = HalfSpace()
 
@@ -92,7 +95,7 @@ def force(
     a, E = positive(contact_radius=contact_radius), contact_modulus
     if body != _HALF_SPACE:
         return plain(E * _on(body).force(a, shape, body, work_of_adhesion / E))
-    bare = 2 * E * a**2 * mean_slope(shape, a, np.sin(ANGLE) ** 2)
+    bare = 2 * E * a**2 * mean_slope(shape, a, 2)
     return plain(bare - np.sqrt(8 * np.pi * a**3 * work_of_adhesion * E))
 
 
@@ -118,8 +121,9 @@ def gap(
         around = _on(body).gap(np.ravel(r), a, deep, shape, body)
         return np.maximum(np.reshape(around, np.shape(r)), 0.0)
     # t = a sin(angle) takes the root off the edge of the contact where r is near it
-    t = a * np.sin(ANGLE)
-    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(ANGLE) * WEIGHT
+    angle, weight = angles(shape, a)
+    t = a * np.sin(angle)
+    hollow = np.asarray(bare_depth(t, shape=shape)) * a * np.cos(angle) * weight
     lifted = deep * np.arcsin(a / r) - (hollow / np.sqrt(r[..., None] ** 2 - t**2)).sum(axis=-1)
     return np.maximum(shape.gap(r) - deep + 2 / np.pi * lifted, 0.0)
 

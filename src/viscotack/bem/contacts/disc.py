@@ -1,0 +1,88 @@
+"""A disc on a body: nodes end where it ends, and the whole of it is in contact at rest.
+
+Lengths along the surface are in its radius. Under a sharp edge the contact is as large as the disc
+until a crack runs in from there, all at once: by JKR it has no other place of rest (Kendall).
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from viscotack.bem.contacts.contact import Relaxed
+from viscotack.bem.contacts.ended import EndedGrading
+from viscotack.bem.contacts.shape import ShapeContact
+from viscotack.bem.mesh import Grading
+from viscotack.bem.settings import Settings
+from viscotack.bem.surface import Surface
+from viscotack.errors import InputError
+from viscotack.geometry import Disc
+from viscotack.protocol import Apart, AtForce, AtRadius, Start
+
+# A depth [h0] that no test of a disc reaches.
+_DEEPEST = 1e7
+
+
+@dataclass(frozen=True)
+class DiscContact(ShapeContact):
+    """A reduced disc; see :class:`viscotack.bem.contacts.contact.Contact`."""
+
+    shape: Disc
+
+    def radius_of_rise(self, rise: float) -> float:
+        """Return the radius [beta] of the disc: it rises no farther."""
+        return self.shape.radius
+
+    def bare_radius(self, depth: float) -> float:
+        """Return the contact radius [beta] at a depth [h0] without adhesion."""
+        if self.shape.is_sharp:
+            return self.shape.radius if depth > 0 else 0.0
+        return min(super().bare_radius(depth), self.shape.radius)
+
+    def jkr_radius(self, depth: float) -> float:
+        """Return the JKR contact radius [beta] at a depth [h0], at most that of the disc."""
+        radius = self.shape.radius
+        return radius if self.shape.is_sharp else min(super().jkr_radius(depth), radius)
+
+    def jkr_gap(self, nodes: npt.NDArray, radius: float) -> npt.NDArray:
+        """Return the JKR gap [h0] around a contact of this radius [beta]."""
+        if radius >= self.shape.radius:
+            return np.zeros_like(nodes)
+        return super().jkr_gap(nodes, radius)
+
+    def deepest(self, start: Start) -> float:
+        """Return the depth [h0] of a start: by force that of the whole disc, P = 2 E* a depth."""
+        if isinstance(start, AtForce):
+            return self.tabor * 1.5 * np.pi * start.force / (2 * self.shape.radius)
+        return _DEEPEST if isinstance(start, AtRadius) else super().deepest(start)
+
+    def relaxed(self, start: Start | Apart, settings: Settings) -> Relaxed:
+        """Return the relaxed state of a start; a sharp edge has no contact radius to state."""
+        if isinstance(start, AtRadius) and self.shape.is_sharp:
+            raise InputError(
+                "a disc with a sharp edge is in contact as a whole: start it at a depth or a force"
+            )
+        return super().relaxed(start, settings)
+
+    def flank_power(self, radius: float) -> tuple[float, float]:
+        """Return 0, for nothing is beyond the disc, and any exponent."""
+        return 0.0, 2.0
+
+    def surface(self, nodes: npt.NDArray) -> Surface:
+        """Return the body with these nodes [beta], the last at the end of the disc."""
+        return replace(super().surface(nodes), whole=self.shape.radius)
+
+    def grading(self, settings: Settings, depth: float) -> Grading:
+        """Return the grading of the nodes, which end with the disc."""
+        size = self.shape.radius
+        crack = settings.grading(self.zone, self.law, size)
+        spacing = min(crack.spacing, size / 8)
+        scar = min(crack.scar_half_width, size)
+        finest: dict[str, Any] = asdict(crack) | {"spacing": spacing, "scar_spacing": spacing}
+        return EndedGrading(**finest | {"scar_half_width": scar})
+
+    def _jkr_depth(self, start: AtForce) -> float:
+        return self.deepest(start)

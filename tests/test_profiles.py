@@ -1,0 +1,415 @@
+"""Profiles of any form: tables of heights, waves, worn tips, cups; several edges."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.special import struve
+
+import viscotack as vt
+from doors import Http, Question, by_command, by_form, by_http, by_python, by_study, run
+from viscotack.bem import jumps
+from viscotack.bem.contacts.shape import ShapeContact
+from viscotack.bem.mesh import Mesh
+from viscotack.bem.settings import Settings
+from viscotack.bem.solver import contact_of
+from viscotack.campaign import read_plan
+from viscotack.check.tiers import problems
+from viscotack.files.toml import read_toml, toml_value
+from viscotack.forecast.simulation import SIMULATION
+from viscotack.forecast.tiers import TIERS
+from viscotack.problem.schema import schema
+from viscotack.result import observables
+from viscotack.theory import jkr
+from viscotack.theory.elastic import indenter
+from viscotack.traction import LennardJones
+
+ELASTIC = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
+RELAXING = vt.StandardSolid(rubbery_modulus=1.0, glassy_modulus=10.0, tau0=1.0, poisson_ratio=0.0)
+CHEAP = [tier for tier in TIERS if tier.name != SIMULATION]
+RADII = np.linspace(0.0, 6.0, 241)
+WAVY = vt.WavySphere(1.0, 0.06, 0.5)
+SOLID: Any = {"contact_modulus": 1.0, "work_of_adhesion": 1.0}
+
+
+def reduced(height):
+    """Return the dimensionless profile of a formula, of equivalent radius 1."""
+    shape = vt.MeasuredProfile.sampled(height, RADII)
+    return shape.reduced(1.0, 1 / shape.equivalent_radius(1.0))
+
+
+def worn(r):
+    return max(r * r - 0.49, 0.0) / 2
+
+
+def cup(r):
+    return r * r / 2 + 1.5 * np.exp(-r * r)
+
+
+# --- the shape ------------------------------------------------------------------------------------
+
+
+def test_a_paraboloid_by_its_heights_is_one_everywhere():
+    shape = vt.MeasuredProfile.sampled(lambda r: r * r / 2 + 3, [0.0, 0.1, 0.5, 0.6, 2.0])
+    r = np.linspace(0, 5, 77)
+    assert shape.gap(r) == pytest.approx(r * r / 2, abs=1e-12)
+    assert shape.flank(r) == pytest.approx(r, rel=1e-12)
+    assert shape.equivalent_radius(1e-9) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_heights_count_from_the_lowest():
+    shape = vt.MeasuredProfile.sampled(lambda r: (r - 1) ** 2, RADII)
+    assert shape.gap(1.0) == 0 and shape.gap(0.0) == pytest.approx(1.0)
+    assert shape == vt.from_dict(vt.to_dict(shape))
+
+
+def test_a_profile_goes_on_smoothly_behind_its_last_row():
+    shape, end = reduced(worn), RADII[-1]
+    for of in (shape.gap, shape.flank):
+        assert of(end * (1 + 1e-9)) == pytest.approx(of(end), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("points", "words"),
+    [
+        ([(0, 0), (1, 1)], "3 to 10,000 rows"),
+        ([(0.1, 0), (1, 1), (2, 4)], "ascend from 0"),
+        ([(0, 0), (1, 1), (1, 4)], "ascend from 0"),
+        ([(0, 0), (1, np.nan), (2, 4)], "finite"),
+        ([(0, 1), (1, 4), (2, 0)], "rise at the last row"),
+        ([(0, 9), (1, 4), (2, 1), (3, 0), (4, 1)], "rise outwards as a whole"),
+        ([(0, 0), (1, 2, 3), (2, 4)], "pairs of numbers"),
+    ],
+)
+def test_rows_that_are_no_profile_are_refused(points, words):
+    with pytest.raises(vt.InputError, match=words):
+        vt.MeasuredProfile(tuple(points))
+
+
+def test_depth_under_waves_is_that_of_struve():
+    # int_0^(pi/2) sin(k a sin t) dt = pi/2 H_0(k a)
+    a, k = np.array([0.3, 1.0, 5.0, 20.0]), 2 * np.pi / WAVY.wavelength
+    exact = a * a + WAVY.amplitude * k * a * np.pi / 2 * struve(0, k * a)
+    assert indenter.bare_depth(a, shape=WAVY) == pytest.approx(exact, rel=1e-12)
+
+
+# --- the contact ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("solid", "rate"), [(ELASTIC, 1.0), (RELAXING, 3.0)])
+def test_a_sphere_by_its_heights_pulls_as_the_sphere_does(solid, rate):
+    groups = vt.Groups(tabor=2.0, material=solid, start=vt.AtDepth(6.0), rate=rate)
+    sphere = vt.solve(groups, until="pull-off", accuracy=1e-2)
+    table = vt.solve(replace(groups, geometry=reduced(lambda r: r * r / 2)), accuracy=1e-2)
+    assert table.error_estimate is not None
+    error = table.error_estimate["force"]
+    assert table.pull_off_force == pytest.approx(sphere.pull_off_force, rel=error)
+    assert table.pull_off_force == pytest.approx(sphere.pull_off_force, rel=1e-3)
+
+
+def test_a_start_has_the_largest_of_several_radii():
+    contact = ShapeContact(4.0, LennardJones(1.0, 1.0), WAVY)
+    a = np.linspace(0.05, 4.0, 40_000)
+    depth = 4.0 * np.asarray(indenter.depth(a, shape=WAVY, **SOLID))
+    for wanted in (-4.0, 0.0, 5.0):
+        found = contact.jkr_radius(wanted)
+        assert found == pytest.approx(a[depth < wanted][-1], abs=2e-4)
+    force = np.asarray(indenter.force(a, shape=WAVY, **SOLID))
+    least = contact.jkr_radius_at_force(-1e9)
+    assert indenter.force(least, shape=WAVY, **SOLID) == pytest.approx(force.min(), rel=1e-3)
+
+
+def test_nodes_follow_the_waves():
+    contact = ShapeContact(4.0, LennardJones(1.0, 1.0), WAVY)
+    nodes = contact.grading(Settings.for_accuracy(1e-2), 12.0).nodes(2.0, 2.0)
+    assert np.diff(nodes[nodes < 2.3]).max() < WAVY.wavelength / 9
+    smooth = ShapeContact(4.0, LennardJones(1.0, 1.0), replace(WAVY, amplitude=1e-6))
+    assert len(smooth.grading(Settings.for_accuracy(1e-2), 12.0).nodes(2.0, 2.0)) < len(nodes) - 10
+
+
+@pytest.mark.parametrize("height", [worn, cup, WAVY.gap], ids=["worn", "cup", "waves"])
+def test_energies_of_any_profile_are_accounted_for(height):
+    shape = reduced(height)
+    groups = vt.Groups(tabor=2.0, material=ELASTIC, start=vt.AtDepth(6.0), rate=1.0, geometry=shape)
+    result = vt.solve(groups, accuracy=1e-2)
+    assert result.energy_residual is not None and result.energy_residual < 1e-3
+    a = np.linspace(0.05, 5, 2000)
+    most = -np.min(indenter.force(a, shape=shape, **SOLID)) / (1.5 * np.pi)
+    assert result.pull_off_force == pytest.approx(most, rel=0.06)
+
+
+def test_a_contact_beyond_the_last_row_is_refused():
+    short = vt.MeasuredProfile.sampled(lambda r: r * r / 2, np.linspace(0, 1.5, 31))
+    groups = vt.Groups(
+        tabor=2.0, material=ELASTIC, start=vt.AtDepth(12.0), rate=1.0, geometry=short
+    )
+    with pytest.raises(vt.InputError, match="than the profile is known"):
+        vt.solve(groups)
+    apart = replace(
+        groups, start=vt.Apart(5.0), moves=(vt.Approach(1.0, vt.AtDepth(8.0)),), rate=None
+    )
+    with pytest.raises(vt.SimulationError, match="profile is known to"):
+        vt.solve(apart, accuracy=1e-2)
+
+
+@pytest.mark.parametrize("shape", [WAVY, reduced(worn)], ids=lambda shape: shape.word)
+def test_theories_of_one_edge_refuse_in_words(shape):
+    groups = vt.Groups(
+        tabor=3.0, material=RELAXING, start=vt.AtDepth(20.0), rate=3.0, geometry=shape
+    )
+    with pytest.raises(vt.InputError, match="rise ever more steeply"):
+        vt.crack_contact(groups)
+    with pytest.raises(vt.InputError, match="Tabor number"):
+        vt.solve(replace(groups, tabor=300.0))
+    with pytest.raises(vt.InputError, match="shape is"):
+        vt.predict(groups)
+
+
+@pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
+@pytest.mark.parametrize("shape", [WAVY, reduced(worn), vt.Disc(1.0)], ids=lambda x: x.word)
+def test_no_cheap_tier_answers_for_a_shape_that_it_was_not_shown(tier, shape):
+    case = next(case for case in problems() if tier.covers(case) == "")
+    # punches have a cohesion, and a layer under them
+    others = {"tabor": 3.0, "cohesion": None, "body": vt.HalfSpace(), "start": vt.AtDepth(5.0)}
+    stranger = replace(case, geometry=shape, **(others if case.in_plane_strain else {}))
+    assert f"the shape is {type(shape).__name__}" in tier.covers(stranger)
+    with pytest.raises(vt.OutOfRange, match="the shape is"):
+        tier.answer(stranger)
+
+
+# --- the ways in ----------------------------------------------------------------------------------
+
+CASE = """
+[material]
+model = "elastic"
+rubbery_modulus = "1 MPa"
+poisson_ratio = 0.5
+
+[interface]
+law = "lennard-jones"
+work_of_adhesion = "50 mJ/m^2"
+equilibrium_gap = "1 um"
+
+[{table}]
+{keys}
+
+[protocol]
+preload_depth = "2 um"
+speed = "10 um/s"
+"""
+
+
+@pytest.mark.parametrize("table", ["profile", "measured-profile"])
+def test_a_case_file_names_the_table(tmp_path, table):
+    (tmp_path / "tip.csv").write_text("radius_um,height_nm\n0,5\n50,505\n100,2005\n400,32005\n")
+    path = tmp_path / "case.toml"
+    path.write_text(CASE.format(table=table, keys='file = "tip.csv"'))
+    shape = vt.read_case(path).geometry
+    assert isinstance(shape, vt.MeasuredProfile)
+    assert shape.gap(1e-4) == pytest.approx(2e-6, rel=1e-9)
+    points = (
+        '[["0 um", "5 nm"], ["50 um", "505 nm"], ["100 um", "2005 nm"], ["400 um", "32005 nm"]]'
+    )
+    path.write_text(CASE.format(table="measured-profile", keys=f"points = {points}"))
+    typed = vt.read_case(path).geometry
+    assert isinstance(typed, vt.MeasuredProfile)
+    assert np.array(typed.points) == pytest.approx(np.array(shape.points), rel=1e-9, abs=1e-18)
+
+
+def test_a_case_file_states_waves(tmp_path):
+    path = tmp_path / "case.toml"
+    keys = 'radius = "5 mm"\namplitude = "0.2 um"\nwavelength = "50 um"'
+    path.write_text(CASE.format(table="wavy-sphere", keys=keys))
+    assert vt.read_case(path).geometry == vt.WavySphere(5e-3, 0.2e-6, 50e-6)
+
+
+def test_steep_waves_are_beyond_small_strain(tmp_path):
+    path = tmp_path / "case.toml"
+    keys = 'radius = "5 mm"\namplitude = "6 um"\nwavelength = "50 um"'
+    path.write_text(CASE.format(table="wavy-sphere", keys=keys).replace('"2 um"', '"20 um"'))
+    with pytest.raises(vt.InputError, match="beyond small strain"):
+        vt.read_case(path)
+
+
+def test_si_gives_what_groups_do():
+    solid = vt.Elastic(rubbery_modulus=1e6, poisson_ratio=0.5)
+    problem = vt.Problem(
+        material=solid,
+        traction=LennardJones(0.05, 1e-6),
+        geometry=vt.MeasuredProfile.sampled(lambda r: r * r / 0.01, np.linspace(0, 6e-4, 61)),
+        protocol=vt.Retraction(vt.AtDepth(5e-6), 1e-6),
+    )
+    result = vt.solve(problem, until="pull-off", accuracy=1e-2)
+    pulled = result.pull_off_force * problem.scales().force
+    E = solid.contact_modulus
+    assert E == pytest.approx(4e6 / 3)
+    assert pulled == pytest.approx(jkr.pull_off_force(radius=5e-3, work_of_adhesion=0.05), rel=0.1)
+
+
+# --- several edges --------------------------------------------------------------------------------
+
+
+def ring(r):
+    return r * r / 2 + 8 * np.exp(-r * r)
+
+
+@pytest.fixture(scope="module")
+def ring_result():
+    groups = vt.Groups(
+        tabor=4.0,
+        material=ELASTIC,
+        start=vt.Apart(12.0),
+        moves=(vt.Approach(1.0, vt.AtDepth(5.0)),),
+        rate=1.0,
+        geometry=reduced(ring),
+    )
+    return vt.solve(groups, accuracy=1e-2)
+
+
+def test_both_edges_of_a_ring_are_reported(ring_result):
+    touching = np.isfinite(ring_result.contact_radius)
+    assert np.all(ring_result.rings[touching] == 1) and np.all(ring_result.rings[~touching] == 0)
+    assert np.all(np.isnan(ring_result.inner_radius[~touching]))
+    inner, outer = ring_result.inner_radius[touching], ring_result.contact_radius[touching]
+    # the lowest place is between them
+    lowest = RADII[np.argmin([ring(r) for r in RADII])] / np.pi ** (1 / 3)
+    assert np.all((inner > 0) & (inner < lowest) & (lowest < outer))
+    answer = vt.summary(ring_result)
+    assert answer["most_rings"] == answer["rings_at_pull_off"] == 1
+    assert 0.5 < answer["inner_radius_at_pull_off"] < answer["contact_radius_at_pull_off"]
+    # it opens from inside as well as from outside
+    after = ring_result.move[touching] == 1
+    assert inner[after][-1] > 1.1 * inner[after][0]
+
+
+def test_a_ring_pulls_alike_from_rest_and_after_its_approach(ring_result):
+    rest = replace(ring_result.groups, start=vt.AtDepth(5.0), moves=())
+    found = vt.solve(rest, until="pull-off", accuracy=1e-2)
+    assert found.error_estimate is not None and ring_result.error_estimate is not None
+    error = found.error_estimate["force"] + ring_result.error_estimate["force"]
+    assert found.pull_off_force == pytest.approx(ring_result.pull_off_force, rel=error)
+
+
+def test_edges_are_saved_and_written(ring_result, tmp_path):
+    vt.save(ring_result, tmp_path / "ring.npz")
+    again = vt.load(tmp_path / "ring.npz")
+    for name in ("rings", "inner_radius"):
+        assert np.array_equal(getattr(again, name), getattr(ring_result, name), equal_nan=True)
+    vt.write_csv(again, tmp_path / "ring.csv")
+    header = (tmp_path / "ring.csv").read_text().splitlines()[0].split(",")
+    assert {"inner_radius", "rings"} <= set(header)
+
+
+def test_parts_of_a_contact_that_comes_together_are_counted():
+    # a groove around a tip: it closes with a jump on the way in, whose energy is booked
+    def groove(r):
+        return r * r / 2 + 0.8 * np.exp(-(((r - 1) / 0.25) ** 2))
+
+    groups = vt.Groups(
+        tabor=4.0,
+        material=RELAXING,
+        start=vt.Apart(12.0),
+        moves=(vt.Approach(1.0, vt.AtDepth(8.0)),),
+        rate=None,
+        geometry=reduced(groove),
+    )
+    result = vt.solve(groups, accuracy=1e-2)
+    assert vt.summary(result)["most_rings"] == 2
+    assert result.rings is not None and result.rings[-1] == 1
+    assert result.energy_residual is not None and result.energy_residual < 5e-3
+
+
+def test_nodes_are_fine_at_each_edge(ring_result):
+    contact = contact_of(ring_result.groups)
+    settings = Settings.for_accuracy(1e-2)
+    start = contact.relaxed(vt.AtDepth(5.0), settings)
+    grading = contact.grading(settings, 5.0)
+    mesh = Mesh(grading, contact.zone, start.lattice, grading, start.edge)
+    inner = start.surface.inner_edges(start.gap, contact.law.edge_gap)
+    assert len(inner) == 1 and mesh.left_by(start.edge, inner)
+    mesh = mesh.around(start.edge, contact.zone, inner)
+    assert not mesh.left_by(start.edge, inner)
+    nodes = mesh.nodes()
+    for edge in (*inner, start.edge):
+        around = np.searchsorted(nodes, edge)
+        assert np.diff(nodes)[around - 3 : around + 3] == pytest.approx(grading.spacing, rel=0.3)
+
+
+def test_a_sphere_has_no_inner_edge():
+    groups = vt.Groups(tabor=1.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0)
+    result = vt.solve(groups, accuracy=1e-2)
+    assert result.rings is None and "most_rings" not in vt.summary(result)
+    with pytest.raises(vt.InputError, match="one edge"):
+        observables.most_rings(result)
+
+
+# --- every door -----------------------------------------------------------------------------------
+
+_ASK = ("predict", "advise")
+ROWS = [[f"{r} um", f"{max(r * r - 6400, 0) / 10:.1f} nm"] for r in range(0, 401, 100)]
+TABLES = {
+    "measured-profile": {"points": ROWS},
+    "wavy-sphere": {"radius": "5 mm", "amplitude": "0.2 um", "wavelength": "100 um"},
+}
+
+
+@pytest.mark.parametrize(
+    ("word", "send"), [("measured-profile", by_http), ("wavy-sphere", by_form)]
+)
+def test_every_door_gives_the_same_answer(word, send, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    keys = "\n".join(f"{key} = {toml_value(value)}" for key, value in TABLES[word].items())
+    Path("case.toml").write_text(CASE.format(table=word, keys=keys))
+    question = Question("simulate", {"problem": "case.toml", "until": "pull-off", "accuracy": 0.02})
+    found = by_python(question)
+    record: Any = found.record
+    assert record["pull_off_force"] > 0 and record["most_rings"] == 1
+    http = Http()
+    try:
+        assert found == by_command(question) == by_study(question) == send(question, http)
+        tables = Question("simulate", question.given | {"problem": read_toml(Path("case.toml"))})
+        assert by_http(tables, http).record == found.record
+    finally:
+        http.close()
+    kind = type(vt.read_case("case.toml").geometry).__name__
+    assert (
+        f"the shape is {kind}" in by_python(Question("predict", {"problem": "case.toml"})).refused
+    )
+    assert "simulate" in by_python(Question("advise", {"problem": "case.toml"})).refused
+
+
+def test_the_example_of_a_worn_lens_is_a_profile():
+    example = Path(__file__).parents[1] / "examples" / "from_toml" / "worn.toml"
+    assert isinstance(vt.read_case(example).geometry, vt.MeasuredProfile)
+    status, out, _ = run(["simulate", "profile", example, "--accuracy", "0.02", "--json"])
+    assert status == 0 and json.loads(out)["pull_off_force_N"] == pytest.approx(4.77e-3, rel=0.03)
+
+
+def test_a_campaign_varies_the_amplitude(tmp_path):
+    keys = 'radius = "5 mm"\namplitude = "0.2 um"\nwavelength = "100 um"'
+    (tmp_path / "case.toml").write_text(CASE.format(table="wavy-sphere", keys=keys))
+    plan = 'problem = "case.toml"\n[[grid]]\ngeometry.amplitude = ["0.1 um", "0.3 um"]\n'
+    (tmp_path / "plan.toml").write_text(plan + "[settings]\naccuracy = 0.02\n")
+    cases = read_plan(tmp_path / "plan.toml").cases
+    assert len(cases) == 2
+
+
+def test_records_of_both_shapes_fit_the_schema():
+    known = schema()["$defs"]
+    assert {"MeasuredProfile", "WavySphere"} <= known.keys()
+    assert known["MeasuredProfile"]["properties"]["points"]["units"] == ["m", "m"]
+
+
+def test_a_march_goes_on_where_new_nodes_have_no_compliance(monkeypatch):
+    def failing(*given):
+        raise ArithmeticError("not positive definite")
+
+    monkeypatch.setattr(jumps, "around_edge", failing)
+    groups = vt.Groups(
+        tabor=2.0, material=ELASTIC, start=vt.AtDepth(2.0), rate=1.0, geometry=reduced(worn)
+    )
+    result = vt.solve(groups, accuracy=2e-2, estimate_error=False)
+    assert result.pull_off_force > 1
