@@ -293,9 +293,8 @@ class Body:
     ) -> State:
         """Return the state at an instant, with what is to be seen of it, after the ones before."""
         law, gap, nodal = self.law(opening), faces.gap, -faces.tension
-        resting, extra = faces, None
+        resting, extra, at_rest = faces, None, self.contact.law
         if opening is not None:
-            at_rest = self.contact.law
             resting = surface.interface.at(at_rest, gap)
             flank = surface.flank_force(at_rest, gap) - surface.flank_force(law, gap)
             extra = Extra(opening, faces.tension - resting.tension, flank)
@@ -306,7 +305,7 @@ class Body:
             edge=edge,
             force=surface.unit * float(nodal.sum()) + surface.flank_force(law, gap),
             elastic=surface.unit * (instant + memory.stored(self.weights)),
-            interface=surface.unit * resting.energy + surface.flank_energy(self.contact.law, gap),
+            interface=surface.unit * resting.energy + surface.flank_energy(at_rest, gap),
             inner=surface.inner_edges(gap, at_rest.edge_gap),
         )
         trail = (*before[1 - _TRAIL :], self._passed(seen, surface, relaxed, nodal, memory))
