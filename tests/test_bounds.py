@@ -60,7 +60,7 @@ def refused(capsys, *arguments):
 
 
 def test_a_hundred_thousand_moves_are_refused_wherever_they_come_from(tmp_path, capsys):
-    said = "at most 10,000 moves, got {}; leave out rows of its history, make fewer cycles"
+    said = "at most 10,000 moves, got {}; remove rows of its history, use fewer cycles"
     many, one_more = said.format("100,000"), said.format("10,001")
     moves = (Dwell(1.0),) * 100_000
     for make in (
@@ -131,7 +131,7 @@ def test_a_punch_narrower_than_its_cohesive_zone_has_few_nodes():
 
 
 @pytest.mark.march
-def test_a_wide_punch_on_a_thin_glued_layer_answers():
+def test_a_wide_punch_on_a_thin_bonded_layer_is_solved():
     glued = resized(PUNCH, size=60.0, thickness=0.5, base=Bonded(poisson_ratio=0.5))
     result = solve(glued, accuracy=0.02, estimate_error=False)
     # the last of it may go in a jump

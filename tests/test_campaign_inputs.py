@@ -230,7 +230,11 @@ def test_points_whose_numbers_do_not_go_together_are_left_out_and_counted(tmp_pa
             },
             "say the same; leave out one",
         ),
-        (PAD, {"body.base.poisson_ratio": {"linear": [0.1, 0.2]}}, "has the Poisson ratio of its"),
+        (
+            PAD,
+            {"body.base.poisson_ratio": {"linear": [0.1, 0.2]}},
+            "must have the Poisson ratio of its",
+        ),
         (PAD, {"material.poisson_ratio": {"linear": [0.1, 0.7]}}, "poisson_ratio must lie .*0.7"),
     ],
 )

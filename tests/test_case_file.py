@@ -180,7 +180,7 @@ def test_every_start_can_be_written(line, start, tmp_path):
             edited('"100 um/s"', '"0 um/s"'),
             r"\[protocol\] speed must be positive",
         ),
-        (edited('"1.5 mN"', '"15 N"'), r"case\.toml: the start lies beyond small strain"),
+        (edited('"1.5 mN"', '"15 N"'), r"case\.toml: the start exceeds small strain"),
         (
             with_material('model = "prony"\nrubbery_modulus = "1 MPa"\npoisson_ratio = 0.5'),
             r"\[material\] branches is missing; write for example branches = \[\[",
@@ -242,7 +242,7 @@ def test_a_prony_series_is_read_in_its_own_unit_of_time(text, branches, unit, tm
         ("modulus_ratio,relaxation_time_s\n", "no branch below the header"),
         ("# x\nmodulus_ratio,relaxation_time_s\n5,2\n5,-2\n", "line 4: time must be positive"),
         ("modulus_ratio,relaxation_time_s\n5,two\n", "line 2: time must be a number in s"),
-        ("modulus_ratio,relaxation_time_s\n5,2,3\n", "line 2: a row is .*, got '5,2,3'"),
+        ("modulus_ratio,relaxation_time_s\n5,2,3\n", "line 2: a row must be .*, got '5,2,3'"),
     ],
 )
 def test_a_wrong_prony_series_is_refused_with_its_line(text, words, tmp_path):
@@ -303,5 +303,5 @@ def test_tables_that_were_sent_state_what_the_file_states():
 )
 def test_tables_that_were_sent_name_no_file(table, replaced):
     tables = tomllib.loads(POWER_LAW) | {table: replaced}
-    with pytest.raises(InputError, match=r"the case, \[.*a case that is sent can name none"):
+    with pytest.raises(InputError, match=r"the case, \[.*which is not allowed in a request"):
         case_of_tables(tables)

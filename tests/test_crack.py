@@ -132,7 +132,7 @@ def test_a_scalar_gives_a_float_and_an_array_keeps_its_shape(theory):
         (lambda t: t.speed(9.999999, material=power_law(0.01, 0.1)), "only at a speed beyond"),
     ],
 )
-def test_outside_its_domain_a_crack_says_what_to_do(theory, call, message):
+def test_outside_its_domain_a_crack_raises_an_error_with_a_remedy(theory, call, message):
     with pytest.raises(ValueError, match=message):
         call(theory)
 

@@ -92,7 +92,7 @@ def test_a_contact_with_a_crack_for_its_edge_in_json_csv_and_a_picture(capsys, t
     assert picture.stat().st_size > 1000
 
 
-def test_a_contact_in_si_is_told_in_si_and_in_words(capsys):
+def test_a_contact_in_si_units_is_printed_in_si_units_and_as_text(capsys):
     scales = ["--radius", "1 mm", "--contact-modulus", "2 MPa", "--equilibrium-gap", "1 nm"]
     scales += ["--tau0", "1 ms", "--poisson-ratio", 0.5]
     problem = ["--tabor", 500, "--material", "sls", "--modulus-ratio", 0.1, "--preload", 1e4]

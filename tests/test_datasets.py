@@ -121,7 +121,7 @@ def test_fewer_than_one_case_in_a_thousand_fails(named):
     assert len(facts["failures"]) < most.get(name, 1e-3) * facts["cases"]
 
 
-def test_what_a_set_says_is_consistent(named):
+def test_the_metadata_of_each_data_set_are_consistent(named):
     name, table = named
     punch = kind_of(name) == "punch"
     force = "stress" if punch else "force"

@@ -153,7 +153,7 @@ def test_without_a_glassy_plateau_k_is_a_bound():
     assert glassy.high == np.inf
     assert 1e8 < glassy.low < 3.089e9
     words = report.words()
-    assert "no glassy plateau was measured" in words
+    assert "the glassy plateau was not measured" in words
     assert "modulus_ratio at most" in words
     # the others are known, and a plateau from elsewhere closes the question
     assert report.interval("exponent").bounded
@@ -169,11 +169,11 @@ def test_a_series_without_a_plateau_has_a_bound_as_well():
     report = fit(middle, poisson_ratio=0.5, model="prony")
     assert report.interval("glassy_modulus").high == np.inf
     assert report.interval("rubbery_modulus").low == 0
-    assert "no rubbery plateau was measured" in report.words()
+    assert "the rubbery plateau was not measured" in report.words()
 
 
 def test_the_range_of_time_is_said():
-    assert "nothing faster than 2.7e-21 s or slower than 0.16 s" in constants_words()
+    assert "the measurement covers 2.7e-21 s to 0.16 s" in constants_words()
 
 
 def constants_words():
@@ -187,7 +187,7 @@ def test_a_law_that_misses_is_called_so():
 
 def test_the_thesis_puts_37_constants_on_32_numbers():
     report = fit(curve(), poisson_ratio=0.5, model="prony", arms=18)
-    assert "18 arms are 37 constants" in report.words()
+    assert "18 arms have 37 constants" in report.words()
     assert "on 32 numbers" in report.words()
     assert "points are up to 5.3 decades apart" in report.words()
     assert len(report.material.branches) <= 18
@@ -277,7 +277,7 @@ def test_a_noisy_loss_modulus_does_not_spoil_the_storage_modulus():
     )
     report = fit(data, poisson_ratio=0.4, model="prony")
     assert np.median(np.abs(report.residuals[0])) < 0.01
-    assert "the loss modulus scatters" in report.words()
+    assert "the scatter of the loss modulus" in report.words()
 
 
 # ---- errors that points have in common ---------------------------------------------------------
@@ -304,7 +304,7 @@ def test_sweeps_that_err_as_one_make_intervals_wide_enough():
         inside += [i.low <= getattr(SMOOTH, i.name) <= i.high for i in found.intervals]
     assert np.mean(inside) > 0.8
     report = fit(swept(0), poisson_ratio=0.5, model="power-law", draws=0)
-    assert "the points of one sweep err together, by about" in report.words()
+    assert "the points of one sweep have a common error of about" in report.words()
 
 
 def test_a_drift_is_found_and_the_interval_of_a_mean_is_that_of_few_numbers():
@@ -374,8 +374,8 @@ def test_what_few_arms_cost_is_said():
     data = curve(material=SMOOTH, omega=np.geomspace(1e-1, 1e4, 40), noise=0.01)
     report = fit(data, poisson_ratio=0.5, model="prony", arms=3)
     assert len(report.material.branches) == 3
-    assert "3 arms meet the measurement to" in report.words()
-    assert "that the data carry, to 0." in report.words()
+    assert "the error of 3 arms is" in report.words()
+    assert "the best number for these data, it is 0." in report.words()
     assert "contradict" not in report.words()
     # moved to where they serve best: better than on any even grid
     grid = fit_prony._fitted(
@@ -401,7 +401,7 @@ def test_a_liquid_is_called_one():
             assert "this is a liquid: at the slowest point the loss modulus is" in words
             # (1e5 0.1 + 2e4 1)/3 Pa s
             assert "shear viscosity about 1e+04 Pa s" in words
-            assert "no property of the material" in words
+            assert "not a property of the material" in words
     t = np.geomspace(1e-2, 1e4, 40)
     flowing = CreepTest(t, 1e-6 + 1e-7 * t, "E")
     assert "this is a liquid" in fit(flowing, poisson_ratio=0.5, model="prony", draws=2).words()
@@ -426,10 +426,16 @@ def test_springpots_are_found_again_and_have_no_passport(model):
     for each in report.intervals:
         assert each.value == pytest.approx(getattr(solid, each.name), rel=0.06)
         assert each.bounded
-    assert "have no plateau" in report.words()
-    with pytest.raises(ValueError, match="law for fits only: two springpots have no plateau"):
+    assert "have neither a rubbery nor a glassy" in report.words()
+    with pytest.raises(
+        ValueError,
+        match="law for fits only: two springpots have neither a rubbery nor a glassy plateau",
+    ):
         issued(report, name="gel")
-    with pytest.raises(ValueError, match="law for fits only: two springpots have no plateau"):
+    with pytest.raises(
+        ValueError,
+        match="law for fits only: two springpots have neither a rubbery nor a glassy plateau",
+    ):
         Problem(
             material=report.material,
             traction=LennardJones(work_of_adhesion=0.05, equilibrium_gap=1e-6),
@@ -452,12 +458,12 @@ def test_a_fractional_zener_solid_is_found_again():
         assert found.tau0 == pytest.approx(1.0, rel=1e-3)
 
 
-def test_without_draws_a_series_has_no_interval_but_says_where_it_ends():
+def test_without_draws_a_series_has_no_interval_but_states_its_last_time():
     middle = curve(1).chosen((OMEGA[::-1] > 1e3) & (OMEGA[::-1] < 1e13))
     report = fit(middle, poisson_ratio=0.5, model="prony", draws=0)
     assert not any(each.told for each in report.intervals)
-    assert "no interval: no draws were asked for" in report.words()
-    assert "no glassy plateau was measured" in report.words()
+    assert "no interval, because draws=0" in report.words()
+    assert "the glassy plateau was not measured" in report.words()
     assert issued(report, name="x").evidence.intervals == ()
     with pytest.raises(ValueError, match="fit with draws=100"):
         report.band([1.0])
@@ -534,10 +540,10 @@ def test_the_picture_has_the_points_the_law_and_the_residuals():
     ("options", "words"),
     [
         ({"model": "rubber"}, "model must be one of power-law"),
-        ({"model": "sls", "arms": 3}, "arms go with the model prony"),
-        ({"model": "best", "known": {"tau0": 1.0}}, "known constants go with"),
-        ({"model": "sls", "known": {"exponent": 1.0}}, "exponent is no constant of the model sls"),
-        ({"model": "sls", "level": 1.0}, r"must lie in \(0, 1\)"),
+        ({"model": "sls", "arms": 3}, "arms apply to the model prony only"),
+        ({"model": "best", "known": {"tau0": 1.0}}, "known constants apply to"),
+        ({"model": "sls", "known": {"exponent": 1.0}}, "model sls has no constant exponent"),
+        ({"model": "sls", "level": 1.0}, "must lie between 0 and 1"),
         ({"model": "prony", "arms": 0}, "arms must be between"),
     ],
 )
@@ -556,7 +562,7 @@ def liquid(decades):
 @pytest.mark.parametrize("options", [{"model": "prony"}, {"model": "prony", "arms": 3}], ids=str)
 def test_a_modulus_over_more_decades_than_instruments_have_is_refused(options):
     # what underflowed on the way is no measurement, and its logarithms overflow in drawn series
-    with pytest.raises(ValueError, match="over 260 decades"):
+    with pytest.raises(ValueError, match="span 260 decades"):
         fit(liquid(260), poisson_ratio=0.5, **options)
     report = fit(liquid(19), poisson_ratio=0.5, **options)
     assert report.interval("rubbery_modulus").low == 0
@@ -575,14 +581,14 @@ def test_unfit_data_is_refused():
         fit(sweeps, poisson_ratio=0.5)
     with pytest.raises(ValueError, match="needs a MasterCurve"):
         fit([1, 2, 3], poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="no loss modulus to leave out"):
+    with pytest.raises(ValueError, match="no loss modulus to omit"):
         fit(RelaxationTest([1, 2, 3], [3e6, 2e6, 1e6], "E"), poisson_ratio=0.5, loss=False)
     three = RelaxationTest([1, 2, 3], [3e6, 2e6, 1e6], "E")
     with pytest.raises(ValueError, match="too few to compare models"):
         fit(three, poisson_ratio=0.5)
-    with pytest.raises(ValueError, match="too few to choose how many arms"):
+    with pytest.raises(ValueError, match="too few to choose the number of arms"):
         fit(three, poisson_ratio=0.5, model="prony")
-    with pytest.raises(ValueError, match="nothing that a Prony series could describe"):
+    with pytest.raises(ValueError, match="so a Prony series cannot describe it"):
         rising = RelaxationTest(np.arange(1, 9), np.arange(1, 9) * 1e6, "E")
         fit(rising, poisson_ratio=0.5, model="prony")
 

@@ -14,7 +14,7 @@ from viscotack.surrogate import physics, store
 from viscotack.theory import lennard_jones
 
 CASE = {"tabor": 3.24, "modulus_ratio": 0.1, "exponent": 0.8, "preload": 73.0, "rate": 316.23}
-SIMULATE = "`viscotack simulate`, or `predict` with --exact, answers it"
+SIMULATE = "`viscotack simulate`, or `predict` with --exact, can compute it"
 UNIT = {"rubbery_modulus": 1.0, "poisson_ratio": 0.0}
 
 
@@ -193,7 +193,7 @@ def test_the_summary_has_the_names_of_a_simulation():
 
 @pytest.mark.parametrize("name", physics.INPUTS)
 @pytest.mark.parametrize("end", [0, 1])
-def test_outside_the_range_it_is_no_longer_the_surrogate_that_answers(name, end):
+def test_outside_the_range_the_surrogate_is_not_used(name, end):
     bound = store.shipped().limits[name][end]
     case = {name: bound * (0.99, 1.01)[end]}
     assert vt.predict(sphere(**{name: bound})).inside
@@ -253,7 +253,7 @@ def test_below_the_least_modulus_ratio_force_rises_until_the_glass_is_not_felt()
         assert force[0] <= force[1] <= force[2] <= force[3] <= 100 * force[0]
         # most of what is left is in the first decade
         assert force[3] - force[2] <= force[2] - force[0] + 1e-12
-    assert "goes on by how the force depends on it there" in said[1].why
+    assert "the force is extrapolated by its slope there" in said[1].why
     assert "modulus_ratio is 9e-07, verified from 0.001 to 0.3" in refused(
         sphere(modulus_ratio=9e-7)
     )
@@ -346,7 +346,7 @@ def test_the_band_of_a_theory_is_not_scaled_to_another_confidence():
     assert "one for 90% of the cases, not 50%" in b.why and "not 90%" not in a.why
 
 
-def test_no_theory_answers_where_its_band_was_not_measured():
+def test_a_theory_without_a_measured_band_is_refused():
     solid = vt.StandardSolid(**UNIT, glassy_modulus=10.0, tau0=1.0)
     known = vt.predict(sphere(material=solid, rate=1.0, preload=600.0))
     assert (known.band, known.confidence) == ("measured", 0.9)
@@ -360,7 +360,7 @@ def test_no_theory_answers_where_its_band_was_not_measured():
         (sphere(tabor=4.0, exponent=0.25, rate=1e17), "exponent is 0.25, verified from 0.3 to 1.6"),
         (
             sphere(material=series, rate=1.0, preload=600.0),
-            "the solid is Prony, verified for RetardationPowerLaw and StandardSolid only",
+            "the solid is Prony; verified only for RetardationPowerLaw and StandardSolid",
         ),
     ):
         assert where in refused(groups)
@@ -382,7 +382,7 @@ def test_the_box_of_the_bands_is_the_one_that_the_advice_states():
             assert f"{name} {ends}" in words
 
 
-def test_a_start_by_force_is_asked_of_the_surrogate_where_the_tabor_number_is_known():
+def test_a_start_by_force_uses_the_surrogate_where_the_tabor_number_is_known():
     start = vt.AtForce(5.0)
     why = vt.predict(sphere(start=start, tabor=20.0)).why
     assert why.startswith("tabor is 20, and") and "relaxed start" not in why
@@ -415,14 +415,14 @@ def test_another_law_is_answered_by_a_theory_with_its_band():
     law = vt.Exponential(1.0, 1.0, 1.0)
     case = replace(sphere(tabor=9.0, rate=1.0), traction=law)
     answer = vt.predict(case)
-    assert answer.why.startswith("the traction law is Exponential, verified for LennardJones only")
+    assert answer.why.startswith("the traction law is Exponential; verified only for LennardJones")
     force = vt.pull_off_force(vt.solve(case, until="pull-off", estimate_error=False))
     assert answer.interval[0] <= force <= answer.interval[1]
     steep = replace(case, tabor=2.0, traction=vt.Dugdale(1.0, 1.0, fall=0.1))
     assert "steepest fall is 19.96, verified from 0.76 to 6.7" in refused(steep)
 
 
-def test_where_nothing_applies_it_says_what_is_out():
+def test_where_no_method_applies_the_error_names_the_quantity_out_of_range():
     slow_and_soft = sphere(tabor=0.1, rate=10.0, exponent=2.9)
     assert all(e.tier == "simulation" for e in vt.advise(slow_and_soft).estimates if e.applies)
     with pytest.raises(vt.OutOfRange, match=r"^exponent is 2\.9, .*no theory applies either"):

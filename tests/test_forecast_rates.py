@@ -12,7 +12,7 @@ import viscotack as vt
 from command_line import exit_status
 from viscotack.errors import InputError
 from viscotack.identify import PullOff, forecast_rates, identify_rates, posterior
-from viscotack.identify.doubt import allowed, covariance, log_forces
+from viscotack.identify.covariances import allowed, covariance, log_forces
 from viscotack.identify.forward import Forward
 from viscotack.lab.tack import Measured
 from viscotack.materials import Passport, write_passport
@@ -65,14 +65,14 @@ def exact(series):
     return identify_rates(series, material=SOLID, radius=RADIUS)
 
 
-def test_a_forecast_holds_the_truth_and_widens_away_from_the_data(fit, forward):
+def test_a_forecast_covers_the_true_value_and_widens_away_from_the_data(fit, forward):
     speed = np.array([3e-5, 1e-1])
     found = forecast_rates(fit, speed)
     true = forward.pulled(WORK, GAP, speed, PRELOAD).force
     assert np.all((found.low < true) & (true < found.high))
     width = np.log(found.high / found.low)
     assert width[1] > 1.5 * width[0]
-    assert "beyond them the forecast rests on the material" in " ".join(found.words)
+    assert "beyond them the prediction depends on the material" in " ".join(found.words)
 
 
 def test_doubt_about_the_material_widens_the_answer(exact, fit):
@@ -103,7 +103,7 @@ def test_a_warmer_test_is_a_slower_one(fit):
 
 
 @pytest.mark.slow
-def test_a_short_dwell_is_told_from_a_long_one(exact):
+def test_a_short_dwell_is_distinguished_from_a_long_one(exact):
     rested = forecast_rates(exact, [1e-4]).force
     long, short = (
         forecast_rates(exact, [1e-4], dwell=t, approach_speed=1e-5).force for t in (1e3, 1e-3)
@@ -125,7 +125,7 @@ def test_what_cannot_be_forecast_is_refused(fit):
         forecast_rates(fit, [1e-4], dwell=1.0)
     with pytest.raises(InputError, match="positive speeds"):
         forecast_rates(fit, [-1e-4])
-    with pytest.raises(InputError, match="no law says how times change"):
+    with pytest.raises(InputError, match="the temperature dependence of its times is unknown"):
         bare = replace(fit, passport=replace(RUBBER, shift=None))
         forecast_rates(bare, [1e-4], temperature=310.0)
 

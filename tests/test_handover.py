@@ -22,7 +22,7 @@ def pulled(tabor: float, material: Any = SOLID, **changes: Any) -> vt.Groups:
     return replace(groups, **changes)
 
 
-def test_a_contact_of_too_short_a_range_is_answered_with_its_band_and_says_so(tmp_path):
+def test_a_contact_of_too_short_a_range_is_predicted_with_its_band_and_a_note(tmp_path):
     result = vt.solve(pulled(1e5))
     assert result.method == "crack contact" and "too short to be simulated" in result.status
     found = vt.crack_contact(pulled(1e5))
@@ -88,10 +88,10 @@ def test_advice_and_prediction_take_the_theory_with_the_smallest_band():
     assert vt.predict(pulled(1e4)).method == "crack contact"
     cone = vt.predict(pulled(30.0, geometry=vt.PowerLawProfile(1.0, 1.0)))
     assert cone.method == "crack contact" and (cone.work_to_pull_off or 0) > 0
-    assert "the shape is PowerLawProfile, verified for Sphere only" in cone.why
+    assert "the shape is PowerLawProfile; verified only for Sphere" in cone.why
 
 
-def test_the_command_line_says_who_answered(capsys):
+def test_the_command_line_names_the_method_of_the_answer(capsys):
     words = ["--material", "sls", "--modulus-ratio", "0.1", "--preload", "1e5", "--rate", "1e5"]
     assert exit_status(["simulate", "sphere", "--tabor", "1e4", *words]) == 0
     assert "contact whose edge is a steady crack" in capsys.readouterr().out

@@ -54,7 +54,7 @@ def small(monkeypatch):
 
 
 @pytest.mark.slow
-def test_an_interface_that_grows_is_found_told_from_one_that_does_not_and_forecast(small):
+def test_growth_of_adhesion_is_detected_identified_and_forecast(small):
     fit = identify_rates(series(forces(LAW)), theory=0.005, **CASE, **small)
     truth = {"work_of_adhesion": WORK, "equilibrium_gap": GAP, "exponent": 0.5}
     opening = float(fit.growth.opening.speed(GAP))
@@ -72,7 +72,9 @@ def test_an_interface_that_grows_is_found_told_from_one_that_does_not_and_foreca
     true = forces(LAW, [3e-5, 2e-3])
     assert np.all((forecast.low < true) & (true < forecast.high))
     shifting = replace(fit.passport, temperature=293.15, shift=WLF(293.15, 5.0, 150.0))
-    with pytest.raises(InputError, match="with temperature is not known"):
+    with pytest.raises(
+        InputError, match="the temperature dependence of a speed-dependent interface is unknown"
+    ):
         forecast_rates(replace(fit, passport=shifting), [3e-5], temperature=310.0)
 
 
@@ -110,7 +112,7 @@ def test_strengthening_is_read_where_an_edge_opens_the_gap_whatever_the_range():
     assert np.all(np.isinf(opening.growth(1e-8, 1.0, 0.5).reference_speed))
 
 
-def test_words_say_whether_growth_is_needed_and_who_takes_the_energy():
+def test_the_text_states_whether_growth_is_needed_and_where_energy_dissipates():
     share = Share(speed=1e-3, edge_speed=1e-2, energy=6.0, bulk=3.0, interface=2.0)
     found = FoundGrowth(2.0, 0.4, 1e-4, 1e-4, 20.0, 1e-4, (share,), Opening(1e-12))
     said = " ".join(found.words())
@@ -119,7 +121,7 @@ def test_words_say_whether_growth_is_needed_and_who_takes_the_energy():
     assert "growth is not needed" in said
 
 
-def test_a_study_keeps_that_growth_was_asked_for(tmp_path):
+def test_a_study_keeps_the_option_growth(tmp_path):
     study = IdentifyRates(
         files=(tmp_path / "a.csv",), material="pdms-10-1", radius=5e-3, growth=True
     )

@@ -80,7 +80,7 @@ def test_a_slow_test_beside_the_series_narrows_the_range():
 
 
 @pytest.mark.slow
-def test_the_truth_is_in_the_intervals_as_often_as_they_say():
+def test_intervals_cover_the_true_value_at_their_stated_probability():
     true, inside = forces(200e-9), []
     for seed in range(60):
         rng = np.random.default_rng(seed)
@@ -116,9 +116,9 @@ def test_speeds_at_which_the_theory_does_not_hold_are_left_out_and_said_to_be():
         series(force, 0.01, speeds), material=solid, radius=RADIUS, preload=PRELOAD
     )
     assert [one.speed for one in fit.series] == speeds[:-1].tolist()
-    assert "left out, because the theory does not hold there: 1 m/s" in " ".join(fit.words)
+    assert "excluded, because the theory does not hold there: 1 m/s" in " ".join(fit.words)
     assert fit.equilibrium_gap == pytest.approx(50e-9, rel=0.02)
-    with pytest.raises(OutOfRange, match="too few of the speeds; of 2 m/s"):
+    with pytest.raises(OutOfRange, match="too few of the speeds; at 2 m/s"):
         fast = np.array([1.0, 2.0])
         identify_rates(series(force[-2:], 0.01, fast), **CASE | {"material": solid})
 
@@ -126,7 +126,7 @@ def test_speeds_at_which_the_theory_does_not_hold_are_left_out_and_said_to_be():
 def test_an_interface_beyond_small_strain_is_no_reason_to_refuse_others():
     gel = vt.StandardSolid(rubbery_modulus=5e4, glassy_modulus=5e5, tau0=0.1, poisson_ratio=0.5)
     forward = Forward(gel, 1e-3)
-    with pytest.raises(InputError, match="beyond small strain"):
+    with pytest.raises(InputError, match="exceeds small strain"):
         forward.problem(3.0, 1e-7, 1e-4)
     both = forward.pulled([3.0, 0.02], 1e-7, 1e-5, 1e-4)
     alone = forward.pulled(0.02, 1e-7, 1e-5, 1e-4)
@@ -169,12 +169,12 @@ def test_a_series_by_a_soft_machine_is_corrected_by_its_ratios(monkeypatch):
     assert fit.equilibrium_gap == pytest.approx(200e-9, rel=0.03)
 
 
-def test_a_series_that_says_nothing_is_refused():
+def test_a_series_without_information_is_refused():
     one = series(forces(200e-9, SPEEDS[:1]), speeds=SPEEDS[:1])
     with pytest.raises(InputError, match="two speeds and more"):
         identify_rates(one, **CASE)
     two = series([4e-3, 5e-3], speeds=SPEEDS[:2])
-    with pytest.raises(InputError, match="holds for no range"):
+    with pytest.raises(InputError, match="holds for none of the searched ranges"):
         identify_rates(two, gaps=(5e-6, 50e-6), **CASE)
     with pytest.raises(InputError, match="must be positive"):
         identify_rates(series([4e-3, -5e-3], speeds=SPEEDS[:2]), **CASE)
@@ -226,7 +226,7 @@ def test_from_the_files_of_a_rig_to_the_interface(tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_one_whole_curve_of_a_fast_test_tells_what_an_elastic_fit_of_it_cannot():
+def test_one_whole_curve_of_a_fast_test_determines_what_an_elastic_fit_cannot():
     (cycle,) = survey([RIG / "lens_30_um_s.csv"]).cycles
     fit = identify_rates(pull_offs([cycle]), material=PDMS, radius=RADIUS, curves=True)
     assert fit.work_of_adhesion == pytest.approx(WORK, rel=0.02)
@@ -248,7 +248,7 @@ def test_whole_curves_narrow_a_series_and_must_be_there():
     ends = whole.intervals["equilibrium_gap"]
     assert not ends.split and 150e-9 < ends.low < 200e-9 < ends.high < 260e-9
     bare = [PullOff(one.speed, one.force, one.preload) for one in series]
-    with pytest.raises(InputError, match="whole curves begin in compression"):
+    with pytest.raises(InputError, match="whole curves must begin in compression"):
         identify_rates(bare, curves=True, **CASE)
 
 

@@ -49,7 +49,7 @@ def test_jkr_recovers_the_work_of_adhesion_from_noisy_forces_at_radii(seed):
 
 
 @pytest.mark.slow
-def test_intervals_hold_the_truth_as_often_as_they_say():
+def test_intervals_cover_the_true_value_at_their_stated_probability():
     inside = 0
     for seed in range(40):
         ends = identify_slow(of_jkr(seed), models=["jkr"]).best.intervals["work_of_adhesion"]
@@ -83,7 +83,7 @@ def test_a_range_that_matters_is_found_by_maugis_and_by_carpick(tabor):
 
 
 @pytest.mark.slow
-def test_without_a_camera_the_range_is_told_weakly():
+def test_without_contact_radii_the_range_is_weakly_determined():
     known = (LENS["contact_modulus"], 0.05 * LENS["contact_modulus"])
     by_depth = identify_slow(
         of_maugis(1.5, 3, against="depth"), models=["maugis"], contact_modulus=known
@@ -145,14 +145,14 @@ def test_a_profile_of_a_parabola_is_its_width():
     {"force": np.ones(50)}, {"at": -np.ones(50)}, {"radius": 0.0}, {"force_noise": 0.0},
     {"against": "gap"}, {"force": np.ones(3)},
 ])  # fmt: skip
-def test_a_test_that_says_nothing_is_refused(change):
+def test_a_test_without_information_is_refused(change):
     whole = of_jkr(0)
     words = {name: getattr(whole, name) for name in ("force", "at", "against", "radius")}
     with pytest.raises(InputError):
         SlowTest(**(words | {"force_noise": whole.force_noise} | change))
 
 
-def test_the_command_says_what_the_function_says(tmp_path, capsys):
+def test_the_command_prints_the_result_of_the_function(tmp_path, capsys):
     path, picture = tmp_path / "lens.csv", tmp_path / "fit.png"
     path.write_bytes(tack_files.with_camera(tack_files.made(2e-5)))
     arguments = ["identify", "slow", path, "--radius", "5 mm", "--model", "jkr", "--model", "dmt"]

@@ -45,7 +45,7 @@ def drawn(count, seed=0):
 @pytest.mark.parametrize(
     "changed", [{}, {"tabor": 30.0, "rate": 30.0, "preload": 100.0}, {"exponent": 1.2, "rate": 3.0}]
 )
-def test_it_says_what_the_theory_says(changed):
+def test_the_surrogate_reproduces_the_theory(changed):
     case = problem(**changed)
     said, theory = vt.predict(case), vt.crack_contact(case)
     assert said.method == "learned crack contact" and said.inside

@@ -90,7 +90,7 @@ def test_a_fit_as_json_is_one_object(lab, capsys):
 
 def test_the_models_can_be_chosen(lab, capsys):
     out, _ = printed(FIT + "--model prony --arms 18 -o x.toml", capsys)
-    assert "18 arms are 37 constants" in out
+    assert "18 arms have 37 constants" in out
     assert isinstance(read_passport("x.toml").material, Prony)
     out, _ = printed(FIT + '--model power-law --glassy-modulus "3089 MPa"', capsys)
     assert "given" in out
@@ -173,7 +173,7 @@ def test_shifts_are_printed_drawn_and_kept(lab, capsys):
     assert "nearest law: WLF" in shown
 
 
-def test_flags_say_how_sweeps_are_shifted(lab, capsys):
+def test_flags_choose_how_sweeps_are_shifted(lab, capsys):
     melt_file(lab)
     line = (
         'material fit melt.csv --poisson-ratio 0.5 --reference-temperature "-30 degC" '
@@ -292,19 +292,19 @@ def test_relaxation_at_many_temperatures_is_one_curve(lab, capsys):
         (FIT + '--wlf "8.86,101.6 K"', "give one shift, got --glass-transition and --wlf"),
         (FIT + "-o /nowhere/x.toml", "there is no folder /nowhere"),
         (FIT + "--plot fit.docx", "its ending must be one of"),
-        (FIT + "--model sls --arms 3", "arms go with the model prony"),
+        (FIT + "--model sls --arms 3", "arms apply to the model prony only"),
         (FIT + "--test creep --frequency-unit Hz", "cannot be used for --test creep"),
         ("material show nothing", "neither a passport"),
         ("material show dma.csv", "is not a TOML file"),
         ('material convert pdms-10-1 --temperature "60 degC"', "superposition is not extrapolated"),
-        ("material convert dma.csv --from abaqus", "dma.csv: the text does not say its units"),
+        ("material convert dma.csv --from abaqus", "dma.csv: the text does not state its units"),
         ("material convert pdms-10-1 --pressure-unit MPa", "cannot be used without --from"),
         ("material export pdms-10-1 --to nastran", "nastran"),
         ("material export pdms-10-1 --to ansys", "ansys forbids a Poisson ratio of 0.5"),
         (FIT + "--model fractional-maxwell -o x.toml", "law for fits only"),
         (
             "simulate sphere --material fractional-maxwell --tabor 2 --preload 3 --rate 1",
-            "two springpots have no plateau",
+            "two springpots have neither a rubbery nor a glassy plateau",
         ),
         ('material export pdms-10-1 --to abaqus --frequencies "1 Hz"', "needs two values"),
         ("material export pdms-10-1 --to abaqus --pressure-unit m", "does not measure"),

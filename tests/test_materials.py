@@ -46,7 +46,7 @@ def test_moduli_must_be_positive_numbers(kind, numbers, wrong):
 
 @every_class
 @pytest.mark.parametrize("wrong", [-0.1, 0.51, math.nan, "0.5"])
-def test_poisson_ratio_lies_between_0_and_a_half(kind, numbers, wrong):
+def test_poisson_ratio_must_be_between_0_and_a_half(kind, numbers, wrong):
     with pytest.raises(
         ValueError, match="poisson_ratio must (lie between 0 and 0.5|be finite|be a number)"
     ):
@@ -56,7 +56,9 @@ def test_poisson_ratio_lies_between_0_and_a_half(kind, numbers, wrong):
 @pytest.mark.parametrize("kind", [StandardSolid, RetardationPowerLaw, RelaxationPowerLaw])
 def test_glassy_modulus_and_time_are_checked(kind):
     numbers = STANDARD if kind is StandardSolid else POWER_LAW
-    with pytest.raises(ValueError, match="999999 Pa < 1e.06 Pa; perhaps the two are exchanged"):
+    with pytest.raises(
+        ValueError, match="999999 Pa < 1e.06 Pa; check whether they are interchanged"
+    ):
         kind(**(numbers | dict(glassy_modulus=999999)))
     with pytest.raises(ValueError, match="tau0 must be positive, got -100 ms"):
         kind(**(numbers | dict(tau0=-0.1)))
@@ -73,11 +75,11 @@ def test_exponent_is_positive_and_at_most_3(kind):
         kind(**(POWER_LAW | dict(exponent=3.1)))
 
 
-def test_order_of_a_springpot_lies_between_a_spring_and_a_dashpot():
+def test_order_of_a_springpot_must_be_between_0_and_1():
     for wrong in (0, 0.01, 0.96, 1.0, math.nan):
         with pytest.raises(ValueError, match="order must (lie between 0.02 and 0.95|be finite)"):
             FractionalZener(**(FRACTIONAL | dict(order=wrong)))
-    with pytest.raises(ValueError, match="perhaps the two are exchanged"):
+    with pytest.raises(ValueError, match="check whether they are interchanged"):
         FractionalZener(**(FRACTIONAL | dict(glassy_modulus=999999)))
 
 
@@ -91,7 +93,7 @@ def test_order_of_a_springpot_lies_between_a_spring_and_a_dashpot():
         ([(5e6, 0.0)], "the relaxation time of a branch must be a positive"),
         ([(-5e6, 1.0)], "the modulus of a branch must be a positive"),
         ([(5e6, math.nan)], "the relaxation time of a branch must be a positive"),
-        ([(5e6, 1.0), (4e6, 2.0), (3e6, 1.0)], "must differ .* add the moduli of the two"),
+        ([(5e6, 1.0), (4e6, 2.0), (3e6, 1.0)], "must differ .* by adding their moduli"),
     ],
 )
 def test_branches_are_pairs_of_positive_numbers_with_different_times(wrong, sentence):
@@ -173,7 +175,7 @@ def test_extreme_times_and_frequencies_do_not_overflow(kind, numbers):
         (dict(longest=math.inf), "longest must be a positive, finite"),
         (dict(longest=1e-7), "longest must not be below shortest, got 1e-07 s < 1e-06 s"),
         (dict(tolerance=0), "tolerance must be a positive"),
-        (dict(tolerance=1.5), "tolerance is a part of the rubbery compliance"),
+        (dict(tolerance=1.5), "tolerance is relative to the rubbery compliance"),
     ],
 )
 def test_windows_of_modes_are_checked(kind, numbers, wrong, sentence):

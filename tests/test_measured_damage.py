@@ -198,7 +198,7 @@ def mutated(content, rng):
 
 
 @pytest.mark.parametrize("tries", [150, pytest.param(5000, marks=pytest.mark.slow)])
-def test_every_reader_answers_or_refuses_a_mutated_file(tries, tmp_path):
+def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
     rng = np.random.default_rng(3)
     names, answered = list(OTHERS), 0
     readers = (lab.read, read_dma, read_relaxation, read_creep, read_shifts)

@@ -161,7 +161,7 @@ def test_two_exports_are_the_same_bytes(surrogate, tmp_path):
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
 
 
-def test_file_says_what_its_numbers_are(surrogate, tmp_path):
+def test_the_file_describes_its_inputs_and_outputs(surrogate, tmp_path):
     export(surrogate, tmp_path / "tack.onnx")
     read = onnx.load(tmp_path / "tack.onnx")
     facts = {p.key: p.value for p in read.metadata_props}
@@ -188,24 +188,24 @@ def test_only_operators_of_the_standard_in_an_old_version(surrogate, tmp_path):
 
 
 def test_a_surrogate_of_another_contact_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="of a sphere on power laws; .* 'punch'"):
+    with pytest.raises(ValueError, match="only surrogates of a sphere on power laws .* 'punch'"):
         export(shipped("punch"), tmp_path / "tack.onnx")
 
 
-def test_without_onnx_the_error_says_what_to_install(surrogate, tmp_path, monkeypatch):
+def test_without_onnx_the_error_states_what_to_install(surrogate, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "onnx", None)
     with pytest.raises(ModuleNotFoundError, match=r"viscotack\[onnx\]"):
         export(surrogate, tmp_path / "tack.onnx")
 
 
-def test_what_onnx_cannot_say_is_refused(surrogate):
+def test_what_onnx_cannot_express_is_refused(surrogate):
     graph = Graph()
     x = graph.input("x", np.ones((1, 3)))
-    with pytest.raises(TypeError, match=r"np\.sinh .* no counterpart"):
+    with pytest.raises(TypeError, match=r"np\.sinh .* no ONNX counterpart"):
         np.sinh(x)
-    with pytest.raises(TypeError, match=r"np\.cumsum has no counterpart"):
+    with pytest.raises(TypeError, match=r"np\.cumsum has no ONNX counterpart"):
         np.cumsum(x)
-    with pytest.raises(TypeError, match=r"np\.add \(accumulate\) has no counterpart"):
+    with pytest.raises(TypeError, match=r"np\.add \(accumulate\) has no ONNX counterpart"):
         np.add.accumulate(x, axis=1)
 
 

@@ -93,7 +93,7 @@ def test_they_are_simulated_saved_and_loaded(problem, tmp_path):
     assert found["rounding"] == problem.groups().geometry.rounding
 
 
-def test_the_command_line_knows_them(case_file, tmp_path):
+def test_the_command_line_loads_own_parts(case_file, tmp_path):
     status, out, err = call(
         "simulate", "case", case_file, "--json", "--until", "pull-off", "--accuracy", 1e-2,
         "--save", tmp_path / "run.npz",
@@ -143,7 +143,7 @@ geometry.rounding = 20e-6
     assert run(None, tmp_path / "study", workers=1, own=files_of_own).done == 2
 
 
-def test_a_prediction_of_a_theory_knows_them():
+def test_a_theory_predicts_with_own_parts():
     status, out, err = call(
         *"predict sphere --material cole-cole:0.6 --modulus-ratio 0.1 --tabor 30".split(),
         *"--preload 200 --rate 100 --json".split(),
@@ -172,7 +172,7 @@ def test_a_passport_holds_a_material_of_ones_own(tmp_path):
     )
     write_passport(written, file)
     assert read_passport(file, also=(MORSE, ZENER)) == written
-    with pytest.raises(vt.InputError, match=r"got 'cole-cole'; if it is one of your own, give"):
+    with pytest.raises(vt.InputError, match=r"got 'cole-cole'; for a user-defined model, give"):
         read_passport(file)
     assert call("material", "show", file)[0] == 0
     status, out, err = call(
@@ -273,9 +273,9 @@ def test_a_wide_rounding_is_a_sphere_to_second_order_in_the_contact_over_it():
 
 def test_a_word_or_a_name_that_is_taken_is_refused():
     taken = type("Sphere", (SHAPE,), {"word": "mine"})
-    with pytest.raises(ValueError, match="a name or a word that is taken"):
+    with pytest.raises(ValueError, match="a name or a word that is already used"):
         known((taken,))
-    with pytest.raises(ValueError, match="'int' is no law, material, shape or body"):
+    with pytest.raises(ValueError, match="'int' is not a law, material, shape or body"):
         known((int,))
 
 
@@ -313,7 +313,7 @@ def test_an_incomplete_noun_is_refused_before_anything_is_solved():
     for missing in ("symmetry", "flank"):
         members = {k: v for k, v in vars(SHAPE).items() if k not in (missing, "__dict__")}
         poor = type("Poor", (), members | {"word": "poor"})
-        with pytest.raises(ValueError, match="'Poor' is no law, material, shape or body"):
+        with pytest.raises(ValueError, match="'Poor' is not a law, material, shape or body"):
             known((poor,))
     bare = type("Bare", (MORSE,), {"word": "bare", "__annotations__": {"extra": float}})
     with pytest.raises(ValueError, match="Bare does not say what extra is measured in"):
@@ -343,14 +343,14 @@ def test_a_file_that_ends_the_program_is_refused(tmp_path):
     assert len(own_nouns([OWN / "morse.py", str(OWN / "morse.py")])) == 1
 
 
-def test_what_is_not_known_says_where_it_comes_from(case_file):
+def test_an_unknown_name_raises_an_error_with_its_source(case_file):
     done = CliRunner().invoke(application(), ["simulate", "case", str(case_file)])
     assert done.exit_code == 2 and "one of your own comes --with FILE.py" in done.stderr
 
 
 def test_a_geometry_that_is_not_reduced_is_refused():
     solid = vt.Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
-    with pytest.raises(ValueError, match="of slope 1 at distance 1, got Cone.slope=0.3."):
+    with pytest.raises(ValueError, match=".slope 1 at distance 1., got Cone.slope=0.3."):
         vt.Groups(3.0, solid, vt.AtForce(0.0), 1.0, geometry=vt.Cone(0.3))
 
 
@@ -359,7 +359,7 @@ def test_an_observable_has_a_name_of_its_own(name):
     with pytest.raises(vt.InputError, match=f"must be a new one .* got '{name}'"):
         vt.Observable(name, "words", "1", lambda result: 0.0)
     one = vt.Observable("mine", "words", "1", lambda result: 0.0)
-    with pytest.raises(vt.InputError, match="two observables are called mine"):
+    with pytest.raises(vt.InputError, match="two observables have the name mine"):
         known((one, one))
 
 

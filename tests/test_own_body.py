@@ -103,7 +103,7 @@ def test_every_door_gives_the_same_answer(send, tmp_path, monkeypatch):
         http.close()
 
 
-def test_without_its_file_each_door_says_where_it_may_come_from():
+def test_without_its_file_each_entry_point_names_possible_sources():
     done = CliRunner().invoke(application(), ["simulate", "case", str(CASE)])
     assert done.exit_code == 2 and "unknown table 'foundation'" in done.stderr
 
@@ -119,14 +119,14 @@ def test_schema_and_page_know_it(problem):
 
 @pytest.mark.parametrize("tier", CHEAP, ids=lambda tier: tier.name)
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
-def test_a_tier_answers_for_the_bodies_on_its_list_alone(tier, body):
+def test_a_tier_accepts_the_bodies_on_its_list_alone(tier, body):
     case = next(case for case in problems() if tier.covers(case) == "")
     if type(case.body) is type(body) and case.body.decay_length == body.decay_length:
         return
     try:
         stranger = replace(case, body=body)
     except vt.InputError as error:
-        assert "presses a layer" in str(error)
+        assert "needs a layer" in str(error)
         return
     listed = {each for verified in tier.verified for each in verified.bodies}
     reason = tier.covers(stranger)
@@ -157,7 +157,7 @@ def test_small_strain_is_judged_on_the_body(problem):
     R = problem.geometry.radius
     deep = vt.Retraction(vt.AtDepth(0.2 * R), 1e-5)
     vt.Problem(problem.material, problem.traction, problem.geometry, deep)
-    with pytest.raises(vt.InputError, match="beyond small strain"):
+    with pytest.raises(vt.InputError, match="exceeds small strain"):
         replace(problem, protocol=deep)
 
 
@@ -188,12 +188,12 @@ def test_the_older_name_of_a_punch_makes_the_same_groups():
     ("wrong", "words"),
     [
         (dict(tabor=3.0), "no Tabor number"),
-        (dict(cohesion=None), "a punch has a cohesion"),
-        (dict(body=vt.HalfSpace()), "presses a layer"),
-        (dict(geometry=vt.Sphere(1.0)), "has a Tabor number and no cohesion"),
-        (dict(geometry=vt.Sphere(1.0), body=vt.HalfSpace()), "has a Tabor number and no cohesion"),
+        (dict(cohesion=None), "a punch needs a cohesion"),
+        (dict(body=vt.HalfSpace()), "needs a layer"),
+        (dict(geometry=vt.Sphere(1.0)), "needs a Tabor number and no cohesion"),
+        (dict(geometry=vt.Sphere(1.0), body=vt.HalfSpace()), "needs a Tabor number"),
         (dict(body=vt.Layer), "body cannot be a Layer"),
-        (dict(start=vt.AtRadius(1.0)), "does not start at a contact radius"),
+        (dict(start=vt.AtRadius(1.0)), "cannot start at a contact radius"),
     ],
 )
 def test_groups_that_do_not_go_together_are_refused(wrong, words):

@@ -92,14 +92,14 @@ def test_words_have_the_interval_and_si(lens, capsys):
     assert call(lens) == 0
     out = capsys.readouterr().out
     found = answer(capsys, lens)
-    assert out.startswith("every input lies in the range")
+    assert out.startswith("every input is in the training range")
     assert f"= {readable(found['pull_off_force_N'], 'N')}" in out
     low, high = found["interval_N"]
     assert "90 % between" in out and f"= {readable(low, 'N', to=high)}" in out
     assert "work to pull-off" in out and "contact radius there" in out
 
 
-def test_compare_simulates_and_says_how_far_off_the_prediction_is(capsys):
+def test_compare_simulates_and_prints_the_error_of_the_prediction(capsys):
     words = [*SPHERE, *RATE, "--compare"]
     found = answer(capsys, *words)
     simulated = vt.summary(vt.solve(vt.from_dict(found["problem"]), until="pull-off"))
@@ -115,9 +115,7 @@ def test_compare_simulates_and_says_how_far_off_the_prediction_is(capsys):
     assert f"the prediction is {abs(off):.2%}" in out and "simulated in" in out
 
 
-def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simulated(
-    monkeypatch, capsys
-):
+def test_compare_reports_a_missed_interval_and_a_missing_simulation(monkeypatch, capsys):
     words = [*SPHERE, *RATE, "--compare"]
     monkeypatch.setattr(methods, "solve", lambda problem, **options: jkr_result())
     found = answer(capsys, *words)
@@ -138,11 +136,13 @@ def test_compare_says_when_the_interval_did_not_hold_and_when_nothing_was_simula
     assert stopped in capsys.readouterr().out
 
 
-def test_a_theory_answers_outside_and_is_compared_by_force_alone(capsys):
+def test_a_theory_predicts_outside_the_range_and_is_compared_by_force_alone(capsys):
     deep = [*SPHERE, "--rate", "1", "--preload", "600"]
     found = answer(capsys, *deep, "--compare")
     assert found["method"] != "surrogate" and found["inside"] is False
-    assert found["why"].startswith("preload is 600 h0, and 0.005 to 500 h0 was learned from")
+    assert found["why"].startswith(
+        "preload is 600 h0, outside the training range of 0.005 to 500 h0"
+    )
     assert found["work_to_pull_off"] is None and found["difference"]["work_to_pull_off"] is None
     assert abs(found["difference"]["pull_off_force"]) < 0.3
     assert call(*deep) == 0

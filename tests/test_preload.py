@@ -70,7 +70,7 @@ def test_a_march_from_where_the_depth_no_longer_matters_ends_like_the_whole_one(
     assert part.energy_residual < 1e-3
 
 
-def test_the_result_says_where_its_series_begin():
+def test_the_result_states_where_its_series_begin():
     problem = case(1e6)
     result = pulled(problem, until="detached")
     start = result.shallow_start
@@ -180,7 +180,7 @@ def words(capsys, *flags):
     return capsys.readouterr().out
 
 
-def test_the_words_say_where_the_curve_begins(capsys):
+def test_the_text_states_where_the_curve_begins(capsys):
     said = words(capsys, "--preload", "1e5")
     assert "begun at depth" in said and "h0 and not 1e+05 h0" in said
     answer = json.loads(words(capsys, "--preload", "1e5", "--json"))

@@ -92,9 +92,9 @@ def test_numbers_alone_are_dimensionless_and_a_punch_bears_a_stress():
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("go home", "'go home' is no move; write approach SPEED to .*, or hold drive"),
-        ("approach 10 um/s", "is not understood; write approach SPEED to depth|force|radius VALUE"),
-        ("hold breath 2 s", "is not understood; write hold drive|depth|force TIME"),
+        ("go home", "'go home' is not a move; write approach SPEED to .*, or hold drive"),
+        ("approach 10 um/s", "cannot parse .*; write approach SPEED to depth|force|radius VALUE"),
+        ("hold breath 2 s", "cannot parse .*; write hold drive|depth|force TIME"),
         ("dwell 60", "'dwell 60': '60' has no unit"),
         ("dwell -60 s", "'dwell -60 s': duration must be positive"),
         ("approach 10 um to 1 mN", "'10 um' does not measure the right thing"),
@@ -107,9 +107,9 @@ def test_words_that_are_no_move_are_refused_with_the_cure(words, said):
 
 
 def test_a_number_without_a_word_may_be_anything():
-    with pytest.raises(ValueError, match="say whether 20 is a depth, a force or a radius"):
+    with pytest.raises(ValueError, match="state whether 20 is a depth, a force or a radius"):
         move_from_words("approach 10 to 20", PURE_NUMBERS)
-    with pytest.raises(ValueError, match="'near 20' is no start; write apart, depth"):
+    with pytest.raises(ValueError, match="'near 20' is not a start; write apart, depth"):
         start_from_words("near 20", PURE_NUMBERS)
 
 
@@ -143,9 +143,12 @@ def test_a_test_may_end_with_its_moves_and_repeat_them(tmp_path):
         ('start = "apart 2 um"\npreload_depth = "1 um"', "got preload_depth and start"),
         ('start = "apart 2 um"', r"\[protocol\] speed is missing"),
         ('start = "apart 2 um"\nmoves = "dwell 1 s"', r"\[protocol\] moves must be a list"),
-        ('start = "apart 2 um"\nmoves = ["wait"]', r"\[protocol\] 'wait' is no move"),
-        ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\ncycles = 0', "cycles must be a whole"),
-        ('start = "apart 2 um"\nhistory = "h.csv"', "history states the start .*; leave out start"),
+        ('start = "apart 2 um"\nmoves = ["wait"]', r"\[protocol\] 'wait' is not a move"),
+        (
+            'start = "apart 2 um"\nmoves = ["dwell 1 s"]\ncycles = 0',
+            "cycles must be a positive integer",
+        ),
+        ('start = "apart 2 um"\nhistory = "h.csv"', "history states the start .*; omit start"),
         ('start = "apart 2 um"\nmoves = ["dwell 1 s"]\nstiffness = "1 N"', "stiffness: '1 N'"),
     ],
 )
@@ -168,8 +171,8 @@ def test_a_history_is_a_table_of_time_and_displacement(tmp_path):
     [
         ("time_s,depth_um\n0,1\n1,2\n", "one column must be displacement with its unit"),
         ("time_s,displacement_N\n0,1\n1,2\n", "the name of the column displacement: '1 N' does"),
-        ("time_s,displacement_um\n0,1\n", "a history has at least two rows"),
-        ("time_s,displacement_um\n0,1\n0,2\n", "its times ascend"),
+        ("time_s,displacement_um\n0,1\n", "a history needs at least two rows"),
+        ("time_s,displacement_um\n0,1\n0,2\n", "ascending times"),
         ("time_s,displacement_um\n0,1\n1,two\n", "line 3: displacement must be a number in um"),
         ("time_s,displacement_um\n0,1\n1\n", "line 3: 1 entries, and the header has 2"),
         ("time_s,displacement_um\n", "there are no rows below the header"),
@@ -236,7 +239,7 @@ def test_a_law_may_be_a_table(tmp_path):
         (
             'law = "dugdale"\nwork_of_adhesion = "1 J/m^2"\nstrength = "1 MPa"\n'
             'equilibrium_gap = "1 um"',
-            "strength and equilibrium_gap say the same; leave out one",
+            "strength and equilibrium_gap determine each other; give only one",
         ),
     ],
 )
@@ -252,7 +255,7 @@ def test_a_wrong_law_is_refused_with_its_key(interface, said, tmp_path):
         ("exponential", "write exponential:DECAY, got 'exponential'"),
         ("lennard-jones:3", "write lennard-jones, got"),
         ("exponential:soft", "decay must be a pure number"),
-        ("table", "needs its file: table:FILE.csv"),
+        ("table", "needs a file: table:FILE.csv"),
     ],
 )
 def test_a_wrong_law_in_a_flag_is_refused(words, said):
@@ -283,7 +286,7 @@ def test_moves_on_the_command_line():
     [
         (("--apart", "5", "--preload", "1"), "exactly one of .*--apart, got --preload and --apart"),
         (("--apart", "-5"), "--apart must be positive"),
-        (("--preload", "1", "--move", "jump"), "'jump' is no move"),
+        (("--preload", "1", "--move", "jump"), "'jump' is not a move"),
         (("--preload", "1", "--stiffness", "0"), "--stiffness must be positive"),
     ],
 )

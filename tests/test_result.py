@@ -69,7 +69,7 @@ def test_a_saved_result_comes_back_whole(result, tmp_path):
         assert getattr(back, name) == getattr(result, name)
 
 
-def test_a_file_holds_no_code_and_knows_who_wrote_it(tmp_path):
+def test_a_file_contains_no_code_and_states_its_writer(tmp_path):
     save(jkr_result(), tmp_path / "run.npz")
     with np.load(tmp_path / "run.npz", allow_pickle=False) as file:
         header = json.loads(str(file["header"]))
@@ -153,12 +153,15 @@ def test_a_damaged_or_foreign_file_is_named_as_such(damage, tmp_path):
 
 @pytest.mark.parametrize(
     ("damage", "reason"),
-    [(table, "it is not an archive"), (other_header, "its header is not one of viscotack")],
+    [
+        (table, "it is not an archive"),
+        (other_header, "its header is not that of a viscotack result"),
+    ],
 )
-def test_another_kind_of_file_is_told_why(damage, reason, tmp_path):
+def test_another_kind_of_file_is_refused_with_its_reason(damage, reason, tmp_path):
     path = tmp_path / "run.npz"
     damage(path)
-    with pytest.raises(ValueError, match=f"{reason}; give a file that viscotack.save"):
+    with pytest.raises(ValueError, match=f"{reason}; give a file written by viscotack.save"):
         load(path)
 
 
@@ -180,7 +183,7 @@ def test_every_flipped_byte_is_noticed_or_harmless(tmp_path):
         assert back.problem == good.problem
 
 
-def test_a_file_of_a_newer_format_asks_for_an_update(tmp_path, monkeypatch):
+def test_a_file_of_a_newer_format_raises_an_error_to_update(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "_FORMAT_VERSION", 2)
     save(jkr_result(), tmp_path / "run.npz")
     monkeypatch.undo()
@@ -270,7 +273,7 @@ def test_receding_speed_is_not_taken_across_a_jump():
         ("stopped because no equilibrium was found", Outcome.STOPPED),
     ],
 )
-def test_a_status_sentence_tells_its_outcome(status, outcome):
+def test_a_status_message_states_its_outcome(status, outcome):
     assert jkr_result(status=status).outcome is outcome
 
 
@@ -280,7 +283,7 @@ def test_a_status_sentence_tells_its_outcome(status, outcome):
         ({"status": "fine"}, "status must begin with one of 'detached'"),
         ({"force": np.ones(3)}, "equally long"),
         ({"depth": np.full(201, np.nan)}, "depth of a result must be finite"),
-        ({"time": -np.arange(201.0)}, "time of a result must not go back"),
+        ({"time": -np.arange(201.0)}, "time of a result must not decrease"),
         ({"problem": {"tabor": 1}}, "problem must be a Problem or Groups"),
     ],
 )

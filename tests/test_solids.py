@@ -78,7 +78,7 @@ def test_a_power_law_has_the_same_answer_through_either_door():
     assert np.all(made.inside(like))
 
 
-def test_what_the_file_says_it_is_worth_is_found_again_on_rows_kept_apart():
+def test_stated_errors_of_the_file_are_reproduced_on_test_rows():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
     from training.train_solids import CHOSEN, parts, read
     from viscotack import datasets
@@ -112,7 +112,7 @@ def test_a_search_that_begins_elsewhere_ends_at_the_same_power_law():
 
 
 @pytest.mark.parametrize("name", SOLIDS)
-def test_a_solid_that_is_slower_pulled_slower_answers_the_same(name):
+def test_scaling_relaxation_times_and_rate_together_changes_nothing(name):
     # what a temperature does by a shift
     answer = vt.predict(sphere(SOLIDS[name]))
     other = vt.predict(sphere(slowed(SOLIDS[name], 1e5), rate=3e-5))
@@ -154,7 +154,7 @@ def test_its_curve_ends_at_the_pull_off_and_has_a_band():
 def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
     # a step to either side of the test, of a solid that is hardly stiffer as a glass
     solid = vt.Prony(**UNIT, branches=((0.6776, 0.1623), (0.5848, 329.8)))
-    with pytest.raises(vt.OutOfRange, match="is unlike that of all solids which were learned from"):
+    with pytest.raises(vt.OutOfRange, match="is unlike that of all solids in the training data"):
         vt.predict(sphere(solid, 0.06, 0.03, 1.0), budget=AT_ONCE)
     with pytest.raises(vt.OutOfRange, match="is unlike that of all solids .* no theory applies"):
         vt.predict(sphere(solid, 0.06, 0.03, 1.0))
@@ -165,8 +165,8 @@ def test_a_solid_unlike_all_that_were_learned_from_is_refused_in_words():
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
-        ({"tabor": 0.001}, "tabor is 0.001, and 0.01 to 10 was learned from"),
-        ({"preload": 900.0}, "preload is 900 h0, and 0.005 to 500 h0 was learned from"),
+        ({"tabor": 0.001}, "tabor is 0.001, outside the training range of 0.01 to 10"),
+        ({"preload": 900.0}, "preload is 900 h0, outside the training range of 0.005 to 500 h0"),
     ],
 )
 def test_what_is_out_of_range_is_said(changed, words):
@@ -179,14 +179,14 @@ def test_a_damaged_file_is_refused(tmp_path):
     content[len(content) // 2] ^= 1
     path = tmp_path / "solids.npz"
     path.write_bytes(content)
-    with pytest.raises(ValueError, match="is not the file of a surrogate, or damaged"):
+    with pytest.raises(ValueError, match="is not the file of a surrogate, or is damaged"):
         store.load(path)
     path.write_bytes(b"")
-    with pytest.raises(ValueError, match="is not the file of a surrogate, or damaged"):
+    with pytest.raises(ValueError, match="is not the file of a surrogate, or is damaged"):
         store.load(path)
 
 
-def test_the_file_says_what_it_is_worth():
+def test_the_file_states_its_errors():
     facts = store.facts(store.FILES["solids"])
     even = facts["scores"]["judged by, drawn evenly"]
     assert 0.88 <= even["force"]["cover"] <= 0.95 and 0.88 <= even["work"]["cover"] <= 0.95
@@ -207,7 +207,7 @@ def test_a_number_is_the_same_solid_everywhere():
 
 
 @pytest.mark.parametrize("number", [0, 3, 11, 26, STRETCHED])
-def test_a_random_solid_creeps_as_its_spectrum_says(number):
+def test_creep_of_a_random_solid_agrees_with_its_spectrum(number):
     k = 1e-3
     weights, times = creep_spectrum(number, k)
     t = np.geomspace(0.01 * times[0], 100 * times[-1], 40)

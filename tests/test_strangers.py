@@ -164,7 +164,7 @@ def bomb(path, size):
         ({"fields/": np.ones(3)}, "does not belong"),
         ({"time": b"no array"}, "damaged"),
         ({"header": np.array("[" * 100_000)}, "damaged"),
-        ({"header": np.array('{"format": 1}')}, "not one of viscotack"),
+        ({"header": np.array('{"format": 1}')}, "not that of a viscotack result"),
         ({"time": np.array([{}], dtype=object)}, "damaged"),
     ],
 )
@@ -203,7 +203,7 @@ def surrogate_with(tmp_path, **arrays):
         ({"trust.levels": np.ones((3, 6))}, r"trust.levels must have the shape \(4, 7\)"),
         ({"trust.levels": None}, "not the file of a surrogate"),
         ({"fast.bias.0": None}, "not the file of a surrogate"),
-        ({"give.spread": None}, "give has a centre alone"),
+        ({"give.spread": None}, "give has only a centre"),
         ({"give.spread": np.ones(1, dtype=int)}, "give.spread must be finite numbers"),
     ],
 )

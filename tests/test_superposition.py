@@ -44,8 +44,8 @@ def test_both_moduli_find_the_shift_of_a_melt(keywords):
     assert np.max(table.uncertainty) < 0.06
 
 
-def test_storage_alone_misses_the_shift_of_a_melt_and_says_how_much():
-    with pytest.raises(ValueError, match="do not fix the shift"):
+def test_shifting_by_storage_alone_has_an_error_for_a_melt_and_reports_it():
+    with pytest.raises(ValueError, match="do not determine the shift"):
         master_curve(melt(2), reference_temperature=REFERENCE, by="storage", vertical="none")
     sweeps = melt(2).without(0)
     curve = master_curve(sweeps, reference_temperature=REFERENCE, by="storage", vertical="none")
@@ -54,11 +54,11 @@ def test_storage_alone_misses_the_shift_of_a_melt_and_says_how_much():
     assert np.all(off <= QUANTILE * curve.shifts.uncertainty + 1e-9)
     words = " ".join(superposition(sweeps, curve.shifts).words())
     assert "do not superpose in loss" in words
-    assert "both moduli ask for" in words
+    assert "both moduli give" in words
     assert "Kramers-Kronig" in contradiction(curve)
 
 
-def test_nothing_speaks_against_a_melt_that_superposes():
+def test_a_melt_that_superposes_has_no_warnings():
     sweeps = melt(2)
     curve = master_curve(sweeps, reference_temperature=REFERENCE)
     assert superposition(sweeps, curve.shifts).holds
@@ -99,7 +99,7 @@ def test_a_loss_that_contradicts_storage_is_found_out_and_the_shifts_are_called_
     sweeps = read_dma(DMA / "freq_user_raw.csv")
     sweeps = sweeps.chosen((sweeps.temperature > 244) & (sweeps.temperature < 300))
     curve = master_curve(sweeps, reference_temperature=298.15)
-    assert "storage and loss together, free to move, do not fix" in curve.source.notes[-1]
+    assert "storage and loss with vertical shifts do not determine" in curve.source.notes[-1]
     assert "do not superpose in loss" in superposition(sweeps, curve.shifts).words()[0]
     assert "Kramers-Kronig" in contradiction(curve)
     assert curve.shifts.uncertainty[0] > 0.5
@@ -156,7 +156,7 @@ def test_uncertain_shifts_widen_intervals_and_go_into_the_passport(tmp_path):
     before, after = (r.interval("tau0") for r in (plain, report))
     assert after.value == before.value
     assert np.log(after.high / after.low) > 1.1 * np.log(before.high / before.low)
-    assert any("the shifts are known to" in words for words in report.cautions)
+    assert any("the uncertainty of the shifts is" in words for words in report.cautions)
     # shifts that are certain change nothing
     sure = replace(curve.shifts, uncertainty=np.zeros(5))
     assert allow_for_shifts(plain, curve, sure) is plain
@@ -199,7 +199,7 @@ def test_the_source_of_tests_from_several_files_names_all(tmp_path):
     tests = read_relaxations(paths, temperature_in_name=True)
     curve, _ = superposed(tests, reference_temperature=REFERENCE, vertical=EXPANSION)
     assert all(path.name in curve.source.path for path in paths)
-    assert "3 files as one material" in curve.source.notes
+    assert "3 files joined as one material" in curve.source.notes
     copy = tmp_path / "melt_283.15K.csv"
     copy.write_bytes(paths[0].read_bytes())
     tests = read_relaxations([*paths, copy], temperature_in_name=True)
@@ -209,7 +209,7 @@ def test_the_source_of_tests_from_several_files_names_all(tmp_path):
 
 def test_tests_over_time_that_cannot_superpose_are_refused():
     tests = relaxations(0)
-    with pytest.raises(ValueError, match="tests of one kind superpose"):
+    with pytest.raises(ValueError, match="only tests of one kind can be superposed"):
         superposed([tests[0], creeps(0)[1]], reference_temperature=REFERENCE)
     with pytest.raises(ValueError, match="temperature of .* is not known"):
         superposed([replace(tests[0], temperature=None)], reference_temperature=REFERENCE)

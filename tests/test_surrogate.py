@@ -69,7 +69,7 @@ def random_surrogate(seed=0):
 # identity
 
 
-def test_networks_side_by_side_say_what_each_says_alone():
+def test_stacked_networks_equal_the_single_networks():
     rng = np.random.default_rng(3)
     one, two = (random_networks(rng, 5, 7, 7, 2) for _ in range(2))
     x = rng.normal(size=(4100, 5))
@@ -82,7 +82,7 @@ def test_networks_side_by_side_say_what_each_says_alone():
     assert both[0, 0] == pytest.approx((hidden @ one.weights[2][0] + one.biases[2][0])[0])
 
 
-def test_networks_that_are_added_say_the_sum():
+def test_added_networks_return_the_sum():
     rng = np.random.default_rng(4)
     one, other = random_networks(rng, 5, 7, 6, 2), random_networks(rng, 5, 3, 4, 2)
     x = rng.normal(size=(30, 5))
@@ -211,7 +211,7 @@ def test_a_formula_without_a_known_derivative_is_refused():
         np.sort(x)
 
 
-def test_inside_says_which_input_is_out():
+def test_inside_names_the_input_out_of_range():
     surrogate = random_surrogate()
     assert np.all(surrogate.inside([LOW, HIGH]))
     for i in range(5):
@@ -286,7 +286,7 @@ def test_what_is_known_of_tests_is_that_of_their_own_surrogate():
     assert shipped("sphere") is shipped()
     force = shipped().evaluate(tests).pull_off_force
     assert np.array_equal(force, shipped().evaluate(groups).pull_off_force)
-    with pytest.raises(ValueError, match="tests of another surrogate"):
+    with pytest.raises(ValueError, match="tests belong to another surrogate"):
         random_surrogate().evaluate(tests)
     with pytest.raises(ValueError, match="no intervals were measured for a short range"):
         shipped("short range").intervals(groups, shipped().evaluate(groups))
@@ -324,7 +324,7 @@ def test_physics_of_another_contact_is_plugged_in_by_one_class(tmp_path):
     with pytest.raises(ValueError, match="no intervals were measured for a spring"):
         made.intervals(rows, said)
     store.save(made, tmp_path / "spring.npz", {})
-    with pytest.raises(ValueError, match="not the file of a surrogate, or damaged: 'spring'"):
+    with pytest.raises(ValueError, match="not the file of a surrogate, or is damaged: 'spring'"):
         store.load(tmp_path / "spring.npz")
 
 
@@ -350,13 +350,13 @@ def test_a_damaged_or_foreign_file_is_refused(tmp_path):
         store.load(tmp_path / "one.npy")
 
 
-def test_the_shipped_file_is_small_and_says_what_it_is_worth():
+def test_the_shipped_file_is_small_and_states_its_errors():
     assert store.SHIPPED.stat().st_size < 5e6
     facts = store.facts()
     assert {"sets", "rows", "recipe", "scores", "libraries"} <= set(facts)
 
 
-def test_the_shipped_surrogate_is_as_good_as_was_asked():
+def test_the_shipped_surrogate_meets_its_required_accuracy():
     scores = store.facts()["scores"]
     at_random = scores["kept apart at random"]
     # drawn as the two sets are; of `chosen`, where the networks erred most, the errors are larger
@@ -429,7 +429,7 @@ def test_the_slowest_retraction_is_elastic():
     assert force == pytest.approx(lennard_jones.pull_off_ratio(groups[:, 0]), rel=2e-2)
 
 
-def test_the_kept_rows_are_as_the_file_says():
+def test_errors_on_test_rows_equal_those_in_the_file():
     pytest.importorskip("pyarrow", reason="datasets are stored in Parquet")
     from training.make import parted
     from training.scores import scores

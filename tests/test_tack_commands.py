@@ -64,4 +64,4 @@ def test_compliance_and_signs_are_said_by_flags(probe, capsys):
     assert exit_status([*plain, "--into", "up"]) == 2
     assert "--into must be + or -" in capsys.readouterr().err
     assert exit_status([*plain, "--compression", "-"]) == 2
-    assert "a compression is said to be" in capsys.readouterr().err
+    assert "compression was given as" in capsys.readouterr().err

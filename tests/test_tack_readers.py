@@ -70,7 +70,7 @@ def test_intervals_that_do_not_follow_each_other_are_records_of_their_own(tmp_pa
         path.write_bytes(content)
     assert [len(record) for record in tack.read(paths)] == [560, 700]
     paths[2].rename(tmp_path / "probe_Interval_0.csv")
-    with pytest.raises(InputError, match="before the end of the interval before it"):
+    with pytest.raises(InputError, match="before the end of the previous interval"):
         tack.read([tmp_path / "probe_Interval_0.csv", *paths[:2]])
 
 
@@ -106,16 +106,16 @@ REFUSED = {
     "no unit": (PLAIN.replace(b"[mN]", b""), "--force-unit"),
     "no unit of length": (PLAIN.replace(b"[um]", b""), "--length-unit"),
     "no time": (PLAIN.replace(b"Time [s]", b"Number"), "--nominal-speed"),
-    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "names the columns of a tack test"),
+    "no force": (PLAIN.replace(b"Force [mN]", b"Colour"), "has the columns of a tack test"),
     "two forces": (PLAIN.replace(b"Time [s]", b"Load [N]"), "--force-column"),
-    "no headings": (b"1,2,3\n4,5,6\n", "names the columns of a tack test"),
-    "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "a test needs 20"),
-    "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells where"),
+    "no headings": (b"1,2,3\n4,5,6\n", "has the columns of a tack test"),
+    "few rows": (b"\r\n".join(PLAIN.split(b"\r\n")[:10]) + b"\r\n", "at least 20 are needed"),
+    "a cell lost": (PLAIN.replace(b",-199.5591,0", b",-199.5591"), "line 3: 2 cells under"),
     "a word": (PLAIN.replace(b"-199.5591", b"near"), "line 3: column"),
     "time goes back": (
         b"\r\n".join([PLAIN.split(b"\r\n")[0], *PLAIN.split(b"\r\n")[300:], PLAIN.split(b"\r\n")[9],
                       b""]),
-        "time must rise",
+        "time must increase",
     ),
 }  # fmt: skip
 
@@ -130,7 +130,7 @@ def test_a_file_that_leaves_something_open_is_refused_with_what_to_do(what, tmp_
     assert "test.csv" in str(error.value)
 
 
-def test_what_a_file_does_not_say_can_be_said(tmp_path):
+def test_values_missing_from_a_file_can_be_given(tmp_path):
     bare = PLAIN.replace(b"[mN]", b"").replace(b"[um]", b"").replace(b"[s]", b"")
     units = {"force_unit": "mN", "length_unit": "um", "time_unit": "s"}
     (record,) = read(tmp_path, bare, **units)
@@ -148,7 +148,7 @@ def test_what_a_file_does_not_say_can_be_said(tmp_path):
 
 def test_a_microscope_that_was_not_calibrated_is_refused(tmp_path):
     content = tack_files.ibw(WHOLE).replace(b"SpringConstant", b"SpringConstanT")
-    with pytest.raises(InputError, match="no SpringConstant"):
+    with pytest.raises(InputError, match="lacks SpringConstant"):
         read(tmp_path, content, "curve.ibw")
     with pytest.raises(InputError, match="ends after"):
         read(tmp_path, tack_files.nid(WHOLE)[:-100], "curve.nid")
@@ -212,7 +212,7 @@ def test_what_afmformats_cannot_read_is_refused_by_the_name_of_the_file(tmp_path
         read(tmp_path, b"\x89HDF\r\n\x1a\n" + bytes(40), "map.h5")
 
 
-def test_without_afmformats_the_error_says_how_to_install_it(tmp_path, monkeypatch):
+def test_without_afmformats_the_error_states_how_to_install_it(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "afmformats", None)
     with pytest.raises(InputError, match=r"map.jpk-qi-data: .*pip install viscotack\[afm\]"):
         read(tmp_path, tack_files.jpk(WHOLE), "map.jpk-qi-data")
@@ -243,7 +243,7 @@ ALL = {
 
 
 @pytest.mark.parametrize("tries", [120, pytest.param(6000, marks=pytest.mark.slow)])
-def test_every_reader_answers_or_refuses_a_mutated_file(tries, tmp_path):
+def test_every_reader_reads_or_refuses_a_mutated_file(tries, tmp_path):
     rng = np.random.default_rng(11)
     names, answered = list(ALL), 0
     for _ in range(tries):

@@ -170,7 +170,7 @@ DUGDALE = CASE | dict(strength=1e5)
         ),
     ],
 )
-def test_outside_its_domain_a_formula_says_what_to_do(call, message):
+def test_outside_its_domain_a_formula_raises_an_error_with_a_remedy(call, message):
     with pytest.raises(ValueError, match=message):
         call()
 

@@ -46,7 +46,7 @@ SPHERE = {"indenter": "sphere", "tabor": 200.0, "preload": 10.0, "rate": 1.0}
         ("theory punch", {"case": "case.toml", "stress": "60 kPa", "map": True}),
     ],
 )
-def test_a_study_in_another_folder_asks_the_same(word, given, tmp_path, monkeypatch):
+def test_a_study_in_another_folder_gives_the_same_result(word, given, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)

@@ -57,12 +57,12 @@ OWN = {
 def test_every_tier_but_the_simulation_refuses_a_noun_it_was_not_verified_for(tier, noun):
     reason = tier.covers(OWN[noun])
     assert "Own" in reason or "FlatPunch" in reason, (tier.name, reason)
-    with pytest.raises(vt.OutOfRange, match="verified for"):
+    with pytest.raises(vt.OutOfRange, match="verified only for"):
         tier.answer(OWN[noun])
 
 
 @pytest.mark.parametrize("tier", TIERS, ids=lambda t: t.name)
-def test_a_tier_that_covers_a_problem_answers_it_with_an_interval_around_the_value(tier):
+def test_a_tier_that_covers_a_problem_returns_a_value_with_an_interval(tier):
     cases = [
         groups(),
         groups(material=standard(0.1), rate=1.0),
@@ -101,7 +101,7 @@ def punch():
     )
 
 
-def test_a_larger_budget_brings_the_simulation_in_where_no_surrogate_answers():
+def test_a_larger_budget_uses_the_simulation_where_no_surrogate_applies():
     law = vt.Exponential(1.0, 1.0, 1.0)
     case = groups(tabor=6.0, rate=1.0, start=vt.AtDepth(60.0), traction=law)
     with pytest.raises(vt.OutOfRange, match="the traction law is Exponential"):
@@ -131,13 +131,13 @@ def test_a_budget_is_a_positive_time():
 
 def test_other_machines_are_simulated_on_request_and_else_refused_in_words():
     spring = groups(stiffness=2.0)
-    with pytest.raises(vt.OutOfRange, match="predict` with --exact, answers it"):
+    with pytest.raises(vt.OutOfRange, match="predict` with --exact, can compute it"):
         vt.predict(spring)
     exact = vt.predict(spring, exact=True)
     assert exact.pull_off_force == vt.pull_off_force(vt.solve(spring, until="pull-off"))
 
 
-def test_where_the_force_may_have_two_maxima_neither_surrogate_nor_theory_answers():
+def test_where_the_force_may_have_two_maxima_surrogate_and_theory_refuse():
     case = groups(
         tabor=1.4845539744, material=standard(0.0028442056), start=vt.AtDepth(206.95), rate=183.26
     )

@@ -137,7 +137,7 @@ def test_a_result_has_the_numbers_of_the_functions_and_of_its_summary(problem):
 def test_a_sphere_has_a_force_and_no_stress(word):
     given = COARSE if word == "simulate" else {}
     found = ask(word, problem=SPHERE, **given).found
-    words = "there is no pull_off_stress of this problem; it has pull_off_force"
+    words = "this kind of problem has no pull_off_stress; use pull_off_force"
     with pytest.raises(vt.InputError, match=words):
         found.pull_off_stress  # noqa: B018
 

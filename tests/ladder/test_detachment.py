@@ -123,7 +123,7 @@ def test_the_state_does_not_depend_on_the_units(length, load, time):
 def test_what_the_theory_does_not_hold_is_refused():
     with pytest.raises(ValueError, match="speed must be positive"):
         at(0.0)
-    with pytest.raises(ValueError, match="press deeper, or pull slower"):
+    with pytest.raises(ValueError, match="press deeper, or retract more slowly"):
         at(10.0, depth=1e-5)
     with pytest.raises(ValueError, match="that of the pull-off of the relaxed contact"):
         at(1e-6, depth=0.999 * jkr.instability(**LENS).depth)

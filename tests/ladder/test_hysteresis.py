@@ -76,7 +76,7 @@ def test_the_hysteresis_is_the_integral_of_the_force_over_the_depth():
     assert cycle.hysteresis == pytest.approx(loop_integral, rel=2e-3, abs=0)
 
 
-def test_a_loop_says_what_returned():
+def test_a_loop_reports_the_returned_work():
     there = Approach(5.0, AtDepth(4.0))
     back = Retract(5.0, AtDepth(2.0))
 
@@ -102,7 +102,7 @@ def test_energy_left_in_the_modes_counts_as_lost():
     assert cycle.hysteresis == pytest.approx(lost + kept, rel=5e-3, abs=0)
 
 
-def test_cycles_have_errors_that_cover_the_truth_and_come_back_from_a_file(tmp_path):
+def test_errors_of_cycles_cover_the_true_values_and_are_kept_in_a_file(tmp_path):
     tap = (Approach(5.0, AtDepth(2.0)), Retract(5.0, AtDepth(-9.0)), Dwell(30.0))
     groups = sphere(Apart(9.0), *2 * tap, material=SOLID, tabor=1.0)
     result = solve(groups, accuracy=0.02)

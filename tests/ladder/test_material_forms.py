@@ -74,7 +74,7 @@ def test_a_standard_solid_is_one_branch():
 @pytest.mark.parametrize("kind", [RetardationPowerLaw, RelaxationPowerLaw])
 @pytest.mark.parametrize("n", [0.2, 0.8, 1.6])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
-def test_a_prony_form_is_as_close_as_it_says(kind, n, tolerance):
+def test_the_error_of_a_prony_form_is_below_its_stated_bound(kind, n, tolerance):
     solid = kind(rubbery_modulus=E0, glassy_modulus=3e9, exponent=n, tau0=1e-3, poisson_ratio=0.5)
     form = prony_form(solid, frequencies=(1.0, 1e7), tolerance=tolerance)
     assert isinstance(form, PronyForm)

@@ -435,7 +435,7 @@ WINDOWS = [(1e-9, 1e3), (1e-12, 1.0), (1e-12, 1e-6), (1e-3, 1e3), (10.0, 1e6), (
     ],
     ids=lambda solid: f"{solid[0].__name__}-{[*solid[1].values()][0]:g}",
 )
-def test_modes_are_as_close_as_rounding_allows_where_a_crack_theory_asks_for_more(solid, k):
+def test_modes_reach_the_rounding_error_where_a_crack_theory_needs_more(solid, k):
     kind, constants = solid
     material = kind(
         rubbery_modulus=E0, glassy_modulus=E0 / k, tau0=TAU, poisson_ratio=0.4, **constants

@@ -220,7 +220,7 @@ def test_the_transition_fits_do_not_depend_on_the_units(length, load):
     assert a == pytest.approx(L * old, rel=1e-9, abs=0)
 
 
-def test_the_transition_refuses_what_lies_outside():
+def test_the_transition_refuses_values_out_of_range():
     tip = dict(contact_radius_without_load=1e-8, pull_off_force=2e-8)
     with pytest.raises(ValueError, match="between 0"):
         transition.contact_radius(0.0, transition=1.1, **tip)

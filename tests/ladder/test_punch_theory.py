@@ -147,7 +147,7 @@ def test_words_outside_their_range_are_refused():
 
 
 @bases
-def test_a_pad_answers_with_the_exact_curve(base):
+def test_a_pad_returns_the_exact_curve(base):
     pad, b = replace(STRONG, base=base), np.geomspace(1e-6, 1e-2, 7)
     stress = pad.elastic_stress(b)
     np.testing.assert_array_equal(stress, crossover.pull_off_stress(b, **PAD, base=base))

@@ -137,7 +137,7 @@ def test_steps_are_of_second_order(monkeypatch):
 
 
 @pytest.mark.parametrize("stiffness", [None, 0.1])
-def test_a_held_tension_is_the_one_that_was_told(stiffness):
+def test_a_held_tension_equals_the_given_one(stiffness):
     held = Groups(
         tabor=12.0,
         material=standard(0.2),
@@ -179,7 +179,7 @@ def test_a_contact_that_lets_go_where_it_starts_is_answered_where_zones_are_shor
         ),
     ],
 )
-def test_a_history_of_a_kind_that_was_not_simulated_says_so(case, words):
+def test_a_history_of_a_kind_that_was_not_simulated_has_a_note(case, words):
     found = crack_contact(case)
     assert not found.inside
     assert words in found.why

@@ -180,7 +180,8 @@ def test_words_state_the_constants_of_a_law_and_their_errors():
     assert activated.words() == "Arrhenius with 85 kJ/mol"
     found = FittedShift(wlf, (0.12, 3.4), 0.05, worst=(280.0, 0.2))
     assert found.words() == (
-        "WLF with c1 = 8.5 +- 0.12, c2 = 101.6 +- 3.4 K at 26.85 C; 0.05 decades off on average"
+        "WLF with c1 = 8.5 +- 0.12, c2 = 101.6 +- 3.4 K at 26.85 C; 0.05 decades off the table on "
+        "average"
     )
     assert FittedShift(activated, (2e3,), 0.01).words().startswith("Arrhenius with 85 +- 2 kJ/mol;")
     # a passport does not keep the row that fits worst
@@ -202,5 +203,5 @@ def test_a_table_goes_on_straight_for_a_kelvin():
     assert beside == pytest.approx(inside, rel=2e-3)
     assert table.log10_shift(273.15) < table.log10_shift(273.14)
     assert table.log10_shift(242.65) > 1.5
-    with pytest.raises(ValueError, match="a table is not extrapolated"):
+    with pytest.raises(ValueError, match="tables are not extrapolated"):
         table.log10_shift(274.2)

@@ -206,7 +206,7 @@ def test_a_table_that_is_no_law_is_refused(gap, traction, words):
 
 def test_points_of_another_scale_are_refused_with_the_cure():
     points = tuple((2 * gap, traction) for gap, traction in TABLE.points)
-    with pytest.raises(ValueError, match="Tabulated.of_points makes them so"):
+    with pytest.raises(ValueError, match="Tabulated.of_points normalises them"):
         Tabulated(1.0, 1.0, points)
 
 

@@ -1,4 +1,4 @@
-"""Make a dataset again: ``python -m viscotack.datasets NAME --out DIR [--workers N]``."""
+"""Compute a dataset again: ``python -m viscotack.datasets NAME --out DIR [--workers N]``."""
 
 import argparse
 import sys
@@ -14,14 +14,14 @@ def _say(progress: Progress) -> None:
 
 
 def main() -> None:
-    """Run and say where the file is."""
+    """Run the campaigns and print the path of the file."""
     parser = argparse.ArgumentParser(prog="python -m viscotack.datasets", description=__doc__)
-    parser.add_argument("name", choices=NAMES, help="which set")
+    parser.add_argument("name", choices=NAMES, help="dataset")
     parser.add_argument(
-        "--out", type=Path, required=True, help="folder of the campaigns; run again to go on"
+        "--out", type=Path, required=True, help="folder of the campaigns; run again to continue"
     )
     parser.add_argument("--workers", type=int, default=1, help="processes")
-    parser.add_argument("--cases", type=int, help="only so many, from the beginning of the plan")
+    parser.add_argument("--cases", type=int, help="compute only the first cases of the plan")
     given = parser.parse_args()
     print(make(given.name, given.out, workers=given.workers, cases=given.cases, report=_say))
 

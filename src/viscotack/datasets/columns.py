@@ -1,4 +1,4 @@
-"""What a row of a dataset has: the columns, their units, and their words for the data card."""
+"""Columns of the datasets: names, units and descriptions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,9 +9,9 @@ from viscotack.campaign.random_solids import creep_spectrum
 from viscotack.errors import InputError
 from viscotack.problem.outputs import PLANE, REVOLUTION, Kind
 
-# Stated relative errors are no less than these, which benchmarks/datasets.py has shown to hold in
-# 95 % of the rows: everywhere, for spheres pressed deep, and for spheres of large Tabor number that
-# relax a thousandfold, whose trajectories come close to jumps.
+# Lower bounds of stated relative errors, shown by benchmarks/datasets.py to hold in 95 % of the
+# rows: for all spheres, for deeply pressed ones, and for those of large Tabor number and small
+# modulus ratio, whose trajectories come close to jumps.
 LEAST_ERRORS = {"force_error": 1e-3, "work_error": 5e-3}
 DEEP, LEAST_DEEP = 80.0, {"force_error": 1.5e-3, "work_error": 5e-3}
 LARGE_TABOR, SMALL_RATIO = 5.0, 1e-3
@@ -25,20 +25,21 @@ class Column:
     Attributes
     ----------
     name : str
-        In the dataset.
+        Name in the dataset.
     unit : str
-        As in docs/symbols.md; "1" for none.
+        Unit as in docs/symbols.md; "1" if dimensionless.
     words : str
-        What it is.
+        Description.
     source : str
-        Its name in a campaign.
+        Name in a campaign.
     form : {"exact", "number", "whole", "curve", "spectrum"}
-        Exact numbers keep all digits; others have seven, far more than they are good for; a curve
-        is a list of 24, a spectrum one of exact numbers, as many as the solid has times.
+        Exact numbers keep all digits; others are rounded to seven, far more than their accuracy; a
+        curve is a list of 24 numbers; a spectrum is a list of exact numbers, one per time of the
+        solid.
     less : str
-        The number that is taken from it; "" for none.
+        Name of a number to subtract; "" for none.
     error : bool
-        Whether it is an error, and so no less than :func:`least_errors`.
+        Whether it is an error, bounded below by :func:`least_errors`.
     """
 
     name: str
@@ -53,7 +54,7 @@ class Column:
         object.__setattr__(self, "source", self.source or self.name)
 
     def type(self, pa: Any) -> Any:
-        """Return the type of pyarrow that the column is stored in."""
+        """Return the pyarrow type of the column."""
         if self.form == "curve":
             return pa.list_(pa.float32(), 24)
         if self.form == "spectrum":
@@ -67,7 +68,7 @@ class Column:
             return found[_SPECTRUM.index(self.name)].tolist()
         if self.source not in row:
             raise InputError(
-                f"the campaign has no column {self.source!r}; run its plan anew, in another folder"
+                f"the campaign has no column {self.source!r}; run its plan again in a new folder"
             )
         value = row[self.source]
         if self.form in ("exact", "whole") or value is None:
@@ -79,7 +80,7 @@ class Column:
 
 
 def least_errors(row: Mapping[str, Any]) -> dict[str, float]:
-    """Return the least relative errors that a row may state, by column.
+    """Return the smallest relative errors that a row may state, by column.
 
     Examples
     --------
@@ -114,7 +115,7 @@ _HOW = (
 
 
 def _inputs(kind: str) -> tuple[Column, ...]:
-    """Return the columns of the inputs of a kind of campaign, by their cards."""
+    """Return the input columns of a kind of campaign, from their cards."""
     names = (*KINDS[kind].columns[:-1], "preload", "rate")
     return tuple(
         Column(
@@ -178,9 +179,9 @@ _SPHERE = (
     *_curve(REVOLUTION, "compression"),
     *_HOW,
 )
-# What is computed from the number of a solid, and not by the campaign.
+# Columns computed from the index of a solid, not by the campaign.
 _SPECTRUM = ("retardation_weights", "retardation_times")
-# By kind of campaign.
+# Columns by kind of campaign.
 KEPT = {
     "sphere": (*_inputs("sphere"), *_SPHERE),
     "solid": (
@@ -208,7 +209,7 @@ KEPT = {
 
 
 def units(kind: str) -> dict[str, list[str]]:
-    """Return unit and words of every column of a kind of campaign.
+    """Return unit and description of every column of a kind of campaign.
 
     Examples
     --------

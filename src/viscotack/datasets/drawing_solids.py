@@ -1,9 +1,9 @@
-r"""Draw the cases of `solids`: ``python -m viscotack.datasets.drawing_solids --cases 20000``.
+r"""Sample the cases of `solids`: ``python -m viscotack.datasets.drawing_solids --cases 20000``.
 
-Tabor number, modulus ratio and depth are spread evenly in the logarithm over the ranges of `broad`,
-every case with a solid of its own. The rate is spread evenly in the logarithm from where all of its
-creep is over when the contact ends to where none has begun: what lies beyond is one of two limits.
-The first cases do not depend on how many there are, so a list can be made longer.
+Tabor number, modulus ratio and depth are distributed uniformly in the logarithm over the ranges of
+`broad`, and every case has its own solid. The rate is distributed uniformly in the logarithm
+between the limit where all creep is over when the contact ends and the limit where none has begun.
+The first cases do not depend on the number of cases, so a list can be extended.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ import numpy as np
 from viscotack.campaign.random_solids import creep_spectrum
 
 _LOW, _HIGH = np.log10([0.01, 1e-4, 0.005]), np.log10([10.0, 0.7, 500.0])
-# Creep over the relaxed one at which it is over, and over the glassy one at which it begins.
+# Ratio of creep to the relaxed one where it is over, and to the glassy one where it begins.
 _OVER, _BEGUN = 0.95, 1.1
-# How far the rates go beyond: of the slowest and the fastest test.
+# Factors by which rates exceed this range: slowest and fastest.
 _SLOW, _FAST = 0.02, 10.0
 _DIGITS = 6
 NAMES = ("tabor", "modulus_ratio", "solid", "preload", "rate")
 
 
 def rows(count: int, *, first: int = 0, seed: int = 23) -> Iterator[tuple[str, ...]]:
-    """Yield cases as texts, in the order of ``NAMES``; `first` is the number of the first solid.
+    """Yield cases as texts, in the order of ``NAMES``; `first` is the index of the first solid.
 
     Examples
     --------
@@ -36,7 +36,7 @@ def rows(count: int, *, first: int = 0, seed: int = 23) -> Iterator[tuple[str, .
     """
     from scipy.stats import qmc
 
-    # the name that every supported version of scipy knows
+    # the name in every supported version of scipy
     generator: dict[str, Any] = {"seed": seed}
     places = qmc.Sobol(4, **generator).random(1 << max(count - 1, 1).bit_length())[:count]
     for number, (*place, speed) in enumerate(places.tolist(), first):
@@ -51,7 +51,7 @@ def _rates(number: int, k: float, depth: float) -> tuple[float, float]:
     weights, times = creep_spectrum(number, k)
     at = np.geomspace(1e-6 * times[0], 1e3 * times[-1], 600)
     creep = k + (1 - k) * -np.expm1(-at[:, None] / times) @ (weights / weights.sum())
-    # no later than where it would have begun if the glass were the rest of the creep
+    # at most the start of creep if the remaining creep equalled the glassy compliance
     begun = min(_BEGUN * k, k + 0.1 * (1 - k))
     over = max(_OVER, k + 0.9 * (1 - k))
     return _SLOW / np.interp(over, creep, at), _FAST * max(depth, 1.0) / np.interp(begun, creep, at)
@@ -66,9 +66,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         prog="python -m viscotack.datasets.drawing_solids", description=__doc__
     )
-    parser.add_argument("--cases", type=int, required=True, help="how many")
+    parser.add_argument("--cases", type=int, required=True, help="number of cases")
     parser.add_argument("--first", type=int, default=0, help="number of the first solid")
-    parser.add_argument("--seed", type=int, default=23, help="of the other inputs")
+    parser.add_argument("--seed", type=int, default=23, help="seed of the other inputs")
     given = parser.parse_args()
     print(",".join(NAMES))
     for row in rows(given.cases, first=given.first, seed=given.seed):

@@ -41,6 +41,11 @@ METADATA_KEY = b"viscotack dataset"
 def path(name: str) -> Path:
     """Return the Parquet file of a set.
 
+    Returns
+    -------
+    Path
+        Path of the file; it may be absent.
+
     Raises
     ------
     ValueError
@@ -58,6 +63,11 @@ def path(name: str) -> Path:
 
 def plan_path(name: str) -> Path:
     """Return the plan of a set, for ``viscotack campaign``.
+
+    Returns
+    -------
+    Path
+        Path of the TOML file.
 
     Examples
     --------
@@ -88,6 +98,11 @@ def load(name: str) -> Any:
         and retracted so fast that nothing relaxes. ``punch_starts``: such punches from starts of
         any stress. ``punch_faces``: such at the ends of the range.
 
+    Returns
+    -------
+    pyarrow.Table
+        One row per case; units and descriptions of the columns: :func:`metadata`.
+
     Raises
     ------
     ValueError
@@ -111,6 +126,16 @@ def load(name: str) -> Any:
 
 def metadata(name: str) -> dict[str, Any]:
     """Return what the file says of the set as a whole: units, errors, plan, licence, versions.
+
+    Parameters
+    ----------
+    name : str
+        One of ``datasets.NAMES``.
+
+    Returns
+    -------
+    dict
+        Units, errors, plan, licence and versions of the set.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Make a dataset: a campaign, its less certain cases again and finer, and one file of it all.
+"""Compute a dataset: a campaign, refined reruns of its less accurate cases, and one output file.
 
-A campaign has one accuracy. Most cases are far better than it, some are not: those whose error
-estimates miss the targets are run again with a quarter of the error, and with a sixteenth. Each
-pass is a campaign of its own in the folder, and so resumable.
+A campaign has one accuracy setting. Most cases are far more accurate than required. Cases whose
+error estimates exceed the targets are run again with a quarter of the error, and then with a
+sixteenth. Each pass is a separate resumable campaign in the folder.
 """
 
 import json
@@ -20,7 +20,7 @@ from ..campaign import Plan, Progress, Store, read_plan, run
 from .columns import KEPT, units
 from .files import METADATA_KEY, plan_path
 
-# How much finer each pass is than the one before it, and how many there are.
+# Refinement factor of each pass relative to the previous one, and number of passes.
 _FINER, _PASSES = 4.0, 3
 LICENCE = "CC BY 4.0"
 CITATION = "The viscotack developers: open datasets of viscoelastic detachment, made with viscotack"
@@ -28,21 +28,21 @@ CITATION = "The viscotack developers: open datasets of viscoelastic detachment, 
 
 @dataclass(frozen=True)
 class Targets:
-    """Largest relative errors that a case should have; a less certain one is run again, finer.
+    """Target relative errors of a case; less accurate cases are run again with refinement.
 
     Attributes
     ----------
     force, work : float
-        Of the pull-off force (or stress) and of the work to pull-off.
+        Relative errors of the pull-off force (or stress) and of the work to pull-off.
     """
 
     force: float = 2e-3
     work: float = 5e-3
 
 
-# Passes and targets of a set that are not those of the others.
+# Passes and targets of sets with other values.
 _ONCE_MORE = (2, Targets(force=4e-3, work=2e-2))
-# Of those that measure and judge what is known to 0.1 %.
+# Sets for validation and testing, known to 0.1 %.
 _TO_JUDGE = (2, Targets(force=2e-3, work=2e-2))
 _OF_SETS = {
     "fresh": _TO_JUDGE,
@@ -50,14 +50,14 @@ _OF_SETS = {
     "hard": _ONCE_MORE,
     "steep": _ONCE_MORE,
     "punch_faces": _ONCE_MORE,
-    # what is learned from it errs by more; rows state what they are uncertain by
+    # surrogates trained on it have larger errors; rows state their uncertainty
     "solids": (1, Targets(force=4e-3, work=2e-2)),
     "rough": (1, Targets(force=2e-2, work=1e-1)),
 }
 
 
 def how(name: str) -> tuple[int, Targets]:
-    """Return how many passes a set is run in, and the errors that its cases should have."""
+    """Return the number of passes of a set, and its target errors."""
     return _OF_SETS.get(name, (_PASSES, Targets()))
 
 
@@ -70,24 +70,23 @@ def make(
     cases: int | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> Path:
-    """Run what of a dataset has not been run, and return the file of it.
+    """Run the missing cases of a dataset, and return the path of its file.
 
     Parameters
     ----------
     name : str
-        One of ``viscotack.datasets.NAMES``, whose plan is run.
+        One of ``viscotack.datasets.NAMES``.
     folder : path
-        Where the campaigns are kept, ``first``, ``finer-1`` and ``finer-2``; run again to go on.
+        Folder of the campaigns ``first``, ``finer-1`` and ``finer-2``; run again to continue.
     workers : int
-        Processes.
+        Number of processes.
     targets : Targets, optional
-        Which errors make a case run again; leave it out for 0.2 % and 0.5 %, and for `fresh` and
-        `hard` 0.4 % and 2 %, which have one finer pass; `solids` and `rough` have none.
+        Errors above which a case is run again; by default 0.2 % and 0.5 %; for `fresh` and
+        `hard` 0.4 % and 2 %, with one refined pass; `solids` and `rough` have none.
     cases : int, optional
-        Only so many cases from the beginning of the plan, which for a Sobol fill are spread over
-        the whole range.
+        Compute only the first cases of the plan, which for a Sobol plan cover the whole range.
     report : callable, optional
-        Called with the progress of each campaign.
+        Progress callback, called for each campaign.
 
     Returns
     -------
@@ -111,7 +110,7 @@ def make(
         place = folder / (f"finer-{number}" if number else "first")
         done = run(plan, place, workers=workers, report=report)
         if done.stopped:
-            raise RuntimeError(f"stopped; run again with {folder} to go on")
+            raise RuntimeError(f"the campaign was stopped; run again with {folder} to continue")
         stores.append(Store(place))
         plan = _uncertain(plan, stores[-1], targets)
     target = folder / f"{name}.parquet"
@@ -120,7 +119,7 @@ def make(
 
 
 def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
-    """Return the plan, finer, of the cases that miss the targets by their estimates, or failed."""
+    """Return the refined plan of the cases that failed or exceed the targets."""
     limits = {"error_estimate": targets.force, "error_estimate_work": targets.work}
     missed = {
         row["name"]
@@ -139,17 +138,17 @@ def _uncertain(plan: Plan, store: Store, targets: Targets) -> Plan:
 def write_dataset(
     name: str, stores: list[Store], target: Path, *, cases: int | None = None
 ) -> None:
-    """Write one file of campaigns with the same cases, each case from the last one that has it.
+    """Write one file from campaigns of the same cases, each case from the last one that has it.
 
-    Stated errors are the estimates of the solver, but no less than columns.least_errors. With
-    `cases` only so many from the beginning of the plan: what a campaign has done that goes on.
+    Stated errors are the estimates of the solver, but at least those of columns.least_errors. With
+    `cases` only the first cases of the plan are written, also from an unfinished campaign.
     """
     pa = arrow()
     rows: dict[str, Mapping[str, Any]] = {}
     for store in stores:
         accuracy = store.settings.accuracy
         for row in store.results().to_pylist():
-            if row["error_estimate"] is not None:  # else nobody knows what it is worth
+            if row["error_estimate"] is not None:  # otherwise its accuracy is unknown
                 rows[row["name"]] = row | {"accuracy": accuracy}
     planned = [case.name for case in stores[0].cases()[:cases]]
     solved = [rows[case] for case in planned if case in rows]

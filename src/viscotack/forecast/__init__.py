@@ -1,4 +1,4 @@
-"""Which answer to trust, and the answer at once."""
+"""Predictions and their validity: surrogates, theories and the simulation, and their choice."""
 
 from .advice import Advice, advise
 from .answer import predict

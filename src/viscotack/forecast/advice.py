@@ -1,4 +1,4 @@
-"""Which answer may be trusted: the regime of a problem, and the reply of every tier."""
+"""Advice on a problem: its regime, the best prediction, and the estimate of every tier."""
 
 from __future__ import annotations
 
@@ -21,56 +21,56 @@ from .tiers import SOON, THEORIES, TIERS, Tier, best
 
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
-# Crack speed beyond which linear theory fell short of silicone experiments [m/s].
+# Crack speed above which silicone experiments exceed linear theory [m/s].
 LINEAR_SPEED = 100e-6
-# Up to this effective Tabor number a simulation takes about a second.
+# Effective Tabor number up to which a simulation takes about a second.
 _FAST_TABOR = 15.0
 _SMALL_STRAIN = 0.2
 
 
 @dataclass(frozen=True)
 class Advice:
-    """The regime of a problem as data, and what to use; forces in 1.5 pi R dg0.
+    """Regime of a problem and the recommended tier; forces in 1.5 pi R dg0.
 
     Attributes
     ----------
     tabor : float
         Tabor number of the relaxed solid.
     effective_tabor, glassy_tabor : float
-        That over the effective range of the law, the same for Lennard-Jones, and that of the fast
-        limit, times k^(1/3).
+        Tabor number by the effective range of the law (the same for Lennard-Jones), and Tabor
+        number of the fast limit, the effective one times k^(1/3).
     adhesion : str
         "jkr" (effective Tabor number above 3), "transition" or "dmt" (below 0.1).
     pull_off_force : float or None
-        The answer of :func:`viscotack.predict`, within the same budget [1.5 pi R dg0]; None where
-        no tier within it was verified for this problem.
+        Prediction of :func:`viscotack.predict` with its default budget [1.5 pi R dg0]; None if
+        no tier within it is verified for this problem.
     interval : tuple of float, or None
-        Between which it lies in nine of ten cases.
+        90 % interval of this force.
     rate_regime : str
-        "quasi-static", "rate-dependent", "glassy", or "unknown" where no tier answers.
+        "quasi-static", "rate-dependent", "glassy", or "unknown" without a prediction.
     amplification : float or None
-        That force over the force of the slowest retraction.
+        Predicted force over the force of the slowest retraction.
     start_radius : float or None
-        Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)]; None without one.
+        Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)]; None if there is none.
     preload : str
-        What pressing to twice that radius does to the force: "raises" or "lowers", where all of
-        ``preload_change`` does, or "same"; "any" in quasi-static retraction, where any start will
-        do; "unknown" below an effective Tabor number of 1, without a start, and for laws as steep
-        as Dugdale's.
+        Effect on the force of pressing to twice that radius: "raises" or "lowers", if the whole
+        ``preload_change`` does, or "same"; "any" in quasi-static retraction, where the start has no
+        effect; "unknown" below an effective Tabor number of 1, without a start, and for laws as
+        steep as Dugdale's.
     preload_change : tuple of float or None
-        Least and largest change of the force by it, relative, for nine of ten cases.
+        90 % interval of the relative change of the force by this pressing.
     crack_speed_at_pull_off_m_per_s : float or None
-        Estimated speed of the edge at pull-off; None for groups, which have no unit.
+        Estimated speed of the edge at pull-off; None for groups, which have no units.
     beyond_linear : bool or None
-        Whether that is above the 100 um/s at which experiments left the linear theory.
+        Whether this speed is above 100 um/s, where experiments exceed linear theory.
     strain : float or None
         Contact radius of the start over sphere radius; None for groups.
     small_strain : bool or None
-        Whether that is below 0.2.
+        Whether this ratio is below 0.2.
     use : str
-        The tier of that answer; "simulation" where there is none.
+        Tier of the prediction; "simulation" if there is none.
     estimates : tuple of Estimate
-        All tiers.
+        Estimates of all tiers.
     force_scale : float or None
         1.5 pi R dg0 [N]; None for groups.
     """
@@ -103,23 +103,23 @@ class Advice:
 
 
 def advise(problem: Problem | Groups) -> Advice:
-    """Report the regime of a problem, the best answer within a second, and every tier's reply.
+    """Determine the regime of a problem, the best fast prediction, and every tier's estimate.
 
     Parameters
     ----------
     problem : Problem or Groups
-        In SI everything is judged; groups do not determine strain and speeds in m/s.
+        A Problem in SI allows all checks; groups do not determine strain and speeds in m/s.
 
     Returns
     -------
     Advice
-        Regimes as data, the answer of :func:`viscotack.predict`, the estimate of each tier with its
-        range, sentences.
+        Regimes, the prediction of :func:`viscotack.predict`, the estimate of each tier with its
+        validity, and sentences.
 
     Raises
     ------
     ValueError
-        If it is another test than the retraction of a relaxed contact, or another indenter.
+        If it is not the retraction of a relaxed spherical contact on a half-space.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def advise(problem: Problem | Groups) -> Advice:
 
 
 def advice_on(asked: Question) -> Advice:
-    """Return :func:`advise` of a question of which more is known."""
+    """Return :func:`advise` for a question with cached intermediate results."""
     problem, groups = asked.problem, asked.groups
     check_retraction(groups)
     forms = asked.once(forms_of)
@@ -176,20 +176,20 @@ def advice_on(asked: Question) -> Advice:
     )
 
 
-# Tiers that a sphere never has an answer of.
+# Tiers that never apply to a sphere.
 _OTHER = ("surrogate of punches",)
 _CLOSED_FORMS = tuple(tier.name for tier in THEORIES if tier.name != "crack contact")
 
 
 def _regime(forms: ClosedForms, found: Prediction | None) -> str:
-    """Return the regime; by theory, and unknown where no tier has a force to compare with."""
+    """Return the regime by theory; unknown if no tier predicts a force."""
     if found is None:
         return "unknown"
     return forms.regime_of(found.pull_off_force)
 
 
 def estimate_by(tier: Tier, asked: Question) -> Estimate:
-    """Return the reply of a tier as a row of the table."""
+    """Return the estimate of a tier as a row of the table."""
     if tier.name == SIMULATION:
         return _simulated(asked.groups)
     try:
@@ -205,17 +205,23 @@ def estimate_by(tier: Tier, asked: Question) -> Estimate:
 def _simulated(groups: Groups) -> Estimate:
     low, high = SIMULATED_TABOR
     if not low <= groups.effective_tabor <= high or too_short(groups):
-        note = f"solve simulates effective Tabor numbers from {low:g} to {high:g}, elastic ones to "
+        note = (
+            f"the simulation accepts effective Tabor numbers from {low:g} to {high:g}, for "
+            "elastic solids to "
+        )
         return Estimate(SIMULATION, None, 2e-3, False, f"{note}{ELASTIC_TABOR:g}")
-    time = "in about a second" if groups.effective_tabor < _FAST_TABOR else "in seconds"
-    return Estimate(SIMULATION, None, 2e-3, True, f"solve covers all of this, {time}")
+    time = "about a second" if groups.effective_tabor < _FAST_TABOR else "some seconds"
+    return Estimate(
+        SIMULATION, None, 2e-3, True, f"the simulation accepts this problem and takes {time}"
+    )
 
 
 def _pressing(preload: str, low: float, high: float) -> str:
-    """Return what pressing harder first does, with its band."""
+    """Describe the effect of a larger preload, with its interval."""
     words = {
         "raises": "would raise the force: the start is small for this rate",
-        "lowers": "would lower the force: a larger contact takes longer, and the bulk relaxes more",
+        "lowers": "would lower the force: a larger contact takes longer to detach, so the bulk "
+        "relaxes more",
         "same": "would change the force by little or nothing",
     }
     return (
@@ -225,30 +231,32 @@ def _pressing(preload: str, low: float, high: float) -> str:
 
 
 def _headline(advice: Advice) -> str:
-    """Return the best answer in words."""
+    """Return the best prediction as a sentence."""
     if advice.pull_off_force is None or advice.interval is None:
         return ""
     scale, unit = advice.force_scale or 1.0, "N" if advice.force_scale else "x 1.5 pi R dg0"
     force, low, high = (scale * x for x in (advice.pull_off_force, *advice.interval))
     return (
-        f" Pull-off force {readable(force, unit)} ({readable(low, unit, to=high)} in nine of ten "
-        f"cases, by the tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
+        f" Pull-off force {readable(force, unit)} ({readable(low, unit, to=high)}, 90 % interval, "
+        f"by the tier {advice.use!r}): {advice.amplification:.3g} times the slow force."
     )
 
 
 def _sentences(advice: Advice) -> list[str]:
     words = {
         "jkr": "The forces have a short range: the contact peels like a crack (JKR).",
-        "transition": "The range of the forces counts: neither JKR nor DMT alone holds.",
-        "dmt": "The forces have a long range: the contact opens everywhere at once (DMT).",
-        "quasi-static": "The pull is slow: the solid behaves as its relaxed, rubbery self.",
-        "rate-dependent": "The pull is fast enough for the solid to dissipate: speed counts.",
-        "glassy": "The pull is so fast that the edge sees a glassy solid: more speed adds little.",
-        "unknown": "No tier that answers within a second was verified for this problem: simulate.",
+        "transition": "The range of the forces matters: neither JKR nor DMT alone holds.",
+        "dmt": "The forces have a long range: the whole contact opens simultaneously (DMT).",
+        "quasi-static": "The retraction is slow: the solid stays relaxed (rubbery).",
+        "rate-dependent": "The retraction is fast enough for dissipation: the force depends on "
+        "speed.",
+        "glassy": "The retraction is so fast that the edge is glassy: more speed adds little "
+        "force.",
+        "unknown": "No fast tier was verified for this problem: simulate.",
     }
     effective = ""
     if abs(advice.effective_tabor / advice.tabor - 1) > 1e-9:
-        effective = f", {advice.effective_tabor:.3g} by the range of this law"
+        effective = f", {advice.effective_tabor:.3g} (effective) for the range of this law"
     found = [
         f"{words[advice.adhesion]} Tabor number {advice.tabor:.3g}{effective}.",
         f"{words[advice.rate_regime]}{_headline(advice)}",
@@ -257,14 +265,14 @@ def _sentences(advice: Advice) -> list[str]:
         found.append(_pressing(advice.preload, *advice.preload_change))
     if advice.beyond_linear and (speed := advice.crack_speed_at_pull_off_m_per_s) is not None:
         found.append(
-            f"The edge moves at about {readable(speed, 'm/s', digits=2)}, and above "
-            "100 um/s silicone experiments held more than any linear theory says: expect a larger "
-            "force."
+            f"The edge moves at about {readable(speed, 'm/s', digits=2)}. Above 100 um/s, forces "
+            "in silicone experiments exceeded every linear theory: expect a larger force."
         )
     if advice.small_strain is False:
         found.append(
             f"The contact radius is {advice.strain:.2g} sphere radii: strains are not small "
-            f"(linear elasticity ends at about {LARGEST_CONTACT}); take the numbers as estimates."
+            f"(linear elasticity holds up to about {LARGEST_CONTACT}); use the numbers as "
+            "estimates."
         )
     for e in advice.estimates:
         value = "" if e.pull_off_force is None else f" {e.pull_off_force:.4g} x 1.5 pi R dg0"

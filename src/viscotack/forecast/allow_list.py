@@ -1,4 +1,4 @@
-"""What a tier was verified for: shapes, bodies, laws, solids, tests. All else it refuses."""
+"""Allow-lists of the tiers: shapes, bodies, laws, solids and tests for which each was verified."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from dataclasses import dataclass, field
 
 from viscotack.problem import Groups
 
-# Of `Verified.solids`: any linear solid.
+# For `Verified.solids`: any linear solid.
 ANY: tuple[type, ...] = ()
 
 
 @dataclass(frozen=True)
 class Verified:
-    """The nouns that a tier was compared with simulations for; a tuple of classes each.
+    """The classes for which a tier was compared with simulations; one tuple per kind.
 
-    Classes are compared exactly: a subclass may behave otherwise, and is a new noun.
+    Classes are compared exactly, because a subclass may behave differently.
 
     Attributes
     ----------
     shapes, bodies, laws : tuple of type
-        Indenters, bodies (of a layer the class of its base) and traction laws.
+        Indenters, bodies (for a layer the class of its base) and traction laws.
     solids : tuple of type
-        Materials; empty for any linear solid, where the tier itself compares its creep or its
-        modulus with those that it was verified for.
+        Materials; empty for any linear solid, if the tier itself compares its creep or its
+        modulus with the verified ones.
     starts : tuple of type
-        States in which the test begins.
+        States in which the test may begin.
     moves, springs : bool
-        Whether the machine may move before the retraction, and be compliant.
+        Whether moves before the retraction, and a compliant machine, are allowed.
     ranges : mapping
-        Least and largest number of each input, for :func:`viscotack.problem.ranges.outside`.
+        Smallest and largest value of each input, for :func:`viscotack.problem.ranges.outside`.
     """
 
     shapes: tuple[type, ...]
@@ -51,24 +51,24 @@ class Verified:
         )
         for what, given, allowed in nouns:
             if given not in allowed:
-                return f"the {what} is {given.__name__}, verified for {_names(allowed)} only"
+                return f"the {what} is {given.__name__}; verified only for {_names(allowed)}"
         return self._refuses_test(groups, groups.units["stiffness"])
 
     def _refuses_test(self, groups: Groups, unit: str) -> str:
         if type(groups.start) not in self.starts:
-            return f"the test begins {groups.start!r}, verified for {_names(self.starts)} only"
+            return f"the test begins with {groups.start!r}; verified only for {_names(self.starts)}"
         if groups.moves and not self.moves:
             return (
-                f"the machine moves before the retraction: {groups.moves[0]!r}, verified for a "
-                "retraction from rest only"
+                f"the machine moves before the retraction: {groups.moves[0]!r}; verified only for "
+                "a retraction from rest"
             )
         if groups.stiffness is not None and not self.springs:
             return (
-                f"the machine has a stiffness of {groups.stiffness:.4g} x {unit}, verified for a "
-                "rigid machine only"
+                f"the machine has a stiffness of {groups.stiffness:.4g} x {unit}; verified only "
+                "for a rigid machine"
             )
         if groups.rate is None and not self.moves:
-            return "the test has no retraction at a constant speed"
+            return "the test has no retraction at constant speed"
         return ""
 
 

@@ -1,4 +1,4 @@
-"""The best answer within a budget of time: a surrogate, a theory or a simulation."""
+"""Predict by the best tier within a time budget: surrogate, theory or simulation."""
 
 from __future__ import annotations
 
@@ -32,44 +32,44 @@ def predict(
     problem : Problem or Groups
         In SI or dimensionless.
     confidence : float
-        Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for
-        which they were measured. Theories and simulations have bands for 0.9 only.
+        Fraction of cases inside the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98, for
+        which they were measured. Bands of theories and simulations exist for 0.9 only.
     shift_deviation : float
-        Standard deviation of log10 a_T by which the times of the material are uncertain, as
-        :meth:`viscotack.materials.passport.Passport.shift_deviation` has it. It widens the
-        intervals: the problem is answered for slower and faster material as well.
+        Standard deviation of log10 a_T, the uncertainty of the material's times, from
+        :meth:`viscotack.materials.passport.Passport.shift_deviation`. It widens the
+        intervals: the problem is also predicted for slower and faster material.
     budget : float
-        Time that the answer may take [s]. Up to 0.01 s only surrogates answer; from 0.02 s closed
-        forms, from 0.5 s the contact whose edge is a steady crack, from 3 s the simulation
-        where no surrogate does. The cost of a tier is a fixed number, so that the same
-        budget gives the same digits on every machine.
+        Largest time of the prediction [s]. Up to 0.01 s only surrogates are used; from 0.02 s also
+        closed forms, from 0.5 s the contact whose edge is a steady crack, from 3 s the simulation
+        if no surrogate applies. The cost of a tier is a fixed number, so the same
+        budget gives the same result on every machine.
     exact : bool
-        Simulate, whatever it takes: the answer of :func:`viscotack.solve`.
+        Whether to simulate regardless of the time: the result of :func:`viscotack.solve`.
 
     Returns
     -------
     Prediction
-        By the best tier that was verified for such a problem and that the budget allows.
+        Prediction of the best verified tier within the budget.
 
     Raises
     ------
     OutOfRange
-        If no tier within the budget was verified for this problem: which input is out, and the
-        range.
+        If no tier within the budget was verified for this problem; the message names the input and
+        its range.
     ValueError
-        If there is no relaxed contact to pull off, or the confidence is not one of those.
+        If there is no relaxed contact to pull off, or the confidence is not in the list.
     TypeError
-        If it is no problem, but the name of a file, say.
+        If `problem` is not a problem, for example a file name.
 
     Notes
     -----
-    The surrogates know the retraction of a sphere at a constant speed from a relaxed solid, with
+    The surrogates of spheres cover the retraction at constant speed from a relaxed solid, with
     the Lennard-Jones traction and a rigid machine. They were trained on
-    :class:`viscotack.RetardationPowerLaw`; any other linear solid is represented by the one which
-    creeps like it around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals
-    measured on other solids. For a flat punch: the same test on a standard solid that slides
-    on its base (:mod:`viscotack.surrogate.punch_physics`). :mod:`viscotack.forecast.tiers` has
-    the other tiers, and what each was verified for.
+    :class:`viscotack.RetardationPowerLaw`. Any other linear solid is replaced by the power law with
+    the same creep around the times of the test (:mod:`viscotack.surrogate.alike`), with intervals
+    measured on other solids. The surrogate of flat punches covers the same test on a layer of a
+    standard solid that slides on its base (:mod:`viscotack.surrogate.punch_physics`).
+    :mod:`viscotack.forecast.tiers` lists the other tiers and their verified ranges.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def predict(
 
 
 def check_confidence(confidence: float) -> None:
-    """Raise an InputError for a confidence for which no interval was measured."""
+    """Raise an InputError for a confidence without measured intervals."""
     from viscotack.surrogate.trust import CONFIDENCES
 
     if confidence not in CONFIDENCES:
@@ -109,12 +109,12 @@ def check_confidence(confidence: float) -> None:
 
 
 def _slower(problem: Case, factor: float) -> Case:
-    """Return a problem whose material takes so many times as long."""
+    """Return a problem whose material times are multiplied by a factor."""
     return replace(problem, material=slowed(problem.material, factor))
 
 
 def _widened_by(found: Prediction, others: list[Prediction], deviation: float) -> Prediction:
-    """Return a prediction whose intervals hold the uncertainty of the material's times as well."""
+    """Return a prediction whose intervals include the uncertainty of the material's times."""
     work = None
     if found.work_to_pull_off is not None and found.work_interval is not None:
         known = [each.work_to_pull_off for each in others if each.work_to_pull_off is not None]
@@ -125,14 +125,14 @@ def _widened_by(found: Prediction, others: list[Prediction], deviation: float) -
         interval=_widened(found.pull_off_force, found.interval, forces),
         work_interval=work,
         **_curve_widened(found, others),
-        why=f"{found.why}; intervals hold times of the material known to {deviation:.2g} decades, "
-        "from its shift",
+        why=f"{found.why}; intervals include an uncertainty of {deviation:.2g} decades of the "
+        "material's times, from its shift",
     )
     return replace(wider, depth_interval=depth_between(wider))
 
 
 def _curve_widened(found: Prediction, others: list[Prediction]) -> dict[str, Any]:
-    """Return the bands of a curve with the reach of others, by their forces and beginnings."""
+    """Return the bands of a curve, widened to include the curves of other predictions."""
     curve = found.curve
     if curve is None or found.curve_band is None:
         return {}
@@ -149,7 +149,7 @@ def _curve_widened(found: Prediction, others: list[Prediction]) -> dict[str, Any
 def _widened(
     value: float, interval: tuple[float, float], others: list[float]
 ) -> tuple[float, float]:
-    """Return an interval with the reach of other answers added in quadrature, as logarithms."""
+    """Return an interval widened by other predictions, in quadrature of logarithms."""
     low, high = interval
     down = max([np.log(value / other) for other in others if other < value], default=0.0)
     up = max([np.log(other / value) for other in others if other > value], default=0.0)

@@ -1,23 +1,23 @@
-r"""A little beyond what was learned: three ends at which physics says how the answer goes on.
+r"""Physical extrapolation of the surrogate slightly beyond three limits of its training range.
 
-**Faster than 1e10 h0/tau0.** The force goes on from where it is there to that of a solid that does
-not relax at all, the fast limit of the same start, which is learned as well. What is faster lies
-between the two; for exponents above about 0.5 they are the same within the interval.
+**Rates above 1e10 h0/tau0.** The force lies between that at the limit and that of a solid without
+relaxation, the fast limit of the same start, which is part of the training. For exponents above
+about 0.5 the two are equal within the interval.
 
-**Tabor numbers below 0.01.** Adhesion deforms the solid by mu gaps or less, and what the start's
-depth has made of the surface hardly depends on it: at one depth, rate and solid the force over its
-slow limit f(mu) is about that of 0.01, within some percent a decade. The work is not, for it has
-half of a gap's travel in it that a stiffer contact has not.
+**Tabor numbers below 0.01.** Adhesion deforms the solid by about mu gaps or less, and the start's
+depth has hardly deformed the surface: at given depth, rate and solid, the force over its
+slow limit f(mu) is that at 0.01 within some per cent per decade. The work is not, because it
+includes about half a gap of travel that a stiffer contact does not have.
 
-**Modulus ratios below 1e-4.** A crack that feels the compliance c of its solid, over the relaxed
-one, takes an energy of about 1/c; c is k and what has crept, g. So the force goes as 1/(k + g)
-until k is small beside g, where it stays, and how fast it goes with k at the end of the range,
-:math:`S = -d \ln P/d \ln k = k_0/(k_0 + g)`, says how far it goes on:
+**Modulus ratios below 1e-4.** A crack in a solid of compliance c, relative to the relaxed
+one, dissipates an energy of about 1/c, where c is the sum of k and the creep g. So the force is
+proportional to 1/(k + g) until k is small compared with g, where it becomes constant. The slope at
+the limit, :math:`S = -d \ln P/d \ln k = k_0/(k_0 + g)`, determines the extrapolation:
 
 .. math:: \ln \frac{P(k)}{P(k_0)} = -\ln \left[ 1 - S \left(1 - \frac{k}{k_0}\right) \right] .
 
-Work that grows goes on with the force. Work that falls does so with what the solid still gives at
-once, in proportion to k.
+Increasing work is extrapolated like the force. Decreasing work is extrapolated in proportion to k,
+because it depends on the instantaneous compliance.
 """
 
 from __future__ import annotations
@@ -36,31 +36,31 @@ if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
 
 
-# How far it goes on: simulations were compared so far (`benchmarks/beyond.py`).
+# Range of the extrapolation that was compared with simulations (`benchmarks/beyond.py`).
 LEAST_TABOR, MOST_RATE, LEAST_RATIO = 1e-3, 1e16, 1e-6
-# What is added to half an interval of log10 for a Tabor number smaller by a decade.
+# Increase of half an interval of log10 per decade of smaller Tabor number.
 _WIDER = 2.5e-2
-# The same for a modulus ratio below the range: for slopes of force and work at the end of networks,
-# and so much of the way that these go on.
+# The same for a modulus ratio below the range: for the slopes of force and work at the limit of
+# the networks, and as a fraction of the extrapolation.
 _SLOPE, _PART = np.array([1.5e-3, 4e-3]), 0.25
-# Of the slope by the modulus ratio: force in proportion to 1/k.
+# Largest slope with the modulus ratio: force in proportion to 1/k.
 _STEEPEST = 1 - 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Beyond:
-    """Answers beyond what was learned, as those inside.
+    """Predictions beyond the training range, in the form of those inside.
 
     Attributes
     ----------
     groups : ndarray, shape (n, 5)
-        At the end of the range that was learned from.
+        Inputs, moved to the limit of the training range.
     answers : Answers
     intervals : Intervals
     with_work : bool
-        Whether the work is known.
+        Whether the work is predicted.
     why : str
-        On what ground.
+        Reason in words.
     """
 
     groups: Array
@@ -71,12 +71,12 @@ class Beyond:
 
 
 def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | None:
-    """Return the answer to one row of groups that is out at no other end than these three.
+    """Predict one row of groups that exceeds only these three limits.
 
     Returns
     -------
     Beyond or None
-        None where the row is out elsewhere, or further.
+        None if the row exceeds another limit, or exceeds these too far.
     """
     from viscotack.surrogate import physics
 
@@ -101,7 +101,9 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
         said, held = _between(
             (said, held), (most, learned.intervals(glassy, most, confidence=confidence))
         )
-        why.append(f"a rate beyond {high:g} lies between that and the fast limit of the start")
+        why.append(
+            f"above a rate of {high:g} the force lies between its value there and the fast limit"
+        )
     if mu < low:
         factor = float(lennard_jones.pull_off_ratio(mu) / lennard_jones.pull_off_ratio(low))
         wider = _WIDER * float(np.log10(low / mu))
@@ -110,12 +112,14 @@ def beyond(learned: Surrogate, groups: Array, confidence: float) -> Beyond | Non
     if k < least:
         ways = _with_ratio(learned, at_end, float(k / least))
         said, held = _times(said, held, np.exp(ways), _SLOPE + _PART * np.abs(ways) / np.log(10))
-        why.append(f"a modulus ratio below {least:g} goes on by how the force depends on it there")
+        why.append(
+            f"below a modulus ratio of {least:g} the force is extrapolated by its slope there"
+        )
     return Beyond(at_end, said, held, mu >= low, "; ".join(why))
 
 
 def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
-    """Return ln of how much larger force and work are for a modulus ratio so many times smaller."""
+    """Return ln of the change of force and work for a modulus ratio smaller by a factor."""
     from viscotack.surrogate.physics import MODULUS_RATIO
 
     force, work = (-float(of[0, MODULUS_RATIO]) for of in learned.slopes(at_end))
@@ -127,7 +131,7 @@ def _with_ratio(learned: Surrogate, at_end: Array, ratio: float) -> Array:
 def _between(
     one: tuple[Answers, Intervals], other: tuple[Answers, Intervals]
 ) -> tuple[Answers, Intervals]:
-    """Return what lies between two answers, and the interval that holds both of theirs."""
+    """Return the middle of two predictions, with an interval that contains both intervals."""
     (a, held_a), (b, held_b) = one, other
 
     def hull(x: Array, y: Array) -> Array:
@@ -152,7 +156,7 @@ def _between(
 def _times(
     said: Answers, held: Intervals, factors: npt.ArrayLike, wider: npt.ArrayLike
 ) -> tuple[Answers, Intervals]:
-    """Return force and work times a factor each, their intervals wider by so much of log10."""
+    """Scale force and work, and widen their intervals by amounts in log10."""
     (force, work), (of_force, of_work) = np.asarray(factors), np.asarray(wider)
     side = np.array([-1.0, 1.0])
     return (

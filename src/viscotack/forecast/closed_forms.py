@@ -3,11 +3,11 @@
 The estimates hold for a relaxed contact that a rigid machine retracts at a constant speed. Their
 ranges and errors were measured against :func:`viscotack.solve` with power laws and standard solids,
 modulus ratios 1e-3 to 0.3, exponents 0.3 to 1.6, Tabor numbers 0.3 to 8 and rates 0.1 to 1e8;
-:mod:`.tiers` refuses them elsewhere.
+:mod:`.tiers` rejects other problems.
 A law other than Lennard-Jones is replaced by the one of the same work and strength, at its
-effective Tabor number; what that costs was measured with exponential laws of decay 0.25 to 3,
-Dugdale's with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective Tabor
-numbers 0.1 to 10.
+effective Tabor number. The resulting error was measured with exponential laws of decay 0.25 to 3,
+Dugdale's law with falls of 0.3 to 1 and two tables, modulus ratios 0.01 to 0.3 and 1, effective
+Tabor numbers 0.1 to 10.
 """
 
 from __future__ import annotations
@@ -39,30 +39,31 @@ from viscotack.traction.growing import check_of_gap_alone
 STRENGTH_RATIO = np.pi / 9
 # Tabor numbers of Johnson and Greenwood's map without load, in its Lennard-Jones form.
 _DMT, _JKR = 0.1, 3.0
-# Parts of the force between slowest and fastest that still count as the end itself.
+# Fractions of the force between slowest and fastest that still count as the limit itself.
 _SLOW, _FAST = 0.02, 0.9
-# Retraction over mean retardation, in contact heights, up to which the bulk is relaxed or nearly.
+# Retraction in the mean retardation time, in contact heights, up to which the bulk is (nearly)
+# relaxed.
 _RELAXED, _NEARLY = 6.0, 25.0
-# Errors that hold nine of ten cases. `benchmarks/rate_law.py` measures their cover again: of 384
-# cases they were not chosen by (--seed 7) 92 % of 121 (glassy), and 90 % or more of 109 (rate-fit),
-# 263 (detachment) and 101 (unloading) that each applies to.
+# Errors that include nine of ten cases. `benchmarks/rate_law.py` measures their coverage: for 384
+# independent cases (--seed 7) 92 % of 121 (glassy), and at least 90 % of 109 (rate-fit),
+# 263 (detachment) and 101 (unloading) to which each applies.
 _FIT_ERROR = 0.22
-# Of `detachment`: Tabor number, start over the radius at pull-off, error.
+# For `detachment`: Tabor number, start over the radius at pull-off, error.
 _DETACHMENT = ((2.0, 1.5, 0.07), (2.0, 1.2, 0.15), (1.0, 2.0, 0.12))
-# Of the glassy limit: an error of c (mu k^(1/3))^p s^q and at least the first number, s the start
-# over the smallest contact of the full glassy force; beyond the last number it is of no use.
+# Error of the glassy limit: c (mu k^(1/3))^p s^q, at least the first number, with s the start
+# over the smallest contact of the full glassy force; above the last number it is not usable.
 _GLASSY_LEAST, _GLASSY_ERROR, _GLASSY_MOST = 0.05, (0.6, -1.3, -3.0), 0.25
-# Force of a start over that of one as heavy as it takes: (1 + c m^p x^q)^-e, m the Tabor number of
+# Force of a start over that of a sufficiently large one: (1 + c m^p x^q)^-e, m the Tabor number of
 # the edge at its speed, x the start over the radius at pull-off; fitted to 66 cases.
 _LIGHT = (1.4, -1.63, -4.6, 0.36)
-# What a start of twice the radius then brings: least x, and a band that held nine of ten pairs of
+# Effect of a start of twice the radius: least x, and a band that included nine of ten pairs of
 # starts of other cases, Tabor numbers 1 to 8: 192 with Lennard-Jones, 79 with laws with a tail.
-# Below 1 it was 22 %; with Dugdale's law, where a light start lacks less, it held 15 of 19.
+# Below 1 it was 22 %; with Dugdale's law, where a light start has less effect, 15 of 19.
 _HEAVIER, _PRESSED_TABOR = 2.0, 1.0
 _PRESSED = ((1.7, 0.03), (1.3, 0.06), (0.8, 0.08), (0.5, 0.12), (0.0, 0.16))
-# What another law of the same work and strength adds to these errors, one whose tension falls no
+# Additional errors for another law of the same work and strength, one whose tension falls no
 # more steeply than this [strength^2/work], and one that falls more steeply, as Dugdale's: then they
-# hold nine of ten of 255 and of 65 estimates.
+# include nine of ten of 255 and of 65 estimates.
 _STEEP = 1.5
 _OTHER_LAW = {
     "elastic": (0.0, 0.04),
@@ -76,20 +77,20 @@ _TIP = np.pi ** (1 / 3)
 
 @dataclass(frozen=True)
 class Estimate:
-    """What one tier says about the pull-off force, and whether it may be trusted.
+    """Estimate of the pull-off force by one tier, with its validity; see :func:`viscotack.advise`.
 
     Attributes
     ----------
     tier : str
         "crack contact", "elastic", "unloading", "detachment", "rate-fit", "glassy" or "simulation".
     pull_off_force : float or None
-        In 1.5 pi R dg0; None where the tier has no answer, or is not run here.
+        In 1.5 pi R dg0; None if the tier has no estimate, or is not run here.
     error : float or None
-        Relative error that holds nine of ten cases where it applies; None where it does not.
+        Relative error that includes nine of ten cases; None if the tier does not apply.
     applies : bool
-        Whether the problem lies in its range.
+        Whether the problem is in the tier's range.
     why : str
-        The reason, in a sentence.
+        Reason, as a sentence.
     """
 
     tier: str
@@ -101,7 +102,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class ClosedForms:
-    """The regime of a retraction by theory, and the estimate of each closed form.
+    """Regime of a retraction by theory, and the estimate of each closed form.
 
     Attributes
     ----------
@@ -110,7 +111,7 @@ class ClosedForms:
     start_radius : float or None
         Relaxed contact radius of the start by JKR [(pi R^2 dg0/E0*)^(1/3)].
     regime : str
-        "quasi-static", "rate-dependent" or "glassy"; "unknown" where no theory answers.
+        "quasi-static", "rate-dependent" or "glassy"; "unknown" if no theory applies.
     preload : str
         As in :class:`viscotack.Advice`.
     preload_change : tuple of float or None
@@ -131,7 +132,7 @@ class ClosedForms:
     estimates: tuple[Estimate, ...]
 
     def regime_of(self, force: float) -> str:
-        """Return the regime of a retraction whose pull-off force is known [1.5 pi R dg0]."""
+        """Return the regime of a retraction with a known pull-off force [1.5 pi R dg0]."""
         slow = force / self.slowest - 1 < _SLOW
         if slow:
             return "quasi-static"
@@ -144,7 +145,7 @@ def closed_forms(asked: Groups) -> ClosedForms:
     Parameters
     ----------
     asked : Groups
-        A sphere in a relaxed contact that a rigid machine retracts at a constant speed.
+        A sphere in relaxed contact, retracted by a rigid machine at constant speed.
 
     Raises
     ------
@@ -161,7 +162,7 @@ def closed_forms(asked: Groups) -> ClosedForms:
     depth = None if contact is None else float(np.asarray(contact.depth))
     try:
         return _by_theory(asked, groups, slowest, fastest, depth, start)
-    except ValueError as error:  # a material has no modes as fine as a theory asks for
+    except ValueError as error:  # the material has no modes as fine as the theory needs
         return _without_theory(str(error), slowest, fastest, start)
 
 
@@ -169,7 +170,7 @@ _NAMES = ("elastic", "unloading", "detachment", "rate-fit", "glassy")
 
 
 def _without_theory(why: str, slowest: float, fastest: float, start: float | None) -> ClosedForms:
-    """Return the limits alone, where the theories have no answer for a material."""
+    """Return the limits alone, for a material to which the theories do not apply."""
     limits = {"elastic": slowest, "glassy": fastest}
     return ClosedForms(
         slowest=slowest,
@@ -192,7 +193,7 @@ def _by_theory(
     start: float | None,
 ) -> ClosedForms:
     """Evaluate the theories of a moving edge."""
-    # where JKR has no such start the regime is that of a pull from no load
+    # without such a JKR start, use the regime of a retraction from zero load
     free = float(np.asarray(jkr.depth(jkr.contact_radius_at_force(0.0, **_UNIT), **_UNIT)))
     curve = _unloading(groups, free if depth is None else depth)
     here, pressed = _with_and_without_pressing(groups, depth, start)
@@ -229,7 +230,7 @@ def _by_theory(
 
 
 def edge_curve(problem: Problem | Groups) -> unloading.Unloading | None:
-    """Compute the unloading curve of a moving edge on a relaxed bulk; some milliseconds.
+    """Compute the unloading curve of a moving edge on a relaxed bulk, in some milliseconds.
 
     It is the curve behind the estimate "unloading".
 
@@ -241,10 +242,10 @@ def edge_curve(problem: Problem | Groups) -> unloading.Unloading | None:
     Returns
     -------
     Unloading or None
-        The curve without dimensions: depth [h0], force [1.5 pi R dg0], contact radius
-        [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result, time in the time unit; force without
-        the correction for the range of the forces that the estimate has. None for
-        elastic solids and for starts at which JKR has no contact.
+        The dimensionless curve: depth [h0], force [1.5 pi R dg0], contact radius
+        [(pi R^2 dg0/E0*)^(1/3)], edge speed as in a result, time in the time unit. The force is
+        without the estimate's correction for the range of the forces. None for elastic solids and
+        for starts without a JKR contact.
 
     Raises
     ------
@@ -281,24 +282,24 @@ _JKR_FORCE = 1.5 * np.pi
 
 
 def check_retraction(groups: Groups) -> None:
-    """Raise an InputError for tests that the closed forms do not treat."""
+    """Raise an InputError for tests that the closed forms do not cover."""
     if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
         shape, body = groups.geometry.word, groups.body.word
         where = "" if isinstance(groups.body, HalfSpace) else f" on a {body}"
         raise InputError(
-            f"advice is for spheres on a half-space, got a {shape}{where}; simulate others"
+            f"advice covers spheres on a half-space, got a {shape}{where}; simulate it"
         )
     check_of_gap_alone(groups.traction, "advice")
     steady = groups.rate is not None and not groups.moves and groups.stiffness is None
     if not isinstance(groups.start, Start) or not steady:
         raise InputError(
-            "advice is for a relaxed contact that a rigid drive pulls off at a constant speed; "
+            "advice covers a relaxed contact that a rigid drive retracts at constant speed; "
             "simulate other tests"
         )
 
 
 def lennard_jones_alike(groups: Groups) -> Groups:
-    """Return the same contact with the Lennard-Jones law of the same work and strength.
+    """Return the contact with the Lennard-Jones law of the same work and strength.
 
     Its Tabor number is the effective one.
     """
@@ -316,12 +317,12 @@ def lennard_jones_alike(groups: Groups) -> Groups:
 
 
 def _rate(groups: Groups) -> float:
-    assert groups.rate is not None, "checked at the door"
+    assert groups.rate is not None, "checked by the caller"
     return groups.rate
 
 
 def _crack(groups: Groups) -> CrackLaw:
-    """Return the law of the edge, R = E0* = dg0 = 1."""
+    """Return the crack law of the edge, in units R = E0* = dg0 = 1."""
     length = persson_brener.crack_tip_length(
         contact_modulus=1.0,
         work_of_adhesion=1.0,
@@ -334,7 +335,7 @@ def _crack(groups: Groups) -> CrackLaw:
 
 
 def _speed(groups: Groups) -> float:
-    """Return the speed of retraction in the same units."""
+    """Return the retraction speed in the same units."""
     return _rate(groups) / groups.tabor
 
 
@@ -349,19 +350,19 @@ def _error(estimate: Estimate) -> float:
 
 
 def _of_law(estimate: Estimate, groups: Groups) -> Estimate:
-    """Return an estimate with what the law of a contact adds to the error of Lennard-Jones."""
+    """Add the error due to a law other than Lennard-Jones to an estimate."""
     if isinstance(groups.traction, LennardJones) or estimate.error is None:
         return estimate
     return replace(estimate, error=estimate.error + _OTHER_LAW[estimate.tier][_steep(groups)])
 
 
 def _steep(groups: Groups) -> bool:
-    """Return whether the tension falls at once and not along a tail, as Dugdale's does."""
+    """Return whether the tension falls abruptly, without a tail, like Dugdale's."""
     return softening(groups.traction) > _STEEP
 
 
 class _State(NamedTuple):
-    """The state at pull-off that a start tends to, whether or not it is large enough for it."""
+    """State at pull-off that the retraction approaches, if the start is large enough."""
 
     amplification: float
     crack_speed: float
@@ -372,7 +373,7 @@ class _State(NamedTuple):
 def _with_and_without_pressing(
     groups: Groups, depth: float | None, start: float | None
 ) -> tuple[_State, _State] | tuple[None, None]:
-    """Return the states of the start and of one twice as large, None where there is none."""
+    """Return the states of the start and of one twice as large; None if there is none."""
     if groups.modulus_ratio >= 1 or depth is None or start is None:
         return None, None
     radii = np.array([start, _HEAVIER * start]) * _TIP
@@ -380,7 +381,7 @@ def _with_and_without_pressing(
     try:
         found = detachment.unlimited(_speed(groups), _crack(groups), depth=depths, **_UNIT)
     except ValueError:
-        # the problem itself is possible: it starts beyond the pull-off of a slow retraction
+        # the problem is valid: it starts beyond the pull-off of a slow retraction
         return None, None
     gamma, margin = np.asarray(found.amplification), radii / np.asarray(found.contact_radius)
     c, p, q, e = _LIGHT
@@ -395,10 +396,10 @@ def _with_and_without_pressing(
 def _change(
     groups: Groups, here: _State | None, pressed: _State | None
 ) -> tuple[float, float] | None:
-    """Return by how much pressing changes the force, least and most, or None.
+    """Return the smallest and largest relative change of the force by pressing, or None.
 
-    Two things do: a start that is hardly larger than the contact at pull-off is short of force, and
-    a larger one takes longer, so that the bulk relaxes more and the edge is slower.
+    Two effects compete: a start hardly larger than the contact at pull-off has a lower force, and
+    a larger start takes longer, so that the bulk relaxes more and the edge is slower.
     """
     if here is None or pressed is None or not at_least(groups.tabor, _PRESSED_TABOR):
         return None
@@ -408,7 +409,7 @@ def _change(
 
 
 def _preload(change: tuple[float, float] | None) -> str:
-    """Return in a word what pressing does."""
+    """Classify the effect of pressing."""
     if change is None:
         return "unknown"
     low, high = change
@@ -416,7 +417,7 @@ def _preload(change: tuple[float, float] | None) -> str:
 
 
 def _mean_time(groups: Groups) -> float:
-    """Return the mean retardation time, by compliance, in the unit of time."""
+    """Return the compliance-weighted mean retardation time, in the unit of time."""
     unit = groups.material.time_unit
     modes = groups.material.retardation_modes(
         shortest=1e-9 * unit, longest=1e3 * unit, tolerance=1e-6
@@ -426,7 +427,7 @@ def _mean_time(groups: Groups) -> float:
 
 
 def _haste(groups: Groups) -> float:
-    """Return the contact heights retracted in the mean retardation time."""
+    """Return the contact heights retracted during the mean retardation time."""
     return _rate(groups) * _mean_time(groups) / (np.pi ** (2 / 3) * groups.tabor)
 
 
@@ -441,7 +442,7 @@ def _elastic(regime: str, slowest: float) -> Estimate:
     if regime == "quasi-static":
         why = "the retraction is slow enough for the solid to stay relaxed"
         return Estimate("elastic", slowest, _SLOW, True, why)
-    why = "the solid does not relax while the edge moves; the force is a lower limit"
+    why = "the solid is not relaxed while the edge moves; the force is a lower limit"
     return Estimate("elastic", slowest, None, False, why)
 
 
@@ -456,12 +457,14 @@ def _unloaded(groups: Groups, slowest: float, curve: unloading.Unloading | None)
         return Estimate(name, None, None, False, why)
     force = slowest * curve.pull_off_force / _JKR_FORCE
     if not at_least(mu, 1):
-        why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
+        why = (
+            f"the range of the forces is too long for a crack: Tabor number {mu:.3g}, valid from 1"
+        )
         return Estimate(name, force, None, False, why)
     if not at_most(haste, _NEARLY):
         why = (
             f"the bulk has no time to relax: {haste:.3g} contact heights are retracted in the "
-            f"mean retardation time, and the theory holds to about {_RELAXED:g}"
+            f"mean retardation time; valid up to about {_RELAXED:g}"
         )
         return Estimate(name, force, None, False, why)
     relaxed = at_most(haste, _RELAXED)
@@ -477,18 +480,20 @@ def _detached(groups: Groups, slowest: float, state: _State | None) -> Estimate:
     if groups.modulus_ratio >= 1:
         return Estimate(name, None, None, False, "an elastic solid has no rate")
     if state is None:
-        why = "the preload is too light for this rate: the start decides, and not the rate alone"
+        why = "the preload is too light for this rate, so the force depends on the start"
         return Estimate(name, None, None, False, why)
     force = slowest * state.amplification
     for least, needed, error in _DETACHMENT:
         if at_least(mu, least) and at_least(state.margin, needed):
-            why = "the edge moves as a crack, and the bulk answers with the creep up to then"
+            why = "the edge moves as a crack, and the bulk responds with its creep up to pull-off"
             return Estimate(name, force, error, True, why)
     if not at_least(mu, 1):
-        why = f"the forces reach too far for a crack: Tabor number {mu:.3g}, and it needs 1"
+        why = (
+            f"the range of the forces is too long for a crack: Tabor number {mu:.3g}, valid from 1"
+        )
     else:
         why = (
-            f"the start is only {state.margin:.3g} times the contact radius at pull-off; it needs "
+            f"the start is {state.margin:.3g} times the contact radius at pull-off; valid from "
             f"{1.2 if at_least(mu, 2) else 2:g} times"
         )
     return Estimate(name, force, None, False, why)
@@ -502,11 +507,11 @@ def _fitted(groups: Groups, preload: str) -> Estimate:
     speed = rate.COEFFICIENT * r**rate.EXPONENT
     force = float(np.asarray(persson_brener.amplification(speed, material=groups.material)))
     if abs(np.log(mu / rate.FITTED_TABOR)) > np.log(1.25):
-        why = f"Eq. 4.24 was fitted at a Tabor number of 3.24 alone, this one is {mu:.3g}"
+        why = f"Eq. 4.24 was fitted only at a Tabor number of 3.24; this one is {mu:.3g}"
     elif not (at_least(k, 0.01) and at_most(k, 0.1)):
-        why = f"Eq. 4.24 was fitted for modulus ratios from 0.01 to 0.1, this one is {k:.3g}"
+        why = f"Eq. 4.24 was fitted for modulus ratios from 0.01 to 0.1; this one is {k:.3g}"
     elif preload == "raises":
-        why = "Eq. 4.24 was fitted to preloads that were heavy enough"
+        why = "Eq. 4.24 was fitted to heavier preloads"
     else:
         return Estimate(
             name, force, _FIT_ERROR, True, "the fit of crack speed to rate, and Persson-Brener"
@@ -528,21 +533,21 @@ def _glassy(
     least = (9 / (8 * k)) ** (1 / 3)
     if start is None or start < 1.5 * least:
         why = (
-            "the start is too small a contact for the full glassy force: it takes a radius of "
+            "the start is too small a contact for the full glassy force, which needs a radius of "
             f"{1.5 * least:.3g} or more; this force is an upper limit"
         )
         return Estimate(name, fastest, None, False, why)
     if regime != "glassy":
-        why = "the retraction is not that fast; this force is an upper limit"
+        why = "the retraction is slower; this force is an upper limit"
         return Estimate(name, fastest, None, False, why)
     c, p, q = _GLASSY_ERROR
-    # what the preload leaves out, and what the edge lacks of the glassy energy
+    # reduction by a light preload, and by an edge below the glassy energy
     light = c * (groups.tabor * k ** (1 / 3)) ** p * (start / least) ** q
     error = max(_GLASSY_LEAST, light + 1 / (gamma * k) - 1)
     if error > _GLASSY_MOST:
         why = (
-            "the forces reach so far that the full glassy force takes a larger contact at the "
-            "start; this force is an upper limit"
+            "the range of the forces is so long that the full glassy force needs a larger contact "
+            "at the start; this force is an upper limit"
         )
         return Estimate(name, fastest, None, False, why)
-    return Estimate(name, fastest, error, True, "the edge runs at nearly the glassy energy")
+    return Estimate(name, fastest, error, True, "the energy of the edge is nearly the glassy one")

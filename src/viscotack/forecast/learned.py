@@ -22,7 +22,7 @@ from .beyond import Beyond, beyond
 from .equivalent_power_law import alike_words, like_of, unlike_words
 from .prediction import MEASURED, Prediction, of_theory, with_curve
 from .question import Question
-from .refusals import out_of_range
+from .training_range import out_of_range
 from .two_peaks import two_peaks
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ POWER_LAWS = Verified(
     solids=(RetardationPowerLaw,),
     starts=(AtDepth, AtForce, AtRadius),
 )
-# Any linear solid: the creep itself is compared with what was learned from.
+# Any linear solid: its creep is compared with that of the training data.
 OTHER_SOLIDS = Verified(
     shapes=(Sphere,),
     bodies=(HalfSpace,),
@@ -48,23 +48,23 @@ OTHER_SOLIDS = Verified(
     solids=ANY,
     starts=(AtDepth, AtForce, AtRadius),
 )
-INSIDE = "every input lies in the range that was learned from"
-# Units of the inputs that have one.
+INSIDE = "every input is in the training range"
+# Units of the inputs with units.
 _UNITS = {"preload": "h0", "rate": "h0/tau0"}
 
 
 @dataclass(frozen=True, eq=False)
 class Inputs:
-    """The inputs of the surrogates of spheres, and which of them are out of range.
+    """Inputs of the surrogates of spheres, and those out of range.
 
     Attributes
     ----------
     rows : ndarray, shape (1, 5)
-        The groups; of another solid those of the power law that it is like.
+        The groups; for another solid those of its equivalent power law.
     out : tuple of str
-        In words.
+        Inputs out of range, in words.
     like : Alike or None
-        Of a solid that is no power law by retardation.
+        Equivalent power law of a solid that is not a power law by retardation.
     """
 
     rows: Array
@@ -82,10 +82,10 @@ def inputs_of_sphere(asked: Question) -> Inputs:
     if isinstance(material, RetardationPowerLaw):
         row[[2, 4]] = material.exponent, groups.rate * material.tau0
     else:
-        # the others are those of a power law that the solid is like
+        # the other inputs are those of the equivalent power law
         known = ["tabor", "modulus_ratio", "preload"]
     no_start = ""
-    # the depth of a start by force or radius is known where the Tabor number is in range
+    # the depth of a start by force or radius is defined if the Tabor number is in range
     if isinstance(groups.start, AtDepth) or learned.inside([row])[0, 0]:
         try:
             row[3] = _start_depth(groups, learned)
@@ -114,13 +114,13 @@ def inputs_of_sphere(asked: Question) -> Inputs:
 
 
 def power_law_limits(asked: Question) -> str:
-    """Return which inputs of a power law are out of the range of the surrogate."""
+    """List the inputs of a power law out of the range of the surrogate, or return ""."""
     out = asked.once(inputs_of_sphere).out
     return "" if not out or _further(asked) is not None else "; ".join(out)
 
 
 def by_power_laws(asked: Question) -> Prediction:
-    """Evaluate the surrogate of power laws, also a little beyond its range."""
+    """Evaluate the surrogate of power laws, including its extrapolation."""
     learned, inputs = _learned(), asked.once(inputs_of_sphere)
     if not inputs.out:
         return within(asked, learned, learned.tests(inputs.rows), SURROGATE, INSIDE)
@@ -133,7 +133,7 @@ def by_power_laws(asked: Question) -> Prediction:
 
 
 def _further(asked: Question) -> Beyond | None:
-    """Return the answer a little beyond the range of the surrogate, where there is one."""
+    """Return the extrapolation slightly beyond the range of the surrogate, or None."""
     rows = asked.once(inputs_of_sphere).rows
     return beyond(_learned(), rows, asked.confidence) if np.isfinite(rows).all() else None
 
@@ -142,14 +142,14 @@ def _further(asked: Question) -> Beyond | None:
 
 
 def solid_limits(asked: Question) -> str:
-    """Return which inputs of a solid that is no power law are out of range."""
+    """List the inputs of a solid other than a power law out of range, or return ""."""
     if isinstance(asked.groups.material, RetardationPowerLaw):
-        return f"power laws by retardation have a tier of their own, {SURROGATE!r}"
+        return f"power laws by retardation are covered by the tier {SURROGATE!r}"
     return "; ".join(asked.once(inputs_of_sphere).out)
 
 
 def by_solids(asked: Question) -> Prediction:
-    """Evaluate the surrogate of solids that are no power laws by retardation."""
+    """Evaluate the surrogate of solids other than power laws by retardation."""
     inputs, solids = asked.once(inputs_of_sphere), _learned("solids")
     assert inputs.like is not None, "checked by the limits"
     why = f"{INSIDE}; {alike_words(inputs.like)}"
@@ -159,7 +159,7 @@ def by_solids(asked: Question) -> Prediction:
 def within(
     asked: Question, learned: Surrogate, tests: Contact, method: str, why: str
 ) -> Prediction:
-    """Return a prediction in the range, with its curve and the uncertainty of its start."""
+    """Return a prediction inside the range, with its curve and the uncertainty of its start."""
     start, answers = asked.groups.start, learned.evaluate(tests)
     held = learned.intervals(tests, answers, confidence=asked.confidence)
     if not isinstance(start, AtDepth):
@@ -197,13 +197,13 @@ def _prediction(
 
 
 def learned_crack_limits(asked: Question) -> str:
-    """Return why the learned theory of a crack at the edge does not hold, if so."""
+    """Return why the surrogate of the crack theory does not apply, or ""."""
     said = asked.once(said_of_crack)
     return said if isinstance(said, str) else ""
 
 
 def by_learned_crack(asked: Question) -> Prediction:
-    """Evaluate the learned theory of a crack at the edge."""
+    """Evaluate the surrogate of the crack theory."""
     said = asked.once(said_of_crack)
     assert not isinstance(said, str), "checked by the limits"
     error = float(_learned("short range").constants["error"][0])
@@ -212,15 +212,15 @@ def by_learned_crack(asked: Question) -> Prediction:
     )
     band = error + sum(map(float, band_parts(energy, effective, zones)))
     why = (
-        f"{'; '.join(asked.once(inputs_of_sphere).out)}; learned from the theory 'crack contact', "
-        f"from which it differs by {error:.2%}: effective Tabor number {effective:.3g}, way of "
+        f"{'; '.join(asked.once(inputs_of_sphere).out)}; surrogate of the theory 'crack contact', "
+        f"within {error:.2%} of it: effective Tabor number {effective:.3g}, travel of "
         f"{zones:.3g} zones to the pull-off"
     )
     return of_theory(asked, float(said.pull_off_force[0]), band, LEARNED_CRACK, why, inside=True)
 
 
 def said_of_crack(asked: Question) -> Answers | str:
-    """Return the output of the learned theory of a crack at the edge, or why there is none."""
+    """Return the output of the surrogate of the crack theory, or why it does not apply."""
     from viscotack.surrogate import physics, short_range
 
     learned, groups = _learned("short range"), asked.groups
@@ -230,12 +230,12 @@ def said_of_crack(asked: Question) -> Answers | str:
         rows[0, physics.PRELOAD] = np.nan if contact is None else contact.depth * groups.tabor
     tests = learned.tests(rows)
     if not learned.inside(tests).all():
-        return "out of the range that was learned from the theory of a crack at the edge"
+        return "out of the training range of the surrogate of the crack theory"
     said = learned.evaluate(tests)
     if not learned.holds(tests, said)[0]:
-        return "the theory of a crack at the edge, which was learned, does not hold there"
+        return "the crack theory behind the surrogate does not hold there"
     if elsewhere := not_measured(groups):
-        return f"the band of the theory of a crack at the edge was not measured here: {elsewhere}"
+        return f"the band of the crack theory was not measured here: {elsewhere}"
     return said
 
 
@@ -243,7 +243,7 @@ def said_of_crack(asked: Question) -> Answers | str:
 
 
 def _start_depth(groups: Groups, learned: Surrogate) -> float:
-    """Return the depth of the start [h0]; ValueError where the surrogate knows none."""
+    """Return the depth of the start [h0]; raise ValueError if it is undefined."""
     start = groups.start
     match start:
         case AtForce():
@@ -255,7 +255,7 @@ def _start_depth(groups: Groups, learned: Surrogate) -> float:
 
 
 def _out_words(name: str, value: float, limits: tuple[float, float], problem: Case) -> str:
-    """Return that an input is out of the range of the surrogate, with its value and the range."""
+    """Describe an input out of the range of the surrogate, with its value and the range."""
     unit, si = _UNITS.get(name, ""), None
     if unit and (scales := problem.scales()) is not None:
         speed = scales.length / scales.time

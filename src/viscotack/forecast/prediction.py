@@ -1,7 +1,7 @@
-"""What a prediction says, and how it is written down: a record that needs no simulation.
+"""Predictions and their records.
 
-Force positive in compression, depth positive into the solid; numbers are dimensionless as in
-:class:`viscotack.Result`, :func:`prediction_summary` has them in SI as well.
+Force is positive in compression, depth positive into the solid. Numbers are dimensionless as in
+:class:`viscotack.Result`; :func:`prediction_summary` adds SI units.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from .question import Question
 
 MEASURED, NOT_MEASURED = "measured", "not measured"
-# Part of the cases that the bands of theories and the stated errors of simulations hold.
+# Fraction of cases inside the bands of theories and the stated errors of simulations.
 THEORY_CONFIDENCE = 0.9
 
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """How hard one must pull, as far as it is known without simulating.
+    """Predicted pull-off force, work and unloading curve, with intervals.
 
     Attributes
     ----------
@@ -38,42 +38,41 @@ class Prediction:
         Largest tension of the retraction [1.5 pi R dg0], positive; of a punch the pull-off stress
         [sigma0].
     interval : tuple of float
-        Between which the simulated force lies with that confidence, same unit.
+        Interval of the simulated force with this confidence, same unit.
     work_to_pull_off : float or None
-        [1.5 pi R dg0 h0], of a punch that of unit area [dg0]; None where a theory answers, which
-        has none.
+        [1.5 pi R dg0 h0], for a punch per unit area [dg0]; None for most theories, which do not
+        predict it.
     work_interval : tuple of float, or None
-        The same for the work.
+        Interval of the work with this confidence.
     confidence : float or None
-        Part of the cases that the intervals held where they were measured; None where they were
-        not.
+        Fraction of cases inside the intervals, as measured; None if it was not measured.
     band : str
-        "measured" where it was measured how many cases the intervals hold, else "not measured".
+        "measured" if the coverage of the intervals was measured, otherwise "not measured".
     method : str
         Name of the tier: "surrogate", "surrogate of solids", "surrogate of punches", "learned crack
         contact", the name of a theory as in :class:`viscotack.Estimate`, or "simulation".
     inside : bool
-        Whether the problem lies in the range that the surrogate learned from; of a simulation true.
+        Whether the problem is in the training range of the surrogate; true for a simulation.
     why : str
-        A sentence; when not inside, which input is out, its value and the range.
+        Reason; outside the range, the input that is out, its value and the range.
     curve : Curves or None
         `depth` [h0], `force` [1.5 pi R dg0] and `contact_radius` [(pi R^2 dg0/E0*)^(1/3)] along the
-        retraction, shape (24,) each; of a punch, as in a :class:`viscotack.Result`, mean stress
+        retraction, shape (24,) each; for a punch, as in a :class:`viscotack.Result`, mean stress
         [sigma0], compression positive, and half length of the contact [a0]. The last point is the
-        pull-off. None where a theory answers.
+        pull-off. None for theories.
     curve_band : float or None
-        How far the force in tension is off at worst, at the same travel from zero force (or from a
-        start in tension), with that confidence [1.5 pi R dg0]; None without a curve, and of a
+        Largest error of the tensile force at the same travel from zero force (or from a
+        start in tension), with this confidence [1.5 pi R dg0]; None without a curve, and for a
         simulation.
     zero_force_depth : float or None
-        Depth at which the force of a pressed start is zero [h0]; None for starts in tension, and
+        Depth at which the force of a compressed start is zero [h0]; None for starts in tension, and
         without a curve.
     zero_force_interval : tuple of float, or None
-        Between which it lies with that confidence [h0].
+        Interval of this depth with this confidence [h0].
     depth_interval : tuple of float, or None
-        Between which the depth at pull-off, the last of the curve, lies [h0]; None without a curve.
+        Interval of the depth at pull-off, the last one of the curve [h0]; None without a curve.
     problem : Problem or Groups
-        What was asked.
+        The problem of the prediction.
     """
 
     pull_off_force: float
@@ -96,22 +95,22 @@ class Prediction:
 
     @property
     def pull_off_stress(self) -> float:
-        """The `pull_off_force` of a punch [sigma0]."""
+        """Pull-off stress of a punch [sigma0], equal to `pull_off_force`."""
         self.problem.outputs.check_has("pull_off_stress")
         return self.pull_off_force
 
     @property
     def depth_at_pull_off(self) -> float | None:
-        """Depth at the pull-off [h0], positive into the solid; None where a theory answers."""
+        """Depth at pull-off [h0], positive into the solid; None for theories."""
         return None if self.curve is None else float(self.curve.depth[-1])
 
     def because(self, why: str) -> Prediction:
-        """Return the prediction with the reason why no better tier answers, before its own."""
+        """Prepend the reason why no better tier applies."""
         return replace(self, why=f"{why}; {self.why}")
 
 
 def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction:
-    """Return a prediction with its curve, the first of several, and how well it is known."""
+    """Add the first of several curves to a prediction, with its intervals."""
     depth = curves.depth[0]
     found = replace(
         found,
@@ -129,11 +128,11 @@ def with_curve(found: Prediction, curves: Curves, held: Intervals) -> Prediction
 
 
 def depth_between(found: Prediction) -> tuple[float, float] | None:
-    r"""Return between which the depth at pull-off lies [h0]; None where there is no curve.
+    r"""Return the interval of the depth at pull-off [h0]; None without a curve.
 
-    The force is flat there, so that an error :math:`\Delta W` of the work is one of the place where
-    it ends, :math:`\Delta W/P`. To that come, in quadrature, the error of the depth at zero force,
-    and that of the curve over the travel from there (`benchmarks/depth_interval.py`).
+    The force is flat there, so an error :math:`\Delta W` of the work corresponds to an error
+    :math:`\Delta W/P` of the depth. The error of the depth at zero force and that of the curve over
+    the travel from there are added in quadrature (`benchmarks/depth_interval.py`).
     """
     curve, work = found.curve, found.work_to_pull_off
     if curve is None or found.curve_band is None or work is None or found.work_interval is None:
@@ -161,11 +160,10 @@ def of_theory(
     inside: bool = False,
     work: float | None = None,
 ) -> Prediction:
-    """Return the prediction of a theory: a force and its relative band, no curve."""
+    """Return the prediction of a theory: a force with its relative band, without a curve."""
     if asked.confidence != THEORY_CONFIDENCE:
         why += (
-            f"; its band is one for {THEORY_CONFIDENCE:.0%} of the cases, "
-            f"not {asked.confidence:.0%}"
+            f"; its band includes {THEORY_CONFIDENCE:.0%} of the cases, not {asked.confidence:.0%}"
         )
     return Prediction(
         pull_off_force=force,
@@ -184,11 +182,27 @@ def of_theory(
 
 
 def prediction_summary(prediction: Prediction) -> dict[str, Any]:
-    """Return a prediction ready for JSON, with the names of :func:`viscotack.summary`.
+    """Convert a prediction to a JSON record with the names of :func:`viscotack.summary`.
 
-    Dimensionless; for a problem in SI the same names with a unit in addition. What the method
-    does not know is None. `interval` is that of the pull-off force, `work_interval` that of the
+    Numbers are dimensionless; for a problem in SI they are repeated under names that end in the
+    unit. Unknown values are None. `interval` belongs to the pull-off force, `work_interval` to the
     work to pull-off.
+
+    Returns
+    -------
+    dict
+        Numbers, texts, lists and None.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, RetardationPowerLaw, predict
+    >>> material = RetardationPowerLaw(
+    ...     rubbery_modulus=1.5e6, glassy_modulus=15e6, exponent=0.8, tau0=0.1, poisson_ratio=0.5
+    ... )
+    >>> case = Groups(tabor=3.24, material=material.reduced(), start=AtDepth(73), rate=316.23)
+    >>> record = prediction_summary(predict(case))
+    >>> f"{record['pull_off_force']:.1f} by {record['method']}, inside: {record['inside']}"
+    '7.3 by surrogate, inside: True'
     """
     problem, curve = prediction.problem, prediction.curve
     groups = problem.groups()

@@ -1,4 +1,4 @@
-"""Many answers at once: a table of cases in, a table of predictions out, row by row."""
+"""Vectorised predictions: a table of cases in, a table of predictions out, row by row."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ def _with_interval(name: str) -> tuple[str, str, str]:
     return name, f"{name}_low", f"{name}_high"
 
 
-# Columns of what is pulled, by kind of case, and of the work.
+# Columns of the force (or stress) by kind of case, and of the work.
 FORCE = {
     "sphere": _with_interval("pull_off_force"),
     "punch": _with_interval("pull_off_stress"),
 }
 WORK = _with_interval("work_to_pull_off")
-# What a column tells of a start.
+# Column of each kind of start.
 _BY = {"preload_force": "force", "preload_radius": "contact_radius"}
 METHOD = {"sphere": SURROGATE, "punch": LEARNED_PUNCH}
 
 
 def kind_of(names: Collection[str]) -> Kind:
-    """Return the kind of the cases of a table with these columns: spheres have a Tabor number.
+    """Return the kind of cases in a table with these columns; spheres have a Tabor number.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def kind_of(names: Collection[str]) -> Kind:
 
 
 def answers_of(kind: Kind) -> tuple[str, ...]:
-    """Return the columns of the answers to cases of a kind, in their order."""
+    """Return the columns of the predictions of a kind of case, in order."""
     return *FORCE[kind.name], *WORK, "method", "inside", "band", "why"
 
 
@@ -62,41 +62,42 @@ def predict_table(
     confidence: float = 0.9,
     report: Callable[[int, int], None] | None = None,
 ) -> dict[str, npt.NDArray[Any]]:
-    """Return the pull-off force and the work to pull-off of many spheres, or of many punches.
+    """Predict the pull-off force and the work to pull-off of many spheres or punches.
 
     Parameters
     ----------
     columns : mapping of str to array_like, shape (n,)
-        The inputs of a campaign of spheres on power-law solids: tabor, modulus_ratio, exponent,
+        Inputs as in a campaign. Spheres on power-law solids: tabor, modulus_ratio, exponent,
         rate [h0/tau0], and one of preload [h0], preload_force [1.5 pi R dg0] and preload_radius
-        [(pi R^2 dg0/E0*)^(1/3)]. Or of flat punches on layers of a standard solid: size and
+        [(pi R^2 dg0/E0*)^(1/3)]. Flat punches on layers of a standard solid: size and
         thickness [a0], cohesion, modulus_ratio, rate [h0/tau0], and preload [h0] or preload_force
         [sigma0].
     confidence : float
-        Part of the cases that the intervals are to hold: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.
+        Fraction of cases inside the intervals: 0.5, 0.6, 0.7, 0.8, 0.9, 0.95 or 0.98.
     report : callable, optional
-        Called with the number of rows answered and that of all, after each that went to the
-        theories.
+        Progress callback, called with the number of finished rows and the total after each row
+        that theories predict.
 
     Returns
     -------
     dict of str to ndarray, shape (n,)
-        A row for each row, in its order: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
-        [1.5 pi R dg0 h0], of punches `pull_off_stress` [sigma0] and the work [dg0], their intervals
-        `..._low` and `..._high`, `method`, `inside`, whether the `band` was measured, and `why` it
-        is not inside. A sphere outside has the answer of a theory, without work; where none
-        applies, or the case is impossible, numbers are nan, `method` is "" and `why` says it.
+        One row per input row: `pull_off_force` [1.5 pi R dg0] and `work_to_pull_off`
+        [1.5 pi R dg0 h0], for punches `pull_off_stress` [sigma0] and the work [dg0], their
+        intervals `..._low` and `..._high`, `method`, `inside` (the training range), `band`
+        (measured or not) and `why` it is not inside. Spheres outside are predicted by a theory,
+        without work. If no theory applies, or the case is invalid, numbers are nan, `method` is ""
+        and `why` states the reason.
 
     Raises
     ------
     ValueError
-        If columns are missing or unknown, or of different lengths, or the confidence is not one of
-        those.
+        If columns are missing, unknown or of different lengths, or the confidence is not in the
+        list.
 
     Notes
     -----
-    More than 1e5 rows a second where the surrogate answers; a row that goes to the theories takes
-    0.05 to 0.2 s, once however often it stands in the table.
+    More than 1e5 rows per second for the surrogate. A row predicted by theories takes
+    0.05 to 0.2 s; equal rows are computed once.
 
     Examples
     --------
@@ -146,14 +147,16 @@ def _arrays(columns: Mapping[str, npt.ArrayLike]) -> dict[str, Array]:
     shapes = {name: values.shape for name, values in given.items()}
     if len(set(shapes.values())) > 1 or any(len(shape) != 1 for shape in shapes.values()):
         words = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise InputError(f"columns must be rows of numbers of one length, got shapes {words}")
+        raise InputError(
+            f"columns must be one-dimensional arrays of one length, got shapes {words}"
+        )
     return given
 
 
 def _equal_rows(
     given: dict[str, Array], at: npt.NDArray[np.intp]
 ) -> dict[tuple[float, ...], list[int]]:
-    """Return the places of the cases among some rows, by their inputs in the order given."""
+    """Group equal rows: inputs, in the order given, -> indices."""
     places: dict[tuple[float, ...], list[int]] = {}
     cases = zip(*(values[at].tolist() for values in given.values()), strict=True)
     for i, case in zip(at.tolist(), cases, strict=True):
@@ -164,7 +167,7 @@ def _equal_rows(
 def _learned(
     kind: Kind, given: dict[str, Array], confidence: float
 ) -> tuple[npt.NDArray[np.intp], Answers, Intervals]:
-    """Return which rows a surrogate answers, its answers and their intervals."""
+    """Return the indices of rows that a surrogate covers, its predictions and their intervals."""
     from viscotack.surrogate import store
 
     learned = store.shipped(kind.name)
@@ -175,7 +178,7 @@ def _learned(
     if start is not None:
         known = learned.inside(rows)[:, others].all(axis=1)
         rows[known, preload] = _depths(learned, rows[known][:, others], given[start][known], start)
-    # the cohesion of a punch changes crack speeds and no stress, but a case needs one
+    # the cohesion of a punch affects crack speeds only, but a case needs one
     possible = (rows > 0).all(axis=1) & (given.get("cohesion", np.ones(len(rows))) > 0)
     at = np.flatnonzero(learned.inside(rows).all(axis=1) & possible)
     inside = learned.tests(rows[at])
@@ -188,8 +191,8 @@ def _learned(
 
 
 def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array:
-    """Return the depths of relaxed starts [h0]; nan where the surrogate knows none."""
-    # a series of rates has one start
+    """Return the depths of relaxed starts [h0]; nan where the surrogate defines none."""
+    # rows that differ in rate share one start
     starts = np.column_stack([others, start])
     each, where = np.unique(starts, axis=0, return_inverse=True)
     found = np.full(len(each), np.nan)
@@ -197,7 +200,7 @@ def _depths(learned: Surrogate, others: Array, start: Array, name: str) -> Array
         try:
             found[i] = learned.start_depth(*known, **{_BY[name]: value})
         except ValueError:
-            continue  # said row by row, by `predict`
+            continue  # `predict` reports the reason row by row
     return found[where.ravel()]
 
 
@@ -205,7 +208,7 @@ def _put(
     table: dict[str, Any], names: tuple[str, str, str], at: Any, value: Any, pair: Any
 ) -> None:
     if value is None:
-        return  # a theory has no work
+        return  # theories do not predict the work
     value_name, low, high = names
     table[value_name][at] = value
     table[low][at], table[high][at] = pair

@@ -1,4 +1,4 @@
-"""The preload from which pressing harder brings hardly more force, by simulation."""
+"""Compute by simulation the preload above which the pull-off force hardly increases."""
 
 from __future__ import annotations
 
@@ -8,45 +8,61 @@ from viscotack.errors import InputError
 from viscotack.problem import Groups, Problem
 from viscotack.protocol import AtRadius
 
-# The search: its smallest radius, how many simulations it takes,
+# The search: its smallest radius, the number of simulations,
 _SMALLEST_START, _COARSE, _FINE = 1.2, 13, 9
-# and up to which multiple of its usual end it goes on.
+# and the factor on its usual end up to which it is extended.
 _WIDER = 3.0
 
 
 def threshold_contact_radius(
     problem: Problem | Groups, *, slope: float, accuracy: float = 2e-3
 ) -> float:
-    """Return the relaxed contact radius from which more preload brings hardly more force.
+    """Return the relaxed contact radius above which more preload hardly raises the force.
 
     Parameters
     ----------
     problem : Problem or Groups
-        Its start is not used.
+        Its start is ignored.
     slope : float
-        What "hardly" is: the derivative of the pull-off force [pi R dg0] by the radius
-        [(pi R^2 dg0/E0*)^(1/3)] falls below it; the thesis takes 0.1.
+        Threshold of the derivative of the pull-off force [pi R dg0] with respect to the radius
+        [(pi R^2 dg0/E0*)^(1/3)]; the thesis uses 0.1.
     accuracy : float
-        Of each simulation.
+        Accuracy of each simulation.
 
     Returns
     -------
     float
-        Contact radius [(pi R^2 dg0/E0*)^(1/3)], from 1.2; that is also the answer where the force
-        does not depend on the preload at all.
+        Contact radius [(pi R^2 dg0/E0*)^(1/3)], at least 1.2, which is also returned if the force
+        does not depend on the preload.
+
+    Raises
+    ------
+    ValueError
+        If the slope is not positive, or the force still increases by more at the largest radius.
 
     Notes
     -----
-    Some twenty simulations, 5 to 10 s. Where the bulk creeps on, a heavier preload lowers the force
-    again; this is the last radius at which it raises it by the slope. The fit of
-    :func:`viscotack.theory.sphere.bounds.threshold_contact_radius` asks for more: at mu = 3.24, k =
-    0.1 and a rate of 3.16 it has 2.16 (n = 0.4) and 2.64 (n = 1.6) where this finds 1.47 and 1.95.
+    Takes some twenty simulations, 5 to 10 s. If the bulk continues to creep, a heavier preload
+    lowers the force again; the result is the last radius with this slope. The fit of
+    :func:`viscotack.theory.sphere.bounds.threshold_contact_radius` is larger: at mu = 3.24, k =
+    0.1 and a rate of 3.16 it gives 2.16 (n = 0.4) and 2.64 (n = 1.6), and this function 1.47 and
+    1.95.
+
+    Examples
+    --------
+    The pull-off force of an elastic solid does not depend on the preload:
+
+    >>> from viscotack import AtDepth, Elastic, Groups
+    >>> solid = Elastic(rubbery_modulus=1, poisson_ratio=0)
+    >>> case = Groups(tabor=1.0, material=solid, start=AtDepth(10.0), rate=1.0)
+    >>> threshold_contact_radius(case, slope=0.1, accuracy=0.02)
+    1.2
     """
     from viscotack.methods import solve
     from viscotack.result.observables import pull_off_force
 
     if not slope > 0:
-        raise InputError(f"slope must be positive, got {slope}; the thesis takes 0.1")
+        raise InputError(f"slope must be positive, got {slope}; the thesis uses 0.1")
     groups = problem.groups()
 
     def force(radius: float) -> float:
@@ -70,14 +86,14 @@ def threshold_contact_radius(
         if radii[-1] > _WIDER * largest:
             raise InputError(
                 f"the force still grows by more than {slope} at the largest radius tried, "
-                f"{radii[-1]:.3g}; ask for a larger slope"
+                f"{radii[-1]:.3g}; choose a larger slope"
             )
-        # near saturation the slope fades slowly
+        # near saturation the slope decreases slowly
         radii = np.append(radii, radii[-1] + radii[1] - radii[0])
         forces.append(force(float(radii[-1])))
     if not np.any(steep):
         return _SMALLEST_START
-    # the slope passes the limit between the middles of two neighbouring pieces
+    # interpolate the slope between the midpoints of neighbouring intervals
     last = int(np.flatnonzero(steep)[-1])
     near = np.linspace(radii[last], radii[last + 2], _FINE)
     middle = near[_FINE // 2]

@@ -1,4 +1,4 @@
-"""The tier of flat punches on a sliding layer: a surrogate."""
+"""Surrogate of flat punches on a sliding layer, as a tier."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .allow_list import Verified
 from .learned import INSIDE, within
 from .prediction import Prediction
 from .question import Question
-from .refusals import out_of_range
+from .training_range import out_of_range
 
 if TYPE_CHECKING:
     from viscotack.surrogate.model import Surrogate
@@ -32,19 +32,19 @@ PUNCHES = Verified(
     solids=(StandardSolid, Prony),
     starts=(AtDepth, AtForce),
 )
-# Units of the inputs that have one.
+# Units of the inputs with units.
 _UNITS = {"size": "a0", "thickness": "a0", "preload": "h0", "rate": "h0/tau0"}
 
 
 def punch_limits(asked: Question) -> str:
-    """Return which input of a punch was not learned: solid, stress of the start, or a number."""
+    """Name the input of a punch outside the training range, or return ""."""
     groups, learned = asked.groups, _learned()
     material = groups.material
     if isinstance(material, Prony) and len(material.branches) > 1:
-        return f"the solid has {len(material.branches)} branches, verified for one only"
+        return f"the solid has {len(material.branches)} branches; verified only for one"
     try:
         row = _row(groups, learned)
-    except InputError as error:  # no start in the range has that stress
+    except InputError as error:  # no start in the range has this stress
         return str(error)
     return "; ".join(_out(row, asked.problem, groups, learned))
 
@@ -57,7 +57,7 @@ def by_punches(asked: Question) -> Prediction:
 
 
 def inputs_of(groups: Groups) -> dict[str, float]:
-    """Return the inputs of a campaign's case for a learned test, its rate in h0/tau0."""
+    """Return the inputs of a test in the form of a campaign's case, with the rate in h0/tau0."""
     assert groups.rate is not None, "a test without moves ends with a retraction"
     assert groups.cohesion is not None, "a punch has one"
     start: dict[str, float] = {}
@@ -82,12 +82,12 @@ def _learned() -> Surrogate:
 
 
 def _row(groups: Groups, learned: Surrogate) -> Array:
-    """Return the inputs of a test; the depth of a start by stress is nan where sizes are out.
+    """Return the inputs of a test; the depth of a start by stress is nan if sizes are out of range.
 
     Raises
     ------
     InputError
-        If no start in the range has that stress.
+        If no start in the range has this stress.
     """
     from viscotack.surrogate.punch_physics import INPUTS, PRELOAD
 
@@ -99,22 +99,22 @@ def _row(groups: Groups, learned: Surrogate) -> Array:
 
 
 def _time(groups: Groups) -> float:
-    """Return the retardation time of a solid that has one, in the groups' unit of time."""
+    """Return the retardation time of a standard solid, in the groups' unit of time."""
     material = groups.material
     if isinstance(material, Prony):
         ((_, relaxation),) = material.branches
         return relaxation / material.modulus_ratio
-    assert isinstance(material, StandardSolid), "others were refused"
+    assert isinstance(material, StandardSolid), "others were rejected"
     return material.tau0
 
 
 def _out(row: Array, problem: Case, groups: Groups, learned: Surrogate) -> list[str]:
-    """Return in words which inputs are out of the range, with their values and the range."""
+    """Describe the inputs out of range, with their values and the range."""
     inside, limits = learned.inside(row[None])[0], learned.limits_of(row)
     sized, units = inside[0] and inside[1], _si(problem, groups)
     found = []
     for (name, ends), value, fits in zip(limits.items(), row.tolist(), inside, strict=True):
-        # how deep a start may be depends on size and thickness
+        # the largest depth of a start depends on size and thickness
         if fits or (name == "preload" and not sized):
             continue
         words = out_of_range(name, value, ends, _UNITS.get(name, ""), units.get(name))
@@ -123,7 +123,7 @@ def _out(row: Array, problem: Case, groups: Groups, learned: Surrogate) -> list[
 
 
 def _si(problem: Case, groups: Groups) -> dict[str, tuple[float, str]]:
-    """Return what one unit of each input is in SI, nothing for a problem without dimensions."""
+    """Return the SI value and unit of each input's unit; empty for a dimensionless problem."""
     scales = problem.scales()
     if not isinstance(scales, PunchScales):
         return {}

@@ -1,4 +1,4 @@
-"""A problem as the tiers take it: what several of them need is computed once."""
+"""A problem with cached intermediate results, as input of the tiers."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ _T = TypeVar("_T")
 
 @dataclass(frozen=True, eq=False)
 class Question:
-    """A problem, and the confidence of the intervals that are wanted.
+    """A problem, and the confidence of the requested intervals.
 
     Attributes
     ----------
     problem : Problem or Groups
-        As the user stated it.
+        Problem as stated by the user.
     confidence : float
-        Part of the cases that intervals hold.
+        Fraction of cases inside the intervals.
     """
 
     problem: Case
@@ -31,7 +31,7 @@ class Question:
     def __post_init__(self) -> None:
         if not isinstance(self.problem, Problem | Groups):
             raise TypeError(
-                f"predict takes a Problem or Groups, got {self.problem!r}; for a file give "
+                f"predict needs a Problem or Groups, got {self.problem!r}; for a file use "
                 "viscotack.read_case(path)"
             )
 

@@ -1,4 +1,4 @@
-"""The simulation as a tier: it answers whatever :func:`viscotack.solve` takes."""
+"""The simulation as a tier, for every problem that :func:`viscotack.solve` accepts."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ def by_simulation(asked: Question) -> Prediction:
     Raises
     ------
     OutOfRange
-        If the run fails, or comes to no pull-off.
+        If the run fails, or reaches no pull-off.
     ValueError
-        If :func:`viscotack.solve` refuses the problem.
+        If :func:`viscotack.solve` rejects the problem.
     """
     from viscotack.methods import solve
 
     result = solve(asked.problem, until="pull-off", throw=False)
     stated = result.error_estimate or {}
     if result.outcome is Outcome.STOPPED or "force" not in stated:
-        raise OutOfRange(f"no simulation whose error is known: {result.status}")
+        raise OutOfRange(f"the simulation has no error estimate: {result.status}")
     found, work = pull_off(result), _work(result)
     force, depth = found.force, stated.get("depth")
     handed_over = result.method != SIMULATION
@@ -55,7 +55,7 @@ def by_simulation(asked: Question) -> Prediction:
 
 
 def _curve(result: Result, found: PullOff) -> Curves:
-    """Return the unloading curve to the pull-off at the points of a predicted one."""
+    """Return the unloading curve to the pull-off, at the points of a predicted curve."""
     from viscotack.campaign.case import curve
 
     row, kind, groups = curve(result, found), result.problem.outputs, result.groups
@@ -69,7 +69,7 @@ def _curve(result: Result, found: PullOff) -> Curves:
 
 
 def _work(result: Result) -> float | None:
-    """Return the work to pull-off, None where it is not known to half of it."""
+    """Return the work to pull-off; None if its error exceeds half of it."""
     try:
         return work_to_pull_off(result)
     except InputError:

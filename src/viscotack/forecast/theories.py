@@ -27,7 +27,8 @@ from .two_peaks import two_peaks
 
 _LAWS = (LennardJones, Dugdale, Exponential, Tabulated)
 _RELAXED = (AtDepth, AtForce, AtRadius)
-# Where nine of ten cases lay in the bands of the closed forms (`benchmarks/rate_law.py`); rate in
+# Ranges where nine of ten cases are inside the bands of the closed forms
+# (`benchmarks/rate_law.py`); rate in
 # h0/tau0. Other laws by their effective range and the steepest fall of the tension
 # [strength^2/work].
 CLOSED_FORM = Verified(
@@ -54,8 +55,8 @@ ELASTIC = Verified(
     starts=_RELAXED,
     ranges={"tabor": (0.01, 1e6)},
 )
-# The theory takes a solid by its modulus and its creep, and was compared with simulations of
-# several; `not_measured` has the numbers.
+# The theory describes a solid by its modulus and its creep, and was compared with simulations of
+# several solids; `not_measured` lists the ranges.
 CRACK = Verified(
     shapes=(Sphere, Cone, PowerLawProfile),
     bodies=(HalfSpace,),
@@ -66,11 +67,11 @@ CRACK = Verified(
     springs=True,
 )
 CRACK_CONTACT = "crack contact"
-# Of the table of elastic forces; a viscoelastic solid is only nearly relaxed.
+# Error of the table of elastic forces; a viscoelastic solid is only nearly relaxed.
 _TABLE_ERROR = 0.005
-# From this effective Tabor number on the contact with a crack at its edge is evaluated.
+# Effective Tabor number above which the contact with a crack at its edge is evaluated.
 _CRACK_TABOR = 5.0
-# Largest start of which the curves of the closed forms are traced, a radius in
+# Largest start for which the curves of the closed forms are computed, a radius in
 # (pi R^2 dg0/E0*)^(1/3).
 _LARGEST_START = 300.0
 
@@ -81,26 +82,26 @@ def forms_of(asked: Question) -> ClosedForms:
 
 
 def crack_of(asked: Question) -> CrackContact | InputError:
-    """Return the contact whose edge is a steady crack, or the reason why there is none."""
+    """Return the contact whose edge is a steady crack, or the error."""
     try:
         return crack_contact(asked.problem)
     except InputError as error:
         return error
-    except ValueError as error:  # of a material of the user's
+    except ValueError as error:  # from a user-defined material
         return InputError(str(error))
 
 
 def estimate_of(asked: Question, name: str) -> Estimate:
-    """Return the estimate of a closed form, whether or not it is on the allow-list there."""
+    """Return the estimate of a closed form, regardless of its allow-list."""
     return next(e for e in asked.once(forms_of).estimates if e.tier == name)
 
 
 def closed_form_limits(asked: Question) -> str:
-    """Return which number of a problem lies outside of the measured range of the closed forms."""
+    """Name the number of a problem outside the measured range of the closed forms, or return ""."""
     groups = asked.groups
     if (radius := radius_without_adhesion(groups.start, tabor=groups.tabor)) > _LARGEST_START:
         return (
-            f"the start is a contact of radius {radius:.4g} (pi R^2 dg0/E0*)^(1/3), and the "
+            f"the start is a contact of radius {radius:.4g} (pi R^2 dg0/E0*)^(1/3); the "
             f"theories are evaluated up to {_LARGEST_START:g}"
         )
     alike, material = lennard_jones_alike(groups), groups.material
@@ -115,7 +116,7 @@ def closed_form_limits(asked: Question) -> str:
         values["steepest fall"] = softening(groups.traction)
     ranges = CLOSED_FORM.ranges
     if asked.once(forms_of).regime == "quasi-static":
-        # slower retractions are the more so
+        # slower retractions are even closer to the limit
         ranges = {**ranges, "rate": (0.0, ranges["rate"][1])}
     if words := outside(values, ranges):
         return words
@@ -126,14 +127,14 @@ def closed_form_limits(asked: Question) -> str:
 
 
 def elastic_limits(asked: Question) -> str:
-    """Return why the closed form of elastic solids does not hold, if so."""
+    """Return why the closed form of elastic solids does not apply, or ""."""
     groups = asked.groups
     if not isinstance(groups.material, Elastic):
         return closed_form_limits(asked)
     match groups.start:
         case AtDepth(depth=value) | AtForce(force=value) if value < 0:
             # the retraction may begin beyond the force minimum
-            return "the start is in tension, verified for starts that are not"
+            return "the start is in tension; verified only for starts in compression"
     return outside({"tabor": groups.tabor}, ELASTIC.ranges)
 
 
@@ -143,12 +144,12 @@ def by_closed_form(asked: Question, name: str) -> Prediction:
     Raises
     ------
     OutOfRange
-        If its own conditions are not met: of speed, start or range of the forces.
+        If its conditions on speed, start or range of the forces are not met.
     """
     try:
         found = estimate_of(asked, name)
     except OverflowError:
-        raise OutOfRange("the numbers of the theory have no digits there") from None
+        raise OutOfRange("the theory loses all digits there") from None
     if not found.applies or found.pull_off_force is None or found.error is None:
         raise OutOfRange(found.why)
     error = _TABLE_ERROR if isinstance(asked.groups.material, Elastic) else found.error
@@ -157,13 +158,13 @@ def by_closed_form(asked: Question, name: str) -> Prediction:
 
 
 def crack_limits(asked: Question) -> str:
-    """Return why the band of a contact with a crack at its edge does not hold, if so."""
+    """Return why the band of a contact with a crack at its edge does not apply, or ""."""
     groups = asked.groups
     simple = not groups.moves and groups.stiffness is None and isinstance(groups.geometry, Sphere)
     if simple and not at_least(groups.effective_tabor, _CRACK_TABOR):
         return (
             f"the cohesive zone is too large for this theory: effective Tabor number "
-            f"{groups.effective_tabor:.3g}, evaluated from {_CRACK_TABOR:g} on"
+            f"{groups.effective_tabor:.3g}, valid from {_CRACK_TABOR:g}"
         )
     if elsewhere := not_measured(groups):
         return f"its band was not measured here: {elsewhere}"
@@ -176,13 +177,13 @@ def by_crack_contact(asked: Question) -> Prediction:
     Raises
     ------
     OutOfRange
-        If the theory does not hold there.
+        If the theory does not hold for the problem.
     """
     found = asked.once(crack_of)
     if isinstance(found, InputError):
         raise OutOfRange(str(found))
     if found.pull_off_force is None:
-        raise OutOfRange("the test comes to no pull-off")
+        raise OutOfRange("the test reaches no pull-off")
     why = f"by the theory {CRACK_CONTACT!r}: {found.why}"
     work = found.work_to_pull_off
     return of_theory(asked, found.pull_off_force, found.band, CRACK_CONTACT, why, work=work)

@@ -1,9 +1,9 @@
-"""The tiers that answer how hard one must pull, and the one function that chooses among them.
+"""The tiers of predictions, and the choice among them.
 
-A tier answers only problems on its allow-list: shapes, bodies, laws, solids, tests and ranges for
-which it was compared with simulations. Everything else it refuses with the reason, so that a new
-noun is refused until somebody has compared it. Each answer carries a value, an interval, what the
-interval was measured on, and the name of the tier.
+A tier accepts only problems on its allow-list: shapes, bodies, laws, solids, tests and ranges for
+which it was compared with simulations. It rejects everything else with a reason, so that a new
+class is rejected until it has been compared. Each prediction has a value, an interval, the basis of
+the interval, and the name of the tier.
 """
 
 from __future__ import annotations
@@ -46,27 +46,27 @@ from .theories import (
     elastic_limits,
 )
 
-# Seconds that a tier may take: surrogates alone; surrogates and theories, the default.
+# Time budgets [s]: surrogates alone; surrogates and theories, the default.
 AT_ONCE, SOON = 0.01, 1.0
-_SIMULATE = "`viscotack simulate`, or `predict` with --exact, answers it"
+_SIMULATE = "`viscotack simulate`, or `predict` with --exact, can compute it"
 
 
 @dataclass(frozen=True, eq=False)
 class Tier:
-    """One way to answer: a surrogate, a theory or the simulation.
+    """One way to predict: a surrogate, a theory or the simulation.
 
     Attributes
     ----------
     name : str
-        As in the `method` of its predictions.
+        Name, as in the `method` of its predictions.
     cost : float
-        Time of an answer [s], about.
+        Approximate time of a prediction [s].
     verified : tuple of Verified
-        Its allow-lists, one of which a problem must be on; empty where it takes every noun.
+        Its allow-lists, one of which must contain the problem; empty if it accepts all classes.
     limits : callable
-        Returns which number of a problem on the list is out of its range, or an empty string.
+        Names the number of a listed problem that is out of range, or returns an empty string.
     reply : callable
-        Returns the prediction.
+        Computes the prediction.
     """
 
     name: str
@@ -76,25 +76,25 @@ class Tier:
     reply: Callable[[Question], Prediction]
 
     def covers(self, problem: Case) -> str:
-        """Return the reason why the tier does not answer a problem, or an empty string.
+        """Return the reason why the tier does not accept a problem, or an empty string.
 
-        A theory whose list a problem is on may still find, when it answers, that its own conditions
-        of speed and start are not met; :meth:`answer` then raises.
+        A theory that accepts a problem may still find during evaluation that its conditions on
+        speed and start are not met; :meth:`answer` then raises an error.
         """
         return self.refuses(Question(problem))
 
     def answer(self, problem: Case, *, confidence: float = 0.9) -> Prediction:
-        """Return the answer of this tier.
+        """Predict by this tier.
 
         Raises
         ------
         OutOfRange
-            If the tier does not cover the problem, with the reason.
+            If the tier does not accept the problem, with the reason.
         """
         return self.ask(Question(problem, confidence))
 
     def refuses(self, asked: Question) -> str:
-        """Return :meth:`covers` of a problem of which more is known."""
+        """Return :meth:`covers` for a question with cached results."""
         reasons = [each.refuses(asked.groups) for each in self.verified]
         if reasons and all(reasons):
             return reasons[0]
@@ -104,14 +104,14 @@ class Tier:
             return str(error)
 
     def ask(self, asked: Question) -> Prediction:
-        """Return :meth:`answer` to a problem of which more is known."""
+        """Return :meth:`answer` for a question with cached results."""
         if reason := self.refuses(asked):
             raise OutOfRange(reason)
         try:
             return self.reply(asked)
         except ValueError as error:
             if not self.verified:
-                raise  # what the simulation of any problem refuses is bad input
+                raise  # a rejection by the simulation is bad input
             raise OutOfRange(str(error)) from error
 
 
@@ -144,22 +144,22 @@ TIERS = (*LEARNED, *THEORIES, EXACT)
 
 
 def best(asked: Question, budget: float) -> Prediction:
-    """Return the answer of the best tier that a budget allows.
+    """Predict by the best tier within a budget.
 
-    Surrogates come first, because their intervals are the narrowest and cost nothing; then, if the
-    budget allows it, the simulation; then the theory with the narrowest band.
+    Surrogates come first, because their intervals are the narrowest and they are fastest; then, if
+    the budget allows it, the simulation; then the theory with the narrowest band.
 
     Parameters
     ----------
     asked : Question
-        The problem.
+        The problem with the confidence of its intervals.
     budget : float
         Largest cost of a tier [s].
 
     Raises
     ------
     OutOfRange
-        If no tier within the budget was verified for the problem: the reason of each.
+        If no tier within the budget was verified for the problem, with the reason of each.
     ValueError
         If there is no relaxed contact to pull off.
     """
@@ -185,7 +185,7 @@ def best(asked: Question, budget: float) -> Prediction:
 def _answers(
     tiers: tuple[Tier, ...], asked: Question, budget: float, refused: dict[str, str]
 ) -> Iterator[Prediction]:
-    """Iterate over the answers of the tiers that cover a problem; collect the other reasons."""
+    """Iterate over the predictions of the tiers that accept a problem; collect other reasons."""
     for tier in tiers:
         if tier.cost > budget:
             continue
@@ -196,7 +196,7 @@ def _answers(
 
 
 def _reason_of_surrogates(asked: Question, refused: dict[str, str]) -> str:
-    """Return why the surrogate that is closest to a problem does not answer it."""
+    """Return why the surrogate closest to a problem does not accept it."""
     if asked.groups.in_plane_strain:
         return refused[LEARNED_PUNCH]
     power_law = isinstance(asked.groups.material, RetardationPowerLaw)
@@ -204,10 +204,10 @@ def _reason_of_surrogates(asked: Question, refused: dict[str, str]) -> str:
 
 
 def _no_tier(out: str, asked: Question, refused: dict[str, str], budget: float) -> str:
-    """Return in words why no tier within a budget answers."""
+    """Describe why no tier within a budget applies."""
     if budget <= AT_ONCE:
         return out
-    # the reasons of the other closed forms are alike
+    # the reasons of the other closed forms are similar
     form = "elastic" if isinstance(asked.groups.material, Elastic) else "detachment"
     theories = (refused.get(form, ""), refused.get(CRACK_CONTACT, ""))
     words = dict.fromkeys(each for each in (out, *theories) if each)

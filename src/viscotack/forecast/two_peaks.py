@@ -1,25 +1,26 @@
-"""Where the force of a retraction may have two maxima of about the same height.
+"""Retractions whose force may have two maxima of about the same height.
 
-One comes before the solid under the contact has relaxed, the other after it, when the edge runs as
-a crack. The pull-off force is the larger, so that it has a kink where they are equal; tiers that
-follow one of them alone do not hold there.
+One maximum occurs before the solid under the contact has relaxed, the other after it, when the edge
+is a crack. The pull-off force is the larger, so it has a kink where they are equal; tiers that
+describe only one of them fail there.
 """
 
 from __future__ import annotations
 
-# Least and largest Tabor number, modulus ratio, depth [h0], and rate times retardation time over
-# the depth: there 90 % intervals of the surrogate of solids held 67 to 79 % of simulated forces.
+# Smallest and largest Tabor number, modulus ratio, depth [h0], and rate times retardation time over
+# the depth, for which 90 % intervals of the surrogate of solids included only 67 to 79 % of the
+# simulated forces.
 _BETWEEN = ((0.05, 5.0), (1e-4, 1e-2), (20.0, 500.0), (0.5, 2.0))
 
 
 def two_peaks(tabor: float, modulus_ratio: float, depth: float, rate: float) -> str:
-    """Return in words that the force may have two maxima, or an empty string.
+    """Return a sentence if the force may have two maxima, or an empty string.
 
     Parameters
     ----------
     tabor, modulus_ratio : float
     depth : float
-        Of the start [h0].
+        Depth of the start [h0].
     rate : float
         Retraction speed times the retardation time [h0].
     """
@@ -30,6 +31,6 @@ def two_peaks(tabor: float, modulus_ratio: float, depth: float, rate: float) -> 
         return ""
     return (
         "the force may have two maxima of about the same height, one before the solid under the "
-        f"contact has relaxed and one after: the rate is {rate / depth:.2g} times the preload in "
+        f"contact has relaxed and one after: {rate / depth:.2g} preload depths are retracted in "
         "the retardation time"
     )

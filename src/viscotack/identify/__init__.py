@@ -1,4 +1,4 @@
-"""The interface from measured curves: which work of adhesion, which range, and how well known."""
+"""Identify the interface from measured curves: work of adhesion and range, with intervals."""
 
 from .forecasting import RateForecast, forecast_rates
 from .objective import Best, Interval, Objective, Parameter

@@ -1,7 +1,8 @@
-r"""Elastic contacts along their curve: radius, depth and force of each model, ready to be fitted.
+r"""Elastic contact curves for fits: contact radius, depth and force of each model.
 
-JKR, DMT and Maugis-Dugdale give all three, Carpick's equation (between DMT and JKR by one number)
-force and radius. Curves run from the largest contact to where a rigid drive lets go.
+JKR, DMT and Maugis-Dugdale give all three; Carpick's equation, a one-parameter interpolation
+between DMT and JKR, gives force and radius. Curves extend from the largest contact to the
+instability of a rigid drive.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,12 +17,12 @@ from viscotack.theory import dmt, jkr, maugis, transition
 Values = Mapping[str, float]
 
 _POINTS = 1200
-_ABOVE = 1.5  # of the largest radius that may be asked for
+_ABOVE = 1.5  # factor on the largest radius of the data
 
 
 @dataclass(frozen=True)
 class ElasticModel:
-    """A model of a slow test.
+    """An elastic contact model for a slow test.
 
     Parameters
     ----------
@@ -32,7 +33,7 @@ class ElasticModel:
     by_radius : callable
         (contact radii, values, sphere's radius) -> forces.
     by_depth : callable or None
-        (depths, values, sphere's radius) -> forces; None where the model has no depth.
+        (depths, values, sphere's radius) -> forces; None for a model without depth.
     """
 
     name: str
@@ -58,14 +59,14 @@ def _dmt_by_radius(a: Array, values: Values, radius: float) -> Array:
 
 
 def _with_strength(values: Values, radius: float) -> dict[str, float]:
-    """Return the sphere of Maugis with the strength that gives its parameter."""
+    """Return the Maugis sphere with the cohesive strength of the given Maugis parameter."""
     case = _two(values, radius)
     per_strength = float(maugis.maugis_parameter(strength=1.0, **case))
     return case | {"strength": values["maugis_parameter"] / per_strength}
 
 
 def _maugis_curve(case: Mapping[str, float], excess: Array) -> tuple[Array, Array, Array]:
-    """Return radius, depth and force where the cohesive radius is that much larger."""
+    """Return contact radius, depth and force where the cohesive radius exceeds it by `excess`."""
     state = maugis.curve(1 + excess, **case)
     a, d, P = (np.asarray(x) for x in (state.contact_radius, state.depth, state.force))
     return a, d, P
@@ -75,7 +76,7 @@ def _maugis_by_radius(a: Array, values: Values, radius: float) -> Array:
     case = _with_strength(values, radius)
     excess = np.geomspace(1e-9, 1e6, 150)
     coarse, _, _ = _maugis_curve(case, excess)
-    # finely where the radii asked for are: a smaller radius has a larger zone beside it
+    # refine near the requested radii: a smaller contact has a relatively larger zone
     first = max(int(np.sum(coarse > a.max())) - 1, 0)
     last = min(int(np.sum(coarse >= a.min())), excess.size - 1)
     radii, _, force = _maugis_curve(case, np.geomspace(excess[first], excess[last], 200))
@@ -84,7 +85,7 @@ def _maugis_by_radius(a: Array, values: Values, radius: float) -> Array:
 
 
 def _carpick_by_radius(a: Array, values: Values, radius: float) -> Array:
-    r"""Return the force at a radius, Carpick's equation solved for it.
+    r"""Compute the force at a contact radius from Carpick's equation.
 
     .. math:: P = P_{po} \left[ \left( (1 + \alpha) (a/a_0)^{3/2} - \alpha \right)^2 - 1 \right]
     """
@@ -116,7 +117,7 @@ def _maugis_by_depth(depth: Array, values: Values, radius: float) -> Array:
     excess = np.geomspace(1e-9, 1e6, 150)
     _, coarse, _ = _maugis_curve(case, excess)
     first = max(int(np.argmax(coarse <= depth.max())) - 1, 0)
-    # a rigid drive holds the contact while the depth still falls
+    # with a rigid drive the contact is stable while the depth decreases
     turned = np.flatnonzero(np.diff(coarse) >= 0)
     last = min(int(turned[0]) + 1, excess.size - 1) if turned.size else excess.size - 1
     _, d, P = _maugis_curve(case, np.geomspace(excess[first], excess[last], _POINTS))
@@ -130,7 +131,7 @@ def _maugis_by_depth(depth: Array, values: Values, radius: float) -> Array:
 
 
 def _interpolated(x: Array, at: Array, force: Array) -> Array:
-    """Return forces between the points of a curve; before its end, the force at the end."""
+    """Interpolate the force on a curve; beyond its end, return the force at the end."""
     return np.interp(x, at, force)
 
 

@@ -1,14 +1,14 @@
-r"""A forecast of pull-off forces from a rate series: at other speeds, loads and temperatures.
+r"""Predict pull-off forces from a rate series at other speeds, loads and temperatures.
 
-Interfaces are drawn from the posterior of the series. For each of them ln of the forces measured
-and of those forecast err together, by theory and material, with the covariance
+Interfaces are sampled from the posterior of the series. For each sample, the errors of theory and
+material in ln of the measured forces (m) and predicted forces (f) have the covariance
 
 .. math:: C = \begin{pmatrix} C_{mm} + N & C_{mf} \\ C_{fm} & C_{ff} \end{pmatrix} ,
 
-N the noise of the measured ones. Given their residuals r the forecast is normal, with mean
-:math:`C_{fm} (C_{mm} + N)^{-1} r` and covariance
-:math:`C_{ff} - C_{fm} (C_{mm} + N)^{-1} C_{mf}`: near speeds that were measured it is the data
-that speak, far from them the model.
+where N is the noise of the measured forces. Given their residuals r, the prediction is normal with
+mean :math:`C_{fm} (C_{mm} + N)^{-1} r` and covariance
+:math:`C_{ff} - C_{fm} (C_{mm} + N)^{-1} C_{mf}`. Near measured speeds it follows the data, far from
+them the model.
 """
 
 from collections.abc import Sequence
@@ -24,35 +24,36 @@ from viscotack.materials.conversion import slowed
 from viscotack.protocol import Approach, AtForce, Dwell, Move
 from viscotack.units import readable
 
-from .doubt import allowed, covariance, log_forces, theory_covariance
+from .covariances import allowed, covariance, log_forces, theory_covariance
 from .rate_series import RateSeriesFit
 from .sampling import Posterior, posterior
 from .search import LEAST_TABOR
 
-_MOST = 200  # speeds
-_DRAWS, _TIMES = 200, 10  # interfaces drawn, and forces of each
+_MOST = 200  # largest number of speeds
+_DRAWS, _TIMES = 200, 10  # number of sampled interfaces, and of forces per interface
 
 
 @dataclass(frozen=True, eq=False)
 class RateForecast:
-    """Pull-off forces to expect.
+    """Predicted pull-off forces with a band.
 
     Parameters
     ----------
     speed : ndarray, shape (n,)
-        Of the retraction [m/s].
+        Retraction speed [m/s].
     force, low, high : ndarray, shape (n,)
-        Median and ends of the band [N]: of the mean of many tests, without the noise of one.
+        Median and limits of the band [N], for the mean of many tests, without the noise of a single
+        one.
     level : float
-        Of the band.
+        Confidence level of the band.
     preload, temperature : float, float or None
-        For which [N], [K].
+        Preload [N] and temperature [K] of the prediction.
     dwell : float or None
         Time under the preload [s]; None for a contact that has relaxed.
     posterior : Posterior
-        Interfaces from which it was drawn.
+        Sampled interfaces.
     words : tuple of str
-        What to know of it.
+        Remarks on the validity.
     """
 
     speed: Array
@@ -80,38 +81,38 @@ def forecast_rates(
     level: float | None = None,
     seed: int = 0,
 ) -> RateForecast:
-    """Return pull-off forces with a band, from a rate series that was fitted.
+    """Predict pull-off forces with a band from a fitted rate series.
 
     Parameters
     ----------
     fit : RateSeriesFit
-        Of the series.
+        Fit of the series.
     speed : array_like, shape (n,)
-        Of the retraction [m/s].
+        Retraction speed [m/s].
     preload : float, optional
-        Under which the contact relaxes [N]; else the mean one of the series.
+        Force under which the contact relaxes [N]; by default the mean preload of the series.
     temperature : float, optional
-        Of the forecast [K]; else that of the series. The passport must say how times shift.
+        Temperature [K]; by default that of the series. The passport must contain a shift.
     dwell : float, optional
-        Time under the preload [s], after an approach at `approach_speed`; else until all has
-        relaxed.
+        Time under the preload [s], after an approach at `approach_speed`; by default the contact
+        relaxes fully.
     approach_speed : float, optional
-        [m/s]; goes with `dwell`.
+        Approach speed [m/s]; required with `dwell`.
     stiffness : float, optional
-        Of the machine [N/m], inf for a rigid one; else that of the series.
+        Stiffness of the machine [N/m], inf for a rigid one; by default that of the series.
     theory : float, optional
-        Relative standard uncertainty of the forward model; else that of the fit.
+        Relative standard uncertainty of the forward model; by default that of the fit.
     level : float, optional
-        Of the band; else that of the fit.
+        Confidence level of the band; by default that of the fit.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
 
     Raises
     ------
     OutOfRange
-        If the theory does not hold at a speed, or the temperature was not measured.
+        If the theory does not hold at a speed, or the temperature is outside the passport's range.
     ValueError
-        If a number is wrong.
+        If an argument is invalid.
     """
     v = np.atleast_1d(np.asarray(speed, dtype=float))
     level = fit.level if level is None else level
@@ -139,7 +140,7 @@ def forecast_rates(
     theory = fit.theory if theory is None else theory
     spread = _together(fit, passport, (measured, loads), (v, load), theory)
     m = measured.size
-    # of the fit: noise, theory and material of the forces that were measured
+    # covariance of the fit: noise, theory and material of the measured forces
     gain = np.linalg.solve(fit.covariance, spread[:m, m:]).T
     left = spread[m:, m:] - gain @ spread[:m, m:]
     root = _root(left)
@@ -182,26 +183,27 @@ def _check(
     approach: float | None,
 ) -> None:
     if not (speed.ndim == 1 and 0 < speed.size <= _MOST and np.all(speed > 0)):
-        raise InputError(f"a forecast is for 1 to {_MOST} positive speeds [m/s], got {speed!r}")
+        raise InputError(f"a forecast needs 1 to {_MOST} positive speeds [m/s], got {speed!r}")
     if not (preload > 0 and 0 < level < 1):
         raise InputError(
-            f"preload must be positive and level a part of one, got {preload} N, {level}"
+            f"preload must be positive and level between 0 and 1, got {preload} N and {level}"
         )
     if stiffness is not None and not stiffness > 0:
         raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
     if (dwell is None) != (approach is None):
-        raise InputError("dwell time and approach speed go together; say both or neither")
+        raise InputError("dwell and approach_speed must be given together")
     if dwell is not None and approach is not None and not (dwell >= 0 and approach > 0):
         raise InputError(
-            f"a dwell is not negative and an approach speed positive, got {dwell} s, {approach} m/s"
+            f"dwell must not be negative and approach_speed must be positive, got {dwell} s, "
+            f"{approach} m/s"
         )
 
 
 def _check_growth(fit: RateSeriesFit, passport: Passport) -> None:
     if fit.growth is not None and passport.temperature != fit.passport.temperature:
         raise InputError(
-            "how the growth of an interface with speed changes with temperature is not known: "
-            f"forecast at {fit.passport.temperature:g} K, that of the series, or measure a series "
+            "the temperature dependence of a speed-dependent interface is unknown: forecast at "
+            f"the temperature of the series, {fit.passport.temperature:g} K, or measure a series "
             f"at {passport.temperature:g} K"
         )
 
@@ -210,8 +212,8 @@ def _refuse(speed: Array, effective: Array) -> None:
     bad = effective < LEAST_TABOR
     if np.any(bad):
         raise OutOfRange(
-            f"at {readable(speed[bad].min(), 'm/s', digits=3)} the zone at the edge is as "
-            "large as the contact and the theory does not hold; ask slower speeds, or simulate"
+            f"at {readable(speed[bad].min(), 'm/s', digits=3)} the cohesive zone is as "
+            "large as the contact, so the theory does not hold; choose slower speeds, or simulate"
         )
 
 
@@ -222,7 +224,7 @@ def _together(
     wanted: tuple[Array, float],
     theory: float,
 ) -> Array:
-    """Return how theory and material err together, over speeds measured and wanted."""
+    """Return the joint covariance of theory and material over measured and predicted speeds."""
     speed = np.concatenate([measured[0], wanted[0]])
     spread = theory_covariance(speed, theory)
     solids = allowed(fit.passport)
@@ -240,7 +242,7 @@ def _together(
 
 
 def _slowed(first: Passport, second: Passport, solids: Sequence[object]) -> Sequence[object]:
-    """Return solids drawn by intervals at another temperature."""
+    """Return solids sampled from a passport's intervals at another temperature."""
     if second.temperature == first.temperature or second.temperature is None:
         return solids
     factor = first.shift_factor(second.temperature)
@@ -258,19 +260,20 @@ def _words(fit: RateSeriesFit, speed: Array, crack: Array, chain: Posterior) -> 
     measured = [one.speed for one in fit.series]
     if speed.min() < 0.5 * min(measured) or speed.max() > 2 * max(measured):
         said.append(
-            f"speeds from {readable(min(measured), 'm/s', digits=3, to=max(measured))} were "
-            "measured; beyond them the forecast rests on the material and the theory"
+            "measured speeds range from "
+            f"{readable(min(measured), 'm/s', digits=3, to=max(measured))}; beyond them the "
+            "prediction depends on the material and the theory"
         )
     said.append(
-        f"the edge is at {readable(crack.min(), 'm/s', digits=2, to=crack.max())} at pull-off"
+        f"the crack speed at pull-off is {readable(crack.min(), 'm/s', digits=2, to=crack.max())}"
     )
     if any(ends.split for ends in fit.intervals.values()):
-        said.append("the band is drawn around the likelier of two ranges; the other may differ")
+        said.append("the band covers only the more likely of two ranges of attraction")
     if not chain.converged:
         said.append(
-            "the walk through the posterior is short: its correlation time is "
+            "too few independent samples of the posterior: the correlation time is "
             f"{chain.correlation_time:.0f} steps"
         )
     if not allowed(fit.passport):
-        said.append("the band does not hold any doubt about the material: none is stated")
+        said.append("the band does not include the uncertainty of the material, which is unknown")
     return said

@@ -1,8 +1,8 @@
-"""Pull-off forces of a sphere relaxed under a preload, for many interfaces and speeds at once.
+"""Forward model: pull-off forces of relaxed spheres, vectorised over interfaces and speeds.
 
-The contact whose edge is a steady crack (:mod:`viscotack.theory.crack.contact`), with Lennard-Jones
-forces: the forward model of a rate series and of its forecast. Where the interface grows with the
-opening speed (:class:`Growth`), edges come from a lattice of cracks.
+The model is the contact whose edge is a steady crack (:mod:`viscotack.theory.crack.contact`), with
+Lennard-Jones forces. For an interface whose strength grows with the opening speed
+(:class:`Growth`), the crack energies are interpolated from a lattice of cracks.
 """
 
 from collections.abc import Sequence
@@ -35,20 +35,20 @@ from viscotack.units import readable
 
 from .travel import travels_of
 
-_APART = 20.0  # ranges from which an approach begins
-_SPEED = 1e-6  # at which groups are asked for; rates are in proportion
-_AT_ONCE = 1500  # cases, which still fit in the memory that is near
+_APART = 20.0  # start of an approach, in ranges of attraction
+_SPEED = 1e-6  # m/s: reference speed of the groups; rates scale with it
+_AT_ONCE = 1500  # cases per batch, to fit into the processor's cache
 
 
 class Growth(NamedTuple):
-    """How an interface grows with the opening speed, after Gent and Schultz.
+    """Growth of the interface's strength with the opening speed, after Gent and Schultz.
 
     Attributes
     ----------
     reference_speed : float or ndarray
-        v0 [m/s]; infinite where it does not grow.
+        v0 [m/s]; infinite without growth.
     exponent : float or ndarray
-        n.
+        n [-].
     """
 
     reference_speed: Any
@@ -56,24 +56,24 @@ class Growth(NamedTuple):
 
 
 class Pulled(NamedTuple):
-    """Pull-offs, each array of the same shape.
+    """Pull-offs; all arrays have the same shape.
 
     Attributes
     ----------
     force : ndarray
-        Positive [N].
+        Pull-off force, positive [N].
     effective_tabor : ndarray
-        Tabor number of an elastic contact whose zone is as large beside it.
+        Effective Tabor number: that of an elastic contact with the same ratio of zone to contact.
     crack_speed : ndarray
-        Of the edge there [m/s].
+        Speed of the edge at pull-off [m/s].
     contact_radius : ndarray
-        Of the relaxed start [m].
+        Contact radius of the relaxed start [m].
     travels : ndarray, shape (..., 4)
-        From the start to zero force, and from there to parts of the pull-off [m], as
-        :mod:`.travel` has them; nan where the start is in tension.
+        Travels from the start to zero force, and from there to fractions of the pull-off force [m],
+        see :mod:`.travel`; nan for starts in tension.
     energy, interface : ndarray
-        What the edge takes there, and what the interface takes of it [works of adhesion]; the bulk
-        multiplies by their ratio.
+        Energy per area of the edge at pull-off, and the part dissipated by the interface [works of
+        adhesion]; the bulk multiplies by their ratio.
     """
 
     force: Array
@@ -86,14 +86,14 @@ class Pulled(NamedTuple):
 
 
 class Changed(NamedTuple):
-    """What a machine and a history do to pull-offs.
+    """Effect of machine stiffness and loading history on pull-offs.
 
     Attributes
     ----------
     ratio : ndarray, shape (S,)
-        Pull-off force over that of a relaxed contact and a rigid machine; 1 where it is refused.
+        Pull-off force over that of a relaxed contact and a rigid machine; 1 for refused speeds.
     refused : dict
-        Number of a speed -> why the theory does not answer it.
+        Index of a speed -> reason why the theory does not apply.
     """
 
     ratio: Array
@@ -102,16 +102,16 @@ class Changed(NamedTuple):
 
 @dataclass(frozen=True)
 class Forward:
-    """Pull-offs of a sphere of one material.
+    """Forward model of pull-offs of a sphere on one material.
 
     Parameters
     ----------
     material : Material
-        Of the half-space.
+        Material of the half-space.
     radius : float
-        Of the sphere [m].
+        Radius of the sphere [m].
     lattice : GrowingCracks, optional
-        Of the material, for interfaces that grow.
+        Cracks of the material for interfaces that grow.
     """
 
     material: Material
@@ -126,7 +126,7 @@ class Forward:
         speed: float = _SPEED,
         growth: Growth | None = None,
     ) -> Problem:
-        """Return one of the tests: work of adhesion [J/m2], h0 [m], preload [N], speed [m/s]."""
+        """Return the problem of a test: work [J/m2], h0 [m], preload [N], speed [m/s]."""
         law: Any = LennardJones(work_of_adhesion=work, equilibrium_gap=gap)
         if growth is not None:
             v0, n = (float(np.asarray(x)) for x in growth)
@@ -140,7 +140,7 @@ class Forward:
 
     @cached_property
     def crack(self) -> SteadyCrack:
-        """Return the cracks of the material, which are the same for all interfaces."""
+        """Return the steady cracks of the material, shared by all interfaces."""
         return SteadyCrack(self.material.reduced(), LennardJones(1.0, 1.0))
 
     def changed(
@@ -154,20 +154,20 @@ class Forward:
         moves: tuple[Move, ...] = (),
         growth: Growth | None = None,
     ) -> "Changed":
-        """Return by what a spring, or an approach and a dwell, change the pull-offs.
+        """Compute the effect of a spring, or of approach and dwell, on the pull-offs.
 
         Parameters
         ----------
         work, gap : float
-            Of the interface.
+            Work of adhesion [J/m2] and range h0 [m].
         speed, preload : ndarray, shape (S,)
-            Of the drive, and of the start.
+            Speed of the drive [m/s] and preload [N].
         stiffness : float, optional
-            Of the machine [N/m]; None for a rigid one.
+            Stiffness of the machine [N/m]; None for a rigid one.
         moves : tuple
-            From apart to where the retraction begins; none for a contact that has relaxed.
+            Moves before the retraction; empty for a relaxed contact.
         growth : Growth, optional
-            Of the interface.
+            Growth of the interface.
         """
         loads = np.broadcast_to(preload, speed.shape)
         problems = [
@@ -175,7 +175,7 @@ class Forward:
             for v, load in zip(speed, loads, strict=True)
         ]
         if not moves and stiffness is None:
-            # nothing changes them; retractions from rest are marched together
+            # no effect; retractions from rest are computed together
             return Changed(np.ones(speed.size), _refused(_rested(problems), speed))
         answers = [_pressed(problem, _APART * gap, moves, stiffness) for problem in problems]
         refused = _refused(answers, speed)
@@ -188,13 +188,13 @@ class Forward:
         return Changed(ratio, refused)
 
     def beside(self, material: Material) -> "Neighbour":
-        """Return the pull-offs of a material near to this one, at no cost."""
+        """Return a fast approximate forward model for a similar material."""
         return Neighbour(material, self.radius, self.lattice, known=self)
 
     def edges(self, gap: Array, growth: Growth) -> Any:
-        """Return an edge for each case, of its range and growth."""
+        """Return one edge law per case, for its range and growth."""
         if self.lattice is None:
-            raise ValueError("pull-offs with growth need a lattice of cracks")
+            raise ValueError("pull-offs with growth need a lattice of cracks; pass lattice=")
         v0, n = growth
         return self.lattice.edges(np.asarray(v0) * self.material.time_unit / gap, n)
 
@@ -207,23 +207,23 @@ class Forward:
         radii: int = 160,
         growth: Growth | None = None,
     ) -> Pulled:
-        """Return pull-offs of interfaces, broadcast.
+        """Compute pull-offs of interfaces; arguments are broadcast.
 
         Parameters
         ----------
         work, gap : array_like
             Work of adhesion [J/m2] and range of attraction h0 [m].
         speed, preload : array_like
-            Of the retraction [m/s], and under which the contact relaxed [N].
+            Retraction speed [m/s], and force under which the contact relaxed [N].
         radii : int
-            Of a curve, as of :func:`~viscotack.theory.crack.contact.recede`.
+            Number of points of a curve, as in :func:`~viscotack.theory.crack.contact.recede`.
         growth : Growth, optional
-            Of the interfaces.
+            Growth of the interfaces.
         """
         given = (work, gap, speed, preload, *(growth or ()))
         cases = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
         shape, flat = cases[0].shape, [x.ravel() for x in cases]
-        # an edge of its own for each case is much to hold at once
+        # with one edge law per case, process in batches to limit memory
         count = flat[0].size if growth is None else _AT_ONCE
         parts = [
             self._pulled([x[i : i + count] for x in flat], radii)
@@ -234,11 +234,11 @@ class Forward:
 
     def _pulled(self, cases: Sequence[Array], radii: int) -> Pulled:
         w, h0, v, P, *grown = cases
-        # not by a problem of each: an interface far from the data may lie beyond small strain
+        # without a Problem per case, which rejects interfaces far from the data as large strain
         modulus, profile = self.material.contact_modulus, profile_of(Sphere(radius=1.0))
         mu = (self.radius * w**2 / modulus**2) ** (1 / 3) / h0
         rate = v * self.material.time_unit / h0 / mu
-        # of a relaxed sphere, in beta, for forces in R dg
+        # relaxed sphere: radii in beta, forces in R dg
         start = np.asarray(
             jkr.contact_radius_at_force(
                 P / (self.radius * w), radius=1.0, contact_modulus=1.0, work_of_adhesion=1.0
@@ -248,7 +248,7 @@ class Forward:
         found = recede(edge, profile, radius=start, rate=rate, tabor=mu, radii=radii)
         energy = np.maximum(found.amplification, 1.0)
         interface = edge.interface_work(found.speed) if grown else np.ones_like(energy)
-        # of an interface Q times as strong, whose energy the bulk makes Gamma/Q times as large
+        # interface Q times as strong, with bulk amplification Gamma/Q
         bulk = np.maximum(energy / interface, 1.0)
         effective = mu * interface ** (2 / 3) * bulk ** (-1 / 3)
         tension, pressed = _ranged(found, effective)
@@ -269,7 +269,7 @@ class Forward:
 
 
 def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
-    """Crack contact of each retraction from rest, or the error that refuses it."""
+    """Return the crack contact of each retraction from rest, or its error."""
     try:
         return crack_contacts([problem.groups() for problem in problems])
     except InputError as error:
@@ -279,7 +279,7 @@ def _rested(problems: Sequence[Problem]) -> Sequence[CrackContact | InputError]:
 def _pressed(
     problem: Problem, apart: float, moves: tuple[Move, ...], stiffness: float | None
 ) -> CrackContact | InputError:
-    """Crack contact of a test with a history or a spring, or the error that refuses it."""
+    """Return the crack contact of a test with history or spring, or its error."""
     drive = replace(problem.protocol, moves=moves, stiffness=stiffness)
     try:
         drive = replace(drive, start=Apart(apart)) if moves else drive
@@ -289,7 +289,7 @@ def _pressed(
 
 
 def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict[int, str]:
-    """Map the number of each test without a pull-off to the reason."""
+    """Map the index of each test without a pull-off to the reason."""
     refused = {}
     for i, answer in enumerate(answers):
         if isinstance(answer, InputError):
@@ -302,7 +302,7 @@ def _refused(answers: Sequence[CrackContact | InputError], speed: Array) -> dict
 
 
 def _ranged(found: Curves, effective: Array) -> tuple[Array, Array]:
-    """Return tensions and forces with the correction for the range of the forces."""
+    """Correct tensions and forces for the finite range of the forces."""
     ratio = np.asarray(lennard_jones.pull_off_ratio(effective))
     tension = np.where(found.force < 0, -ratio * found.force, 0.0)
     return tension, np.where(found.force < 0, -tension, found.force)
@@ -310,15 +310,15 @@ def _ranged(found: Curves, effective: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Neighbour(Forward):
-    """Pull-offs of a material beside another whose cracks are known."""
+    """Forward model of a material similar to another one with known cracks."""
 
     known: Forward = field(kw_only=True)
 
     @cached_property
     def crack(self) -> Any:
-        """Return the cracks of the material, by those of its neighbour."""
+        """Return the cracks of the material, extrapolated from those of its neighbour."""
         return NeighbourCrack(self.known.crack, self.material)
 
     def edges(self, gap: Array, growth: Growth) -> Any:
-        """Return an edge for each case, by those of the neighbour."""
+        """Return one edge law per case, extrapolated from those of the neighbour."""
         return NeighbourEdges(super().edges(gap, growth), self.known.crack, self.crack)

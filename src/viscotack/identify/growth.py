@@ -1,15 +1,15 @@
-r"""Unknowns of an interface that grows with speed, and what is said of it.
+r"""Unknowns and results of an interface whose strength grows with speed.
 
-Reference speed and exponent of Gent and Schultz's law go together: a series says how strong the
-interface is where it was pulled, and with which power that changes. So the unknowns are the
-exponent n and the *strengthening*
+Reference speed and exponent of the Gent-Schultz law are strongly correlated: a series determines
+the strength of the interface at the measured speeds, and its power of speed. Therefore the unknowns
+are the exponent n and the *strengthening*
 
 .. math:: S = 1 + G(\omega/h_0) ,
 
-the strength over that at rest where the gap opens as fast as by an edge in the middle of the
-series: an edge of speed v opens the gap with :math:`v \Delta\gamma_0/(E_0^* h_0)`, about, so that
-:math:`\omega = v \Delta\gamma_0/E_0^*` is one number for all ranges that are looked at. S = 1 is an
-interface that does not grow.
+the strength over that at rest, at the opening speed under an edge in the middle of the
+series. An edge of speed v opens the gap at about :math:`v \Delta\gamma_0/(E_0^* h_0)`, so that
+:math:`\omega = v \Delta\gamma_0/E_0^*` is the same for all ranges h0. S = 1 is an
+interface without growth.
 """
 
 from collections.abc import Mapping
@@ -28,22 +28,22 @@ from .forward import Forward, Growth, Pulled
 from .objective import Parameter
 
 STRENGTHENING, EXPONENT = "strengthening", "exponent"
-# The largest strengthening that is looked for; exponents, and those of the lattice.
+# The largest strengthening searched; exponents searched, and those of the lattice.
 LARGEST = 30.0
 EXPONENTS = (0.2, 0.8)
 _LATTICE = (0.2, 0.4, 0.6, 0.8)
-# Of the lattice: its least growth, what it has beyond the largest one, and how much faster solids
-# beside may be.
+# Of the lattice: its least growth, its margin beyond the largest one, and how much faster similar
+# solids may be.
 _LEAST, _MORE, _FASTER = 0.03, 1.5, 3.0
-# Growth that is as good as none.
+# Growth that is negligible.
 _LEAST_TOLD = 1e-3
-# The part of series that need no growth and would be said to need it.
+# Accepted probability that a series without growth is reported to need it.
 _CHANCE = 0.01
 
 
 @dataclass(frozen=True)
 class Opening:
-    """Where the strength of an interface is read.
+    """Opening speed at which the strength of an interface is compared.
 
     Parameters
     ----------
@@ -60,28 +60,28 @@ class Opening:
     def growth(
         self, gap: npt.ArrayLike, strengthening: npt.ArrayLike, exponent: npt.ArrayLike
     ) -> Growth:
-        """Return the law of ranges, strengthenings and exponents."""
+        """Return the growth law of ranges, strengthenings and exponents."""
         more = np.asarray(strengthening, dtype=float) - 1
         more = np.where(more > _LEAST_TOLD, more, 0.0)
         return Growth(reference_speed(more, self.speed(gap), exponent), exponent)
 
     def of(self, values: Mapping[str, float]) -> Growth:
-        """Return the law of parameters."""
+        """Return the growth law of a set of parameters."""
         return self.growth(values["equilibrium_gap"], values[STRENGTHENING], values[EXPONENT])
 
 
 @dataclass(frozen=True)
 class Share:
-    """What the edge takes at the pull-off of one speed, and who takes it.
+    """Energy of the edge at the pull-off of one speed, split into bulk and interface.
 
     Parameters
     ----------
     speed, edge_speed : float
-        Of the drive and of the edge [m/s].
+        Speed of the drive and of the edge [m/s].
     energy : float
-        Of the edge [works of adhesion].
+        Energy per area of the edge [works of adhesion].
     bulk, interface : float
-        By what each of the two multiplies the work of adhesion.
+        Factors on the work of adhesion, due to bulk and interface.
     """
 
     speed: float
@@ -93,27 +93,27 @@ class Share:
 
 @dataclass(frozen=True)
 class FoundGrowth:
-    """How the interface of a rate series grows with speed.
+    """Fitted growth of an interface with speed.
 
     Parameters
     ----------
     strengthening : float
-        Strength over that at rest, where the gap opens with `opening_speed`.
+        Strength over that at rest, at `opening_speed`.
     exponent : float
-        n of Gent and Schultz's law.
+        n of the Gent-Schultz law [-].
     opening_speed : float
-        Of the gap under an edge in the middle of the series [m/s].
+        Opening speed of the gap under an edge in the middle of the series [m/s].
     reference_speed : float
         v0 of the law [m/s]; infinite without growth.
     better_by : float
-        By what the misfit is less than that of the best interface without growth, which has two
+        Reduction of the misfit compared with the best interface without growth, which has two
         parameters fewer.
     chance : float
-        The part of series of interfaces without growth that would be better by so much.
+        Probability of such a reduction for an interface without growth.
     shares : tuple of Share
-        Of bulk and interface at the speeds of the series.
+        Contributions of bulk and interface at the speeds of the series.
     opening : Opening
-        Where strengthening is read, for any range.
+        Opening speed at which the strengthening is defined, for any range.
     """
 
     strengthening: float
@@ -136,11 +136,12 @@ class FoundGrowth:
         return {STRENGTHENING: self.strengthening, EXPONENT: self.exponent}
 
     def words(self) -> list[str]:
-        """Return what the data say of growth as a whole."""
+        """Return sentences on the growth of the interface."""
         sure = self.chance < _CHANCE
         said = [
             f"{'the interface grows with speed' if sure else 'growth is not needed'}: without it "
-            f"the misfit is {self.better_by:.1f} more, by chance in {self.chance:.1%} of cases"
+            f"the misfit is {self.better_by:.1f} larger, with a probability of {self.chance:.1%} "
+            "by chance"
         ]
         if np.isfinite(self.reference_speed):
             said.append(
@@ -149,15 +150,15 @@ class FoundGrowth:
             )
         for one in sorted({self.shares[0], self.shares[-1]}, key=lambda share: share.speed):
             said.append(
-                f"at {readable(one.speed, 'm/s', digits=3)} the edge takes "
+                f"at {readable(one.speed, 'm/s', digits=3)} the edge dissipates "
                 f"{one.energy:.3g} works of adhesion: "
-                f"{one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
+                f"a factor {one.bulk:.3g} by the bulk times {one.interface:.3g} by the interface"
             )
         return said
 
 
 def growing(forward: Forward, opening: Opening, gaps: tuple[float, float]) -> Forward:
-    """Return the pull-offs of a material with a lattice of cracks for all growths looked for."""
+    """Return a forward model with a lattice of cracks for all growth laws searched."""
     unit = forward.material.time_unit
     speeds = [float(opening.speed(gap)) * unit / gap for gap in gaps]
     lattice = GrowingCracks(
@@ -180,7 +181,7 @@ def growth_parameters() -> tuple[Parameter, Parameter]:
 def found_growth(
     values: Mapping[str, float], opening: Opening, better_by: float, speed: Array, pulled: Pulled
 ) -> FoundGrowth:
-    """Return the record of the most likely growth."""
+    """Return the fitted growth with its significance."""
     rows = zip(speed, pulled.crack_speed, pulled.energy, pulled.interface, strict=True)
     shares = tuple(
         Share(float(v), float(edge), float(energy), float(energy / work), float(work))
@@ -192,8 +193,8 @@ def found_growth(
         opening_speed=float(opening.speed(values["equilibrium_gap"])),
         reference_speed=float(opening.of(values).reference_speed),
         better_by=max(better_by, 0.0),
-        # the noise is known, so that misfits differ as chi squared; an exponent of no growth is
-        # free and a growth not negative, which makes chance less likely still
+        # the noise is known, so the difference of misfits is chi-squared; without growth the
+        # exponent is free and growth is not negative, which makes chance even less likely
         chance=float(chi2.sf(max(better_by, 0.0), 2)),
         shares=shares,
         opening=opening,

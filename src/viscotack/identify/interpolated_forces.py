@@ -1,4 +1,4 @@
-"""Pull-offs over the unknowns of an interface, interpolated: search and intervals cost nothing."""
+"""Pull-off forces interpolated over the unknowns of an interface, for fast search and intervals."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -12,27 +12,27 @@ from .forward import Forward
 from .growth import EXPONENT, STRENGTHENING, Opening
 from .travel import PARTS
 
-_AT_ONCE = 20_000  # points that are interpolated
+_AT_ONCE = 20_000  # points interpolated per batch
 
 
 class Table:
-    """Pull-off forces over the unknowns of an interface, splines in their logarithms.
+    """Pull-off forces over the unknowns of an interface: splines in logarithms.
 
     Parameters
     ----------
     forward : Forward
-        Pull-offs of the material.
+        Forward model of the material.
     speed, preload : ndarray, shape (S,)
-        Of the series.
+        Speeds [m/s] and preloads [N] of the series.
     axes : mapping
-        Unknown -> values, ascending, four at least: "work_of_adhesion" and "equilibrium_gap", and
-        where the interface grows "strengthening" and "exponent".
+        Unknown -> ascending values, at least four: "work_of_adhesion" and "equilibrium_gap", with
+        growth also "strengthening" and "exponent".
     opening : Opening, optional
-        Where strengthening is read.
+        Opening speed at which the strengthening is defined.
     travels : bool
-        Keep the travels between forces too.
+        Whether to interpolate the travels between forces as well.
     radii : int
-        Of a curve.
+        Number of points of a curve.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Table:
         self.least = found.effective_tabor.min(axis=-1)
         columns = [np.log(found.force), np.log(self.least)[..., None]]
         if travels:
-            # only of starts in compression, which are the ones that have travels
+            # travels exist only for starts in compression
             columns.append(np.log(found.travels).reshape(*self.least.shape, -1))
         self._spline = lattice_spline(
             [_inner(name, x) for name, x in self.axes.items()], np.concatenate(columns, axis=-1)
@@ -70,7 +70,7 @@ class Table:
         return np.exp(self._at(values)[: self._count])
 
     def effective(self, values: Mapping[str, float]) -> float:
-        """Return the least effective Tabor number of the series."""
+        """Return the smallest effective Tabor number of the series."""
         return float(np.exp(self._at(values)[self._count]))
 
     def travels(self, values: Mapping[str, float]) -> Array:
@@ -78,7 +78,7 @@ class Table:
         return np.exp(self._at(values)[self._count + 1 :]).reshape(-1, 1 + len(PARTS))
 
     def forces(self, points: Array) -> Array:
-        """Return forces of many interfaces, shape (N, S), from points of :meth:`dense`."""
+        """Return forces of many interfaces, shape (N, S), at points of :meth:`dense`."""
         parts = [
             self._spline(points[i : i + _AT_ONCE])[:, : self._count]
             for i in range(0, len(points), _AT_ONCE)
@@ -86,7 +86,7 @@ class Table:
         return np.exp(np.concatenate(parts))
 
     def dense(self, times: int) -> Array:
-        """Return points of a lattice so many times as dense, in the numbers that are searched."""
+        """Return points of a finer lattice, in search coordinates."""
         axes = []
         for name, x in self.axes.items():
             place = np.linspace(0, x.size - 1, times * (x.size - 1) + 1)
@@ -99,5 +99,5 @@ class Table:
 
 
 def _inner(name: str, value: Any) -> Any:
-    """Return what an unknown is interpolated in."""
+    """Return the search coordinate of an unknown: its logarithm if positive."""
     return np.asarray(value, dtype=float) if name == EXPONENT else np.log(value)

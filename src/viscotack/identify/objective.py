@@ -1,7 +1,7 @@
-"""Where a measured curve, a model and a prior meet: one objective for every way of asking it.
+"""Objective function of a fit: a measured curve, a model and a prior.
 
-The curve knows nothing of the model, the model nothing of the data. Least squares, profile
-likelihood and sampling all ask this object, and so agree on what is likely.
+Least squares, profile likelihood and sampling use the same object, and therefore the same
+likelihood. Curve and model are independent of each other.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,28 +16,29 @@ from viscotack.errors import InputError
 
 Residuals = Callable[[Mapping[str, float]], Array]
 
-# Of the way from the best value to a bound: an interval may be narrow or wide, or in two parts.
+# Fractions of the distance from the best value to a bound, for intervals of any width or in two
+# parts.
 _PLACES = np.union1d(np.geomspace(2e-3, 1.0, 9), np.linspace(0.2, 1.0, 9))
 _BEYOND = 1e-9
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """One unknown, searched between bounds; in its logarithm where it is positive.
+    """One unknown with its bounds; searched in its logarithm if positive.
 
     Parameters
     ----------
     name : str
-        As the model has it.
+        Name in the model.
     low, high : float
-        Bounds, beyond which nothing is looked for.
+        Bounds of the search.
     start : float
-        Where the search begins.
+        Start of the search.
     logarithmic : bool
-        Whether the search is one of the logarithm.
+        Whether the logarithm is searched.
     prior : (float, float), optional
-        Value and standard uncertainty known from elsewhere: a normal law of the number, or of its
-        logarithm where that is searched (the uncertainty then is relative).
+        Known value and standard uncertainty: a normal distribution of the number, or of its
+        logarithm if that is searched (then the uncertainty is relative).
     """
 
     name: str
@@ -55,21 +56,21 @@ class Parameter:
             )
 
     def inner(self, value: float) -> float:
-        """Return the number that is searched."""
+        """Convert a parameter to its search coordinate."""
         return float(np.log(value)) if self.logarithmic else value
 
     def outer(self, inner: float) -> float:
-        """Return the parameter."""
+        """Convert a search coordinate to the parameter."""
         return float(self.outer_of(np.asarray(inner)))
 
     def outer_of(self, inner: Array) -> Array:
-        """Return parameters."""
+        """Convert search coordinates to parameters."""
         return np.exp(inner) if self.logarithmic else inner
 
 
 @dataclass(frozen=True)
 class Best:
-    """The most likely parameters, and how likely they are.
+    """The most likely parameters and their misfit.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ class Best:
     misfit : float
         Sum of squares of residuals and priors, in standard deviations.
     points : int
-        Residuals.
+        Number of residuals.
     """
 
     values: Mapping[str, float]
@@ -88,16 +89,16 @@ class Best:
 
 @dataclass(frozen=True)
 class Interval:
-    """Between which a parameter lies, and whether the data say so on either side.
+    """Interval of a parameter, and whether the data bound it on each side.
 
     Parameters
     ----------
     low, high : float
-        Ends of the interval; the bound of the search where the data do not end it.
+        Ends of the interval; the bound of the search where the data do not bound it.
     closed_below, closed_above : bool
-        Whether the data end it there.
+        Whether the data bound it below and above.
     split : bool
-        Whether values between are unlikely: the data leave two ranges apart from each other.
+        Whether the interval consists of two separate ranges with unlikely values in between.
     """
 
     low: float
@@ -108,19 +109,19 @@ class Interval:
 
     @property
     def told(self) -> bool:
-        """Whether the data end the interval on both sides."""
+        """Whether the data bound the interval on both sides."""
         return self.closed_below and self.closed_above
 
 
 @dataclass(frozen=True)
 class Objective:
-    """Residuals in standard deviations, of a model with these parameters."""
+    """Normalised residuals of a model as a function of its parameters."""
 
     residuals: Residuals
     parameters: tuple[Parameter, ...]
 
     def log_density(self, inner: Array) -> float:
-        """Return the logarithm of likelihood and prior, up to a constant; for a sampler."""
+        """Return the log-likelihood plus log-prior, up to a constant, for a sampler."""
         for parameter, x in zip(self.parameters, inner, strict=True):
             if not parameter.inner(parameter.low) <= x <= parameter.inner(parameter.high):
                 return -np.inf
@@ -128,7 +129,7 @@ class Objective:
         return -0.5 * float(rest @ rest)
 
     def best(self, held: Mapping[str, float] | None = None, near: Best | None = None) -> Best:
-        """Return the least sum of squares, with some of the parameters held."""
+        """Minimise the sum of squares, optionally with some parameters fixed."""
         held = held or {}
         free = tuple(p for p in self.parameters if p.name not in held)
         if not free:
@@ -150,9 +151,9 @@ class Objective:
         return Best(values | dict(held), 2 * float(found.cost), found.fun.size)
 
     def interval(self, name: str, best: Best, level: float = 0.9) -> Interval:
-        """Return the profile likelihood interval of one parameter.
+        """Compute the profile likelihood interval of one parameter.
 
-        All other parameters are fitted again at each value tried.
+        At each trial value all other parameters are fitted again.
         """
         (parameter,) = (p for p in self.parameters if p.name == name)
         limit = best.misfit + float(chi2.ppf(level, 1))
@@ -166,15 +167,15 @@ class Objective:
     def _end(
         self, parameter: Parameter, middle: float, bound: float, limit: float, best: Best
     ) -> tuple[float, bool, bool]:
-        """Return where the misfit last passes its limit on the way to a bound.
+        """Find the last crossing of the limit by the misfit on the way to a bound.
 
-        And whether it does before that bound, and whether it has passed it before.
+        Also return whether it crosses before the bound, and whether there was an earlier crossing.
         """
 
         def misfit(inner: float, near: Best) -> Best:
             return self.best({parameter.name: parameter.outer(inner)}, near)
 
-        # all the way to the bound: where the misfit has passed its limit it may come back
+        # continue to the bound, because the misfit may fall below the limit again
         tried = [(middle, best)]
         for part in _PLACES:
             tried.append((x := middle + part * (bound - middle), misfit(x, tried[-1][1])))

@@ -1,4 +1,4 @@
-"""What a rate series is made of: pull-offs at true speeds, of the cycles of tack tests."""
+"""Pull-offs of a rate series: forces at true speeds, from the cycles of tack tests."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from viscotack.lab.tack import Cycle, Measured
 
 from .travel import travels
 
-_SAME = 0.03  # speeds within this part are one
+_SAME = 0.03  # relative difference below which speeds are equal
 
 
 @dataclass(frozen=True)
@@ -19,13 +19,13 @@ class PullOff:
     Parameters
     ----------
     speed : float
-        True one of the retraction [m/s].
+        True retraction speed [m/s].
     force : Measured
-        A positive number [N].
+        Pull-off force, positive [N].
     preload : float, optional
-        Under which the contact relaxed [N].
+        Force under which the contact relaxed [N].
     travels : tuple of Measured, optional
-        What the whole curve says beside it [m], as :func:`.travel.travels` has it.
+        Travels along the curve [m], from :func:`.travel.travels`.
     """
 
     speed: float
@@ -35,10 +35,10 @@ class PullOff:
 
 
 def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
-    """Return one pull-off for each speed: repeated cycles are averaged.
+    """Return one pull-off per speed; repeated cycles are averaged.
 
-    Speeds within 3 % are one. The uncertainty of a mean holds the scatter of its cycles; the
-    preload is the force where retractions begin, none where one of them begins in tension.
+    Speeds within 3 % are equal. The uncertainty of a mean includes the scatter of its cycles. The
+    preload is the force at the start of the retractions, or None if one begins in tension.
     """
     found: list[PullOff] = []
     rest = sorted(cycles, key=lambda cycle: cycle.speed.value)
@@ -58,7 +58,7 @@ def pull_offs(cycles: Sequence[Cycle]) -> list[PullOff]:
 
 
 def _mean(rows: Sequence[tuple[Measured, ...] | None]) -> tuple[Measured, ...] | None:
-    """Return the means of travels; None where a curve has none."""
+    """Return the mean travels; None if a curve has none."""
     told = [row for row in rows if row is not None]
     if len(told) < len(rows):
         return None

@@ -1,12 +1,12 @@
-r"""The interface from a rate series: pull-off forces at several speeds, and a material.
+r"""Identify the interface from a rate series: pull-off forces at several speeds, and a material.
 
-The forward model is the contact whose edge is a steady crack (:mod:`.forward`). All works of
-adhesion and ranges that are looked at are computed at once, on a grid, and interpolated in their
-logarithms (:mod:`.table`); the search (:mod:`.search`) and its intervals then cost nothing. Noise
-of the forces, the error of the theory and the doubt about the material (:mod:`.doubt`) are one
+The forward model is the contact whose edge is a steady crack (:mod:`.forward`). Pull-off forces are
+computed on a grid of works of adhesion and ranges and interpolated in logarithms
+(:mod:`.interpolated_forces`), so that the search (:mod:`.search`) and its intervals are fast. Noise
+of the forces, error of the theory and uncertainty of the material (:mod:`.doubt`) form one
 covariance of the relative forces.
 
-Where the interface grows with speed (:mod:`.growth`) there are two unknowns more.
+An interface that grows with speed (:mod:`.growth`) has two additional unknowns.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -19,61 +19,61 @@ from viscotack.errors import InputError, OutOfRange
 from viscotack.materials import Material, Passport
 from viscotack.units import readable
 
-from .doubt import allowed, covariance, log_forces
+from .covariances import allowed, covariance, log_forces
 from .forward import Forward
 from .growth import FoundGrowth, found_growth
 from .interpolated_forces import Table
+from .machine_compliance import Yielding, yielding_near
 from .objective import Best, Interval, Objective
 from .pull_off import PullOff
 from .search import LEAST_TABOR, Data, Search, closely, plain_table, pulled_with_growth, widely
-from .yielding import Yielding, yielding_near
 
-# Relative standard uncertainty of the forward model, and where the interface grows.
+# Relative standard uncertainty of the forward model, without and with growth.
 _THEORY, _GROWING_THEORY = 0.02, 0.03
-_LOUD = 2.0  # residuals over their uncertainty: no such interface gives the forces
-_MOST = 40  # speeds
-_ROUNDS = 6  # in which speeds are left out
+_LOUD = 2.0  # residuals over their uncertainty above which no such interface fits the forces
+_MOST = 40  # largest number of speeds
+_ROUNDS = 6  # largest number of rounds in which speeds are excluded
 
 
 @dataclass(frozen=True, eq=False)
 class RateSeriesFit:
-    """What a rate series says of the interface.
+    """Interface fitted to a rate series.
 
     Parameters
     ----------
     work_of_adhesion, equilibrium_gap : float
-        Most likely [J/m2] and [m], of Lennard-Jones forces.
+        Most likely values [J/m2] and [m], for Lennard-Jones forces.
     tabor : float
-        Tabor number of both with the material.
+        Tabor number of this interface with the material.
     intervals : dict of str to Interval
-        Of "work_of_adhesion" and "equilibrium_gap", by profile likelihood; with growth of
-        "strengthening" and "exponent" too.
+        Profile likelihood intervals of "work_of_adhesion" and "equilibrium_gap", with growth also
+        of "strengthening" and "exponent".
     forces : tuple of float
-        Pull-off forces of the most likely interface at the speeds of the series [N].
+        Pull-off forces of the most likely interface at the measured speeds [N].
     scatter : float
-        Root of the mean square of the residuals over their uncertainty.
+        Root mean square of the residuals over their uncertainty.
     words : tuple of str
-        What the data say and what they cannot tell.
+        Sentences on the result and on what the data do not determine.
     series : tuple of PullOff
-        What was fitted, each with its preload.
+        Fitted pull-offs, each with its preload.
     passport : Passport
-        Of the material.
+        Passport of the material.
     forward : Forward
-        The pull-offs of the material.
+        Forward model of the material.
     covariance : ndarray, shape (S, S)
-        Of the relative forces: noise, theory and material.
+        Covariance of the relative forces: noise, theory and material.
     objective : Objective
-        To ask more of: its profiles, its density.
+        Objective function, for profiles and sampling.
     theory : float
-        Relative standard uncertainty of the forward model, which is in the covariance.
+        Relative standard uncertainty of the forward model, included in the covariance.
     level : float
         Confidence level of the intervals.
     stiffness : float or None
-        Of the machine [N/m].
+        Stiffness of the machine [N/m].
     yielding : ndarray, shape (S,)
-        Forces through that over those of a rigid machine.
+        Ratio of forces with the machine's stiffness to those of a rigid machine.
     growth : FoundGrowth, optional
-        How the interface grows with speed, where that was asked.
+        Growth of the interface with speed, if fitted.
     """
 
     work_of_adhesion: float
@@ -119,53 +119,53 @@ def identify_rates(
     theory: float | None = None,
     level: float = 0.9,
 ) -> RateSeriesFit:
-    """Return work of adhesion and range of attraction from pull-off forces at several speeds.
+    """Fit work of adhesion and range of attraction to pull-off forces at several speeds.
 
     Parameters
     ----------
     series : sequence of PullOff
-        Two speeds and more, of one sphere relaxed under its preload.
+        At least two speeds, for one sphere relaxed under its preload.
     material : Passport or Material
-        Of the solid, at the temperature of the tests. Of a passport the solids that its
-        measurement allows as well widen the answer; a bare material is taken as exact.
+        Solid at the temperature of the tests. The sampled solids of a passport widen the
+        intervals; a bare material is assumed exact.
     radius : float
-        Of the sphere [m].
+        Radius of the sphere [m].
     preload : float, optional
-        The force under which all of them relaxed [N]; else that of each pull-off.
+        Force under which all contacts relaxed [N]; by default that of each pull-off.
     gaps : (float, float)
-        Ranges of attraction h0 that are looked at [m]; cut where the theory ends.
+        Searched ranges of attraction h0 [m]; reduced to the validity of the theory.
     work_of_adhesion : (float, float), optional
-        Known from a slow test, with its standard uncertainty [J/m2].
+        Value known from a slow test, with its standard uncertainty [J/m2].
     stiffness : float, optional
-        Of the machine between drive and sphere [N/m], one over its compliance; None if it is
-        rigid. While the tension grows the sphere goes more slowly than the drive.
+        Stiffness of the machine between drive and sphere [N/m], the inverse of its compliance; None
+        if rigid. While the tension grows, the sphere moves more slowly than the drive.
     curves : bool
-        Take the whole curves too, by the travels between forces that each pull-off has; one
-        speed is enough then, and a test that is not slow is not taken for one.
+        Whether to fit whole curves, by the travels between forces of each pull-off; then one
+        speed is sufficient, and rate effects within the curve are included.
     growth : bool
-        Look for an interface that grows with the opening speed, after Gent and Schultz: how much
-        and with which power, and whether the data need it. Four unknowns want four speeds and more.
+        Whether to fit an interface that grows with the opening speed (Gent and Schultz), and test
+        whether the data need growth. Its four unknowns need at least four speeds.
     scatter : float
-        Relative standard deviation from test to test, where the tests do not show it themselves.
+        Relative standard deviation between tests, if repeated tests do not show it.
     theory : float, optional
-        Relative standard uncertainty of the forward model itself, shared by near speeds; else 2 %,
-        of an interface that grows 3 %.
+        Relative standard uncertainty of the forward model, correlated between near speeds; by
+        default 2 %, or 3 % with growth.
     level : float
         Confidence level of the intervals.
 
     Raises
     ------
     OutOfRange
-        If the most likely interface leaves the range of the theory.
+        If the most likely interface is outside the range of the theory.
     ValueError
-        If there are fewer than two speeds without curves, a pull-off has none, or the theory
-        holds for no range looked at.
+        If there are fewer than two speeds (without curves), a pull-off has no travels (with
+        curves), or the theory holds for none of the searched ranges.
 
     Notes
     -----
-    The bulk is linear and the interface elastic, but for growth: where forces rise more steeply
-    than any range gives, residuals say so. 1 to 20 s, most of it the cracks of the material; with
-    growth 1 to 2 minutes, most of it those of the lattice.
+    The bulk is linear, and the interface rate-independent unless `growth` is set. Forces that rise
+    more steeply than any range allows give large residuals. Takes 1 to 20 s, mostly for the cracks
+    of the material; with growth 1 to 2 minutes, mostly for the lattice.
     """
     passport = material if isinstance(material, Passport) else Passport(name="", material=material)
     series = [_loaded(one, preload) for one in series]
@@ -222,9 +222,9 @@ def _near(
     stiffness: float | None,
     growth: bool,
 ) -> tuple[Forward, Table, Search, dict[float, str]]:
-    """Return the search of the speeds for which the theory holds near the likely interface.
+    """Return the search over the speeds for which the theory holds near the likely interface.
 
-    With the table of interfaces that do not grow, and the speeds left out, each with the reason.
+    Also return the table of interfaces without growth, and the excluded speeds with their reasons.
     """
     opening, dropped = None, {}
     for _ in range(_ROUNDS):
@@ -235,13 +235,14 @@ def _near(
         if growth:
             if opening is None:
                 forward, opening = pulled_with_growth(forward, search, best)
-                # the lattice has no larger ranges, which slower speeds alone would allow
+                # the lattice does not include the larger ranges that slower speeds alone would
+                # allow
                 gaps = gaps[0], float(plain.axes["equilibrium_gap"][-1])
             search = widely(forward, search, opening)
             best = search.best()
         known, refused = _disturbed(search, best, forward, passport, stiffness)
         if known.yielding.much:
-            # the interface was one for a rigid machine; once more for this one
+            # repeat for this machine, because the interface was that of a rigid one
             known, refused = _disturbed(search, known.best(), forward, passport, stiffness)
         if not refused:
             return forward, plain, known, dropped
@@ -249,17 +250,17 @@ def _near(
         series = [one for i, one in enumerate(series) if i not in refused]
         _check_left(series, data.curves, dropped)
     raise OutOfRange(
-        f"the theory does not hold for {len(dropped)} of the speeds, and for more without them; "
-        "leave out the fastest"
+        f"the theory does not hold for {len(dropped)} of the speeds, nor for more after their "
+        "exclusion; omit the fastest"
     )
 
 
 def _disturbed(
     search: Search, best: Best, forward: Forward, passport: Passport, stiffness: float | None
 ) -> tuple[Search, dict[int, str]]:
-    """Return a search that knows of the doubt about the material and of a soft machine.
+    """Return a search that includes the uncertainty of the material and a compliant machine.
 
-    And for which of the speeds the theory does not hold, with the reason.
+    Also return the speeds for which the theory does not hold, with the reason.
     """
     solids, data = allowed(passport), search.data
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
@@ -269,39 +270,36 @@ def _disturbed(
         return search, refused
     spread = search.spread
     if solids:
-        # hardly changes with the interface
+        # hardly depends on the interface
         rows = log_forces(forward, solids, w, gap, data.speed, data.load, grown)
         spread = spread + covariance(rows)
     return replace(search, spread=spread, yielding=yielding), {}
 
 
 def _check_left(left: Sequence[PullOff], curves: bool, dropped: Mapping[float, str]) -> None:
-    """Refuse a series of which too little is left."""
+    """Raise an error if too few speeds are left."""
     if len({one.speed for one in left}) < (1 if curves else 2):
         speed, why = max(dropped.items())
-        raise OutOfRange(
-            f"the theory holds for too few of the speeds; of {_speed(speed)} it says: {why}"
-        )
+        raise OutOfRange(f"the theory holds for too few of the speeds; at {_speed(speed)}: {why}")
 
 
 def _left_out(dropped: Mapping[float, str]) -> list[str]:
-    """Return what is said of speeds that were not used."""
+    """Return a sentence on excluded speeds."""
     if not dropped:
         return []
     speeds = ", ".join(_speed(speed) for speed in sorted(dropped))
     why = dropped[max(dropped)]
-    return [f"left out, because the theory does not hold there: {speeds} ({why})"]
+    return [f"excluded, because the theory does not hold there: {speeds} ({why})"]
 
 
 def _check_place(forward: Forward, search: Search, best: Best, stiffness: float | None) -> None:
-    """Refuse an interface for which the theory does not hold."""
+    """Raise an error if the theory does not hold for the fitted interface."""
     if search.table.effective(best.values) < LEAST_TABOR:
         raise InputError(
             f"the most likely range, {readable(best.values['equilibrium_gap'], 'm', digits=3)}, "
-            "lies where the zone at the edge is as large as the contact and the theory "
-            "does not hold: simulate"
+            "has a cohesive zone as large as the contact, so the theory does not hold: simulate"
         )
-    # speeds were left out for an interface near this one; of it the fastest is asked again
+    # speeds were excluded for a nearby interface; check the fastest one again for this interface
     fastest = [int(np.argmax(search.data.speed))]
     grown = None if search.opening is None else search.opening.of(best.values)
     found = forward.changed(
@@ -317,7 +315,7 @@ def _check_place(forward: Forward, search: Search, best: Best, stiffness: float 
 
 
 def _growth(forward: Forward, search: Search, plain: Search, best: Best) -> FoundGrowth | None:
-    """Return how the interface grows, beside the best one that does not."""
+    """Return the growth of the interface, compared with the best one without growth."""
     if search.opening is None:
         return None
     data, grown = search.data, search.opening.of(best.values)
@@ -331,8 +329,8 @@ def _loaded(one: PullOff, preload: float | None) -> PullOff:
     load = one.preload if preload is None else preload
     if load is None:
         raise InputError(
-            f"the pull-off at {_speed(one.speed)} has no preload; say the force [N] under which "
-            "the contact relaxed"
+            f"the pull-off at {_speed(one.speed)} has no preload; give the force [N] under "
+            "which the contact relaxed (preload)"
         )
     return replace(one, preload=load)
 
@@ -350,13 +348,13 @@ def _check(
     speeds = {one.speed for one in series}
     if curves and any(one.travels is None for one in series):
         raise InputError(
-            "whole curves begin in compression and have points between zero force and the "
-            "pull-off; one of these has not: leave out curves, or that test"
+            "whole curves must begin in compression and have points between zero force and the "
+            "pull-off; omit curves, or the tests that do not"
         )
     if not curves and len(speeds) < 2 or not 0 < len(series) <= _MOST:
         raise InputError(
-            f"a rate series has pull-offs at two speeds and more, up to {_MOST} in all; got "
-            f"{len(series)} at {len(speeds)}"
+            f"a rate series needs pull-offs at two or more speeds, up to {_MOST} in all; got "
+            f"{len(series)} at {len(speeds)} speeds"
         )
     if not all(one.speed > 0 and one.force.value > 0 for one in series):
         raise InputError("speeds and pull-off forces must be positive")
@@ -365,21 +363,19 @@ def _check(
         raise InputError(f"the stiffness of a machine must be positive, got {stiffness} N/m")
     if not (radius > 0 and min(loads) > 0 and 0 < level < 1):
         raise InputError(
-            f"radius and preload must be positive, the level a part of one; got {radius} m, "
-            f"{min(loads)} N, {level}"
+            f"radius and preload must be positive and level between 0 and 1; got {radius} m, "
+            f"{min(loads)} N and {level}"
         )
     if not (0 <= scatter < 1 and 0 <= theory < 1):
-        raise InputError(
-            f"scatter and error of the theory must be parts of one, got {scatter}, {theory}"
-        )
+        raise InputError(f"scatter and theory must lie between 0 and 1, got {scatter} and {theory}")
     if not 0 < gaps[0] < gaps[1]:
-        raise InputError(f"gaps must be two ranges, the smaller first [m], got {gaps!r}")
+        raise InputError(f"gaps must be two positive ranges [m], the smaller first, got {gaps!r}")
 
 
 _LABELS = {
     "work_of_adhesion": ("work of adhesion", "J/m2"),
     "equilibrium_gap": ("range of attraction h0", "m"),
-    "strengthening": ("strength over that at rest", ""),
+    "strengthening": ("strengthening", ""),
     "exponent": ("exponent of growth", ""),
 }
 
@@ -396,21 +392,21 @@ def _words(
     for name, ends in intervals.items():
         label, unit = _LABELS[name]
         if name == "strengthening" and growth is not None:
-            label += f" where the gap opens with {_speed(growth.opening_speed)}"
+            label += f" at an opening speed of {_speed(growth.opening_speed)}"
         said += _of_one(label, unit, best.values[name], ends, level)
     if growth is not None:
         said += growth.words()
     if scatter > _LOUD:
-        cause = "the interface may grow with speed, or the material be another one"
+        cause = "the interface may grow with speed, or the material may be wrong"
         if growth is not None:
-            cause = "the material may be another one, or no longer linear"
+            cause = "the material may be wrong, or nonlinear"
         kind = "an elastic interface" if growth is None else "a growing interface"
         said.append(
             f"residuals are {scatter:.2g} times their uncertainty: no work of adhesion and range "
-            f"of a linear solid with {kind} give these forces; {cause}"
+            f"of a linear solid with {kind} fit these forces; {cause}"
         )
     if not doubted:
-        said.append("the material is taken as exact: nothing says how well it is known")
+        said.append("the material is assumed exact, because its uncertainty is unknown")
     return said
 
 
@@ -419,7 +415,7 @@ def _speed(value: float) -> str:
 
 
 def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -> list[str]:
-    """Return what is said of one parameter."""
+    """Return a sentence on one parameter."""
     if ends.told:
         both = readable(ends.low, unit, digits=3, to=ends.high)
         said = [f"{label} {readable(value, unit, digits=3)} ({both}, {level:.0%})"]
@@ -433,7 +429,7 @@ def _of_one(label: str, unit: str, value: float, ends: Interval, level: float) -
         said = [f"{label}: not identifiable from these speeds"]
     if ends.split:
         said.append(
-            f"of the {label} there are two ranges in that interval which give these forces, "
-            "with a gap between: another speed, whole curves or a slow test would tell"
+            f"the interval of the {label} consists of two separate ranges that fit these forces; "
+            "another speed, whole curves or a slow test would distinguish them"
         )
     return said

@@ -1,4 +1,4 @@
-"""The posterior of an objective, drawn by an ensemble of walkers."""
+"""Sample the posterior of an objective by an ensemble of walkers."""
 
 from dataclasses import dataclass
 
@@ -10,24 +10,24 @@ from viscotack.errors import InputError
 from .objective import Best, Objective, Parameter
 
 _WALKERS, _STEPS, _BEGIN = 16, 600, 100
-_AROUND = 1e-3  # of the way between the bounds, where the walkers begin
-_INDEPENDENT = 200.0  # draws of all walkers together that a band needs
+_AROUND = 1e-3  # fraction of the distance between the bounds over which the walkers start
+_INDEPENDENT = 200.0  # number of independent samples needed for a band
 
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """What data and prior leave of the parameters.
+    """Samples of the posterior distribution of the parameters.
 
     Parameters
     ----------
     parameters : tuple of Parameter
         In the order of the columns.
     values : ndarray, shape (N, parameters)
-        Draws, in the unit of each parameter.
+        Samples, in the unit of each parameter.
     correlation_time : float
-        Steps of the walk between independent draws.
+        Steps between independent samples.
     converged : bool
-        Whether there are 200 independent draws.
+        Whether there are at least 200 independent samples.
     """
 
     parameters: tuple[Parameter, ...]
@@ -36,37 +36,38 @@ class Posterior:
     converged: bool
 
     def of(self, name: str) -> Array:
-        """Return the draws of one parameter."""
+        """Return the samples of one parameter."""
         names = [one.name for one in self.parameters]
         return self.values[:, names.index(name)]
 
     def thinned(self, count: int) -> Array:
-        """Return so many of the draws, evenly from the whole walk, shape (count, parameters)."""
+        """Select evenly a number of samples, shape (count, parameters)."""
         if not 0 < count <= len(self.values):
-            raise InputError(f"there are {len(self.values)} draws, {count} were asked for")
+            raise InputError(f"count must be at most the {len(self.values)} samples, got {count}")
         return self.values[np.linspace(0, len(self.values) - 1, count).astype(int)]
 
 
 def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: int = 0) -> Posterior:
-    """Return draws of the parameters from the density of an objective.
+    """Sample the parameters from the posterior density of an objective.
 
-    Between the bounds, in the logarithm of what is positive, the prior is flat where none is given.
+    Without a given prior, it is uniform between the bounds, in the logarithm of positive
+    parameters.
 
     Parameters
     ----------
     objective : Objective
-        Of a fit.
+        Objective of a fit.
     best : Best
-        Its most likely parameters, near which the walkers begin.
+        Most likely parameters, near which the walkers start.
     steps : int
-        Of each of the 16 walkers, after 100 to forget the beginning.
+        Steps of each of the 16 walkers, after 100 discarded steps.
     seed : int
-        Of the random numbers.
+        Seed of the random numbers.
 
     Raises
     ------
     ValueError
-        If emcee is not installed, ``pip install viscotack[lab]``.
+        If emcee is not installed (``pip install 'viscotack[lab]'``).
 
     References
     ----------
@@ -76,7 +77,7 @@ def posterior(objective: Objective, best: Best, *, steps: int = _STEPS, seed: in
         import emcee
     except ImportError as error:
         raise InputError(
-            "a posterior is drawn by emcee; install it with: pip install 'viscotack[lab]'"
+            "sampling needs emcee; install it with: pip install 'viscotack[lab]'"
         ) from error
 
     parameters = objective.parameters

@@ -1,7 +1,7 @@
-r"""The search for an interface: tables of pull-offs, and what they are compared with.
+r"""Search for the interface in tables of pull-offs.
 
-Without growth one table holds all that is looked at. With growth a coarse table of all that is
-looked at says where the likely interfaces are, and a fine one is made of those alone.
+Without growth one table covers all unknowns. With growth a coarse table locates the likely
+interfaces, and a fine table covers only these.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,29 +14,29 @@ import numpy.typing as npt
 from viscotack.arrays import Array
 from viscotack.errors import InputError
 
-from .doubt import theory_covariance
+from .covariances import theory_covariance
 from .forward import Forward
 from .growth import Opening, growing, growth_parameters
 from .interpolated_forces import Table
+from .machine_compliance import Yielding
 from .objective import Best, Interval, Objective, Parameter
 from .pull_off import PullOff
-from .yielding import Yielding
 
-_WORKS, _GAPS = 8, 21  # works a decade, and ranges, of the table without growth
+_WORKS, _GAPS = 8, 21  # works per decade, and number of ranges, of the table without growth
 LEAST_TABOR = 2.0  # effective: below it the theory does not hold
-# Steps of work, range, strengthening and exponent of the coarse table, in the numbers that are
-# searched; radii of a curve, and pull-offs that are taken.
+# Steps of work, range, strengthening and exponent of the coarse table, in search
+# coordinates; points of a curve, and number of pull-offs used.
 _COARSE, _COARSE_RADII, _COARSE_SPEEDS = (0.57, 0.57, 0.5, 0.2), 40, 6
-# And of the fine one, of all pull-offs.
+# The same for the fine table, with all pull-offs.
 _FINE, _FINE_RADII = (0.29, 0.46, 0.4, 0.15), 80
-_FEWEST = 5  # values of an unknown
-# How many times as dense the coarse table is searched, and which misfits beyond the least are kept
-# at first, and where an interval wants more.
+_FEWEST = 5  # smallest number of values of an unknown
+# Refinement of the coarse table for the search, and misfits above the minimum that are kept
+# at first, and where an interval needs more.
 _DENSE, _KEPT = 3, (30.0, 150.0)
 
 
 class Data:
-    """What was measured, as arrays, and how well it is known."""
+    """Measured pull-offs as arrays, with their uncertainties."""
 
     def __init__(
         self,
@@ -56,14 +56,14 @@ class Data:
         self.spread = own + theory_covariance(self.speed, theory)
 
     def some(self, count: int) -> npt.NDArray[np.intp]:
-        """Return so many of the pull-offs, evenly from the slowest to the fastest."""
+        """Select evenly a number of pull-offs from the slowest to the fastest."""
         order, size = np.argsort(self.speed, kind="stable"), self.speed.size
         return order[np.unique(np.linspace(0, size - 1, min(count, size)).round().astype(int))]
 
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """A table, and what its forces are compared with."""
+    """A table of pull-offs and the data it is compared with."""
 
     data: Data
     table: Table
@@ -74,18 +74,18 @@ class Search:
 
     @property
     def white(self) -> Array:
-        """What makes residuals independent, of one standard deviation each."""
+        """Matrix that makes the residuals independent with unit variance."""
         at = slice(None) if self.some is None else np.ix_(self.some, self.some)
         return np.asarray(np.linalg.inv(np.linalg.cholesky(self.spread[at])), dtype=np.float64)
 
     def _relative(self, forces: Array, values: Mapping[str, Any]) -> Array:
-        """Return residuals of forces of a rigid machine, relative ones."""
+        """Return relative residuals of the forces, corrected for the machine's stiffness."""
         some = slice(None) if self.some is None else self.some
         return forces * self.yielding(values)[..., some] / self.data.force[some] - 1
 
     @property
     def objective(self) -> Objective:
-        """Residuals over the parameters of the table."""
+        """Objective function over the parameters of the table."""
         table, white = self.table, self.white
         shapes = None
         if self.data.curves and self.some is None:
@@ -99,7 +99,7 @@ class Search:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """The unknowns, between the ends of the table."""
+        """The unknowns, bounded by the ends of the table."""
         axes = self.table.axes
         found = [
             _between("work_of_adhesion", axes["work_of_adhesion"], self.data.prior),
@@ -113,7 +113,7 @@ class Search:
         return tuple(found)
 
     def best(self) -> Best:
-        """Return the best of several starts."""
+        """Return the best fit from several starts."""
         objective = self.objective
         if self.opening is None:
             return _best(objective)
@@ -132,7 +132,7 @@ class Search:
         return {one.name: objective.interval(one.name, best, level) for one in self.parameters}
 
     def scanned(self, times: int) -> tuple[Array, Array]:
-        """Return points of a dense lattice, in the numbers that are searched, and their misfits."""
+        """Return points of a refined lattice, in search coordinates, and their misfits."""
         points = self.table.dense(times)
         values = {
             one.name: one.outer_of(x) for one, x in zip(self.parameters, points.T, strict=True)
@@ -146,16 +146,16 @@ class Search:
 
 
 def plain_table(forward: Forward, data: Data, gaps: tuple[float, float]) -> Table:
-    """Return the table of interfaces that do not grow, of the ranges for which the theory holds."""
+    """Return the table of interfaces without growth, for the ranges at which the theory holds."""
     works, ranges = _works(forward, data, 1.0, _WORKS), np.geomspace(*gaps, _GAPS)
-    # where the most work of adhesion still gives a crack; less is checked where it is found
+    # ranges valid for the largest work of adhesion; smaller ones are checked after the fit
     at = forward.pulled(works[-1], ranges[:, None], data.speed, data.load).effective_tabor
     holds = np.all(at >= LEAST_TABOR, axis=-1)
     count = int(np.argmin(holds)) if not holds.all() else holds.size
     if count < _FEWEST:
         raise InputError(
-            f"the theory of a crack holds for no range looked at ({gaps[0]:.3g} to "
-            f"{gaps[1]:.3g} m): the zone at the edge is as large as the contact; look at "
+            f"the theory of a crack holds for none of the searched ranges ({gaps[0]:.3g} to "
+            f"{gaps[1]:.3g} m), because the cohesive zone is as large as the contact; search "
             "smaller ranges, or simulate"
         )
     axes = {"work_of_adhesion": works, "equilibrium_gap": ranges[:count]}
@@ -163,18 +163,18 @@ def plain_table(forward: Forward, data: Data, gaps: tuple[float, float]) -> Tabl
 
 
 def _works(forward: Forward, data: Data, grown: float, per_decade: float) -> Array:
-    """Return works of adhesion of a table, where interfaces grow by so much at most."""
-    # no energy at an opening edge is less than the work of adhesion, and none larger than 1/k
+    """Return the works of adhesion of a table, for a largest growth factor."""
+    # the energy of an opening edge is 1 to 1/k works of adhesion
     most = 1.2 * float(data.force.min()) / (1.5 * np.pi * forward.radius)
     span = 2.0 * grown / forward.material.modulus_ratio
     return np.geomspace(most / span, most, 3 + round(per_decade * float(np.log10(span))))
 
 
 def pulled_with_growth(forward: Forward, plain: Search, best: Best) -> tuple[Forward, Opening]:
-    """Return pull-offs with growth, and where strengthening is read."""
+    """Return the forward model with growth, and the opening speed of its strengthening."""
     data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
     w, gap = best.values["work_of_adhesion"], best.values["equilibrium_gap"]
-    # edges go about as fast whatever the interface is: the drive moves them
+    # the crack speed hardly depends on the interface, because the drive sets it
     edge = forward.pulled(w, gap, data.speed, data.load).crack_speed
     middle = float(np.exp(np.mean(np.log(np.maximum(edge, data.speed)))))
     opening = Opening(middle * w / forward.material.contact_modulus)
@@ -182,7 +182,7 @@ def pulled_with_growth(forward: Forward, plain: Search, best: Best) -> tuple[For
 
 
 def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
-    """Return a coarse search of all that is looked at."""
+    """Return a coarse search over all unknowns."""
     data, ranges = plain.data, plain.table.axes["equilibrium_gap"]
     some = data.some(_COARSE_SPEEDS)
     works, gaps, *steps = _COARSE
@@ -203,7 +203,7 @@ def widely(forward: Forward, plain: Search, opening: Opening) -> Search:
 def closely(
     forward: Forward, coarse: Search, level: float
 ) -> tuple[Search, Best, dict[str, Interval]]:
-    """Return a fine search of what the coarse one leaves, its best and the intervals."""
+    """Return a fine search near the likely interfaces, its best fit and the intervals."""
     data, widest = coarse.data, {one.name: one for one in coarse.parameters}
     points, misfits = coarse.scanned(_DENSE)
     least = misfits.min()
@@ -233,18 +233,18 @@ def closely(
 
 
 def _cut(interval: Interval, axis: Array, widest: Parameter) -> bool:
-    """Return whether an interval ends at that of a table, short of all that is looked at."""
+    """Return whether an interval ends at the edge of a table inside the search range."""
     below = not interval.closed_below and axis[0] > widest.low * (1 + 1e-9)
     return below or (not interval.closed_above and axis[-1] < widest.high * (1 - 1e-9))
 
 
 def _spaced(low: float, high: float, apart: float) -> Array:
-    """Return values at most so far apart, five at least."""
+    """Return evenly spaced values with a largest distance, at least five."""
     return np.linspace(low, high, max(_FEWEST, 1 + int(np.ceil((high - low) / apart - 1e-9))))
 
 
 def _apart(points: Array, misfits: Array, count: int = 4, share: float = 0.2) -> list[int]:
-    """Return the likeliest points that lie apart from each other."""
+    """Return the most likely points that are separate from each other."""
     span = np.ptp(points, axis=0)
     found: list[int] = []
     for i in np.argsort(misfits)[:2000]:
@@ -265,16 +265,16 @@ def _between(name: str, values: Array, prior: tuple[float, float] | None) -> Par
 
 
 class _Shapes:
-    """Residuals of travels, in standard deviations."""
+    """Residuals of travels, normalised by their uncertainty."""
 
     def __init__(self, series: Sequence[PullOff], model: Table, theory: float):
         self._model = model
         self._log, self._white = [], []
         for one in series:
-            assert one.travels is not None, "checked before"
+            assert one.travels is not None, "checked by the caller"
             value = np.array([x.value for x in one.travels])
             noise = np.array([x.uncertainty for x in one.travels]) / value
-            # what the theory errs in one curve it errs in all of it, half of it
+            # the theory's error is fully correlated within a curve, at half its size
             own = noise**2 + theory**2 / 2
             spread = np.diag(own) + np.full((value.size, value.size), theory**2 / 2)
             self._log.append(np.log(value))
@@ -287,7 +287,7 @@ class _Shapes:
 
 
 def _best(objective: Objective) -> Best:
-    """Return the best of several starts along the range."""
+    """Return the best fit from several starts along the range."""
     (gap,) = (one for one in objective.parameters if one.name == "equilibrium_gap")
     low, high = gap.inner(gap.low), gap.inner(gap.high)
     found = []

@@ -1,9 +1,9 @@
-r"""The interface from a slow test: which elastic model, with which work of adhesion and range.
+r"""Identify the interface from a slow test: elastic model, work of adhesion and range.
 
-A slow test is one in which the solid is relaxed everywhere, the edge of the contact included.
-Every model is fitted to the same points; the Bayesian information criterion
-:math:`\chi^2 + k \ln n` is the evidence (twice the logarithm of a Bayes factor where each parameter
-has a wide prior), with the scatter of the best model for all. Intervals are profile likelihoods.
+In a slow test the solid is relaxed everywhere, including the edge of the contact.
+All models are fitted to the same points. The Bayesian information criterion
+:math:`\chi^2 + k \ln n`, with the scatter of the best model, measures the evidence (twice the
+logarithm of a Bayes factor for wide priors). Intervals are profile likelihoods.
 """
 
 from collections.abc import Mapping, Sequence
@@ -21,33 +21,33 @@ from viscotack.units import readable
 from .contacts import MODELS, ElasticModel
 from .objective import Best, Interval, Objective, Parameter
 
-_FEWEST = 12  # points
+_FEWEST = 12  # smallest number of points
 _MOST = 300
-_DIFFERENT = 6.0  # of the criterion: strong evidence
-_HOPELESS = 20.0  # of the criterion: no intervals are looked for
-_LOUD = 2.0  # residuals over the noise: no elastic law holds
-_LAMBDA = (0.02, 60.0)  # Maugis parameters that are looked at
+_DIFFERENT = 6.0  # difference of the criterion: strong evidence
+_HOPELESS = 20.0  # difference of the criterion above which no intervals are computed
+_LOUD = 2.0  # residuals over the noise above which no elastic law holds
+_LAMBDA = (0.02, 60.0)  # searched Maugis parameters
 _TRANSITION = (1e-3, 0.979)
 
 
 @dataclass(frozen=True, eq=False)
 class SlowTest:
-    """Points of a slow retraction, up to the pull-off.
+    """Points of a slow retraction up to the pull-off.
 
     Parameters
     ----------
     force : array_like, shape (N,)
-        Compression positive [N].
+        Force, compression positive [N].
     at : array_like, shape (N,)
         Contact radius or depth [m].
     against : {"radius", "depth"}
-        Which of them it is. A depth has an unknown zero, which is fitted.
+        Meaning of `at`. The unknown zero of a depth is fitted.
     radius : float
-        Of the sphere [m].
+        Radius of the sphere [m].
     force_noise : float
         Standard deviation of single forces [N].
     at_noise : float
-        Of single radii or depths [m].
+        Standard deviation of single radii or depths [m].
     """
 
     force: Array
@@ -65,9 +65,9 @@ class SlowTest:
         if self.against not in ("radius", "depth"):
             raise InputError(f"against must be 'radius' or 'depth', got {self.against!r}")
         if self.force.shape != self.at.shape or self.force.ndim != 1:
-            raise InputError("force and radius or depth must be rows of one length")
+            raise InputError("force and at must be one-dimensional arrays of one length")
         if self.force.size < _FEWEST:
-            raise InputError(f"{self.force.size} points; a fit needs {_FEWEST}")
+            raise InputError(f"a fit needs at least {_FEWEST} points, got {self.force.size}")
         if not np.all(np.isfinite(self.force) & np.isfinite(self.at)):
             raise InputError("forces and radii or depths must be finite")
         if not (0 < self.radius < np.inf and 0 < self.force_noise < np.inf):
@@ -78,24 +78,29 @@ class SlowTest:
         if self.against == "radius" and np.any(self.at <= 0):
             raise InputError(f"contact radii must be positive, got {readable(self.at.min(), 'm')}")
         if not self.force.min() < 0:
-            raise InputError("no force is tensile: without a pull nothing is known of adhesion")
+            raise InputError(
+                "no force is tensile, so adhesion cannot be determined; check the sign "
+                "(compression positive)"
+            )
 
 
 def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTest:
-    """Return the retraction of a cycle up to its pull-off, for a fit.
+    """Return the retraction of a cycle up to its pull-off as a slow test.
 
-    `against` is "radius" where a camera gave contact radii, else "depth".
+    By default `against` is "radius" if a camera measured contact radii, otherwise "depth".
     """
     points = np.arange(cycle.segments.retract, cycle.pull_off_at + 1)
     size = cycle.contact_radius
     if against is None:
         against = "depth" if size is None else "radius"
     if against == "radius" and size is None:
-        raise InputError("the test has no contact radius; fit against the depth")
+        raise InputError("the test has no contact radius; set against='depth'")
     at = cycle.depth if against == "depth" or size is None else size
     points = points[np.isfinite(at[points]) & ((against == "depth") | (at[points] > 0))]
     if points.size < _FEWEST:
-        raise InputError(f"{points.size} points up to the pull-off; a fit needs {_FEWEST}")
+        raise InputError(
+            f"a fit needs at least {_FEWEST} points up to the pull-off, got {points.size}"
+        )
     chosen = points[np.unique(np.linspace(0, points.size - 1, _MOST, dtype=int))]
     noise = max(cycle.noise, 1e-6 * cycle.pull_off_force.value)
     return SlowTest(cycle.force[chosen], at[chosen], against, radius, noise)
@@ -103,25 +108,26 @@ def slow_test(cycle: Cycle, radius: float, against: str | None = None) -> SlowTe
 
 @dataclass(frozen=True)
 class ModelFit:
-    """One model fitted to a slow test.
+    """Fit of one model to a slow test.
 
     Parameters
     ----------
     model : str
         "jkr", "dmt", "maugis" or "carpick".
     work_of_adhesion, contact_modulus : float
-        [J/m2] and [Pa].
+        Fitted values [J/m2] and [Pa].
     tabor : float or None
         Tabor number of a Lennard-Jones contact with the same work and strength; None for the
-        limits, which have none.
+        limits JKR and DMT.
     intervals : dict of str to Interval
-        Of the same names, by profile likelihood; empty where another model is far more likely.
+        Profile likelihood intervals of the same quantities; empty if another model is far more
+        likely.
     scatter : float
         Standard deviation of the residuals [N].
     criterion : float
         Bayesian information criterion; smaller is better.
     values : mapping
-        All that was fitted, by the names of the model.
+        All fitted values, by the names of the model.
     """
 
     model: str
@@ -136,20 +142,20 @@ class ModelFit:
 
 @dataclass(frozen=True)
 class SlowTestFit:
-    """What a slow test says of the interface.
+    """Models fitted to a slow test, ranked by evidence.
 
     Parameters
     ----------
     test : SlowTest
-        What was fitted.
+        Fitted test.
     fits : tuple of ModelFit
-        Best first.
+        Fits, best first.
     level : float
         Confidence level of the intervals.
     evidence : str
-        By what the model was chosen.
+        Criterion by which the model was chosen.
     words : tuple of str
-        What the data say and what they cannot tell.
+        Sentences on the result and on what the data do not determine.
     """
 
     test: SlowTest
@@ -160,7 +166,7 @@ class SlowTestFit:
 
     @property
     def best(self) -> ModelFit:
-        """The model that the evidence prefers."""
+        """The model with the best criterion."""
         return self.fits[0]
 
 
@@ -171,30 +177,30 @@ def identify_slow(
     contact_modulus: tuple[float, float] | None = None,
     level: float = 0.9,
 ) -> SlowTestFit:
-    """Return the elastic models fitted to a slow test, chosen by evidence.
+    """Fit elastic models to a slow test and rank them by evidence.
 
     Parameters
     ----------
     test : SlowTest
         Forces against contact radii or depths.
     models : sequence of str
-        Names out of "jkr", "dmt", "maugis" and "carpick".
+        Any of "jkr", "dmt", "maugis" and "carpick".
     contact_modulus : (float, float), optional
-        E0* of the relaxed solid [Pa] and its standard uncertainty [Pa], from a material passport.
-        Otherwise it is fitted with nothing known of it.
+        E0* of the relaxed solid and its standard uncertainty [Pa], for example from a material
+        passport. By default it is fitted without a prior.
     level : float
         Confidence level of the intervals.
 
     Raises
     ------
     ValueError
-        If a model is not known, or has no depth where the test is one of depths.
+        If a model is unknown, or has no depth while the test is against depth.
 
     Notes
     -----
-    A test at a speed at which the edge is a viscoelastic crack is NOT slow: its energy at the edge
-    changes along the curve, and an elastic fit takes that for a range of attraction. The words
-    tell of residuals beyond the noise; docs/tack_tests.md shows the error.
+    A test whose edge is a viscoelastic crack is NOT slow: the energy at the edge
+    changes along the curve, and an elastic fit interprets that as a range of attraction. The
+    sentences of the result report residuals above the noise; docs/tack_tests.md shows the error.
 
     Examples
     --------
@@ -210,17 +216,17 @@ def identify_slow(
         raise InputError(f"level must lie between 0 and 1, got {level!r}")
     if contact_modulus is not None and not (0 < contact_modulus[1] < contact_modulus[0] < np.inf):
         raise InputError(
-            "contact_modulus must be a value and a smaller uncertainty [Pa], got "
+            "contact_modulus must be a value [Pa] and a smaller uncertainty [Pa], got "
             f"{contact_modulus!r}"
         )
     chosen = [_known(name, test) for name in dict.fromkeys(models)]
     chosen = [model for model in chosen if test.against == "radius" or model.by_depth is not None]
     if not chosen:
-        raise InputError("Carpick's equation has no depth: fit another model, or against radii")
+        raise InputError("Carpick's equation has no depth; fit another model, or contact radii")
     sigma = _sigma(test)
     first = [_objective(model, test, sigma, contact_modulus) for model in chosen]
     bests = [_found(objective) for objective in first]
-    # the scatter of the best model is that of the data, if it is more than the noise
+    # the scatter of the best model replaces the noise if it is larger
     least = min(bests, key=lambda best: best.misfit)
     size = max(np.sqrt(least.misfit / max(test.force.size - 3, 1)), 1e-6)
     fits = []
@@ -246,12 +252,12 @@ def identify_slow(
 
 def _known(name: str, test: SlowTest) -> ElasticModel:
     if name not in MODELS:
-        raise InputError(f"models are {', '.join(MODELS)}; got {name!r}")
+        raise InputError(f"models must be among {', '.join(MODELS)}; got {name!r}")
     return MODELS[name]
 
 
 def _sigma(test: SlowTest) -> Array:
-    """Return the uncertainty of each force, that of its radius or depth included [N]."""
+    """Return the uncertainty of each force [N], including that of its radius or depth."""
     if not test.at_noise:
         return np.full(test.force.size, test.force_noise)
     order = np.argsort(test.at)
@@ -286,7 +292,7 @@ def fitted_force(fit: ModelFit, test: SlowTest) -> Array:
 def _force(model: ElasticModel, test: SlowTest, values: Mapping[str, float]) -> Array:
     if test.against == "radius":
         return model.by_radius(test.at, values, test.radius)
-    assert model.by_depth is not None, "models without a depth were left out"
+    assert model.by_depth is not None, "models without a depth were rejected"
     return model.by_depth(test.at - values["zero"], values, test.radius)
 
 
@@ -297,14 +303,14 @@ def _residuals(
 
 
 def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
-    """Return a work of adhesion and a contact modulus to begin with."""
+    """Return initial values of work of adhesion and contact modulus."""
     R, pull = test.radius, -float(test.force.min())
     w = pull / (1.5 * np.pi * R)
     if modulus is not None:
         return w, modulus
     top = int(np.argmax(test.at))
     if test.against == "radius":
-        # JKR at the largest radius, solved for the root of the modulus
+        # JKR at the largest radius, solved for the square root of the modulus
         a, P = float(test.at[top]), float(test.force[top])
         b, c = np.sqrt(8 * np.pi * a**3 * w), 4 * a**3 / (3 * R)
         return w, float(((b + np.sqrt(max(b**2 + 4 * c * P, 0.0))) / (2 * c)) ** 2)
@@ -313,7 +319,7 @@ def _start(test: SlowTest, modulus: float | None) -> tuple[float, float]:
 
 
 def _found(objective: Objective) -> Best:
-    """Return the best of several starts: the range of attraction has more than one valley."""
+    """Return the best fit from several starts: the range has several local minima."""
     starts = [objective.best()]
     for parameter in objective.parameters:
         if parameter.name in ("maugis_parameter", "transition"):
@@ -337,7 +343,7 @@ def _model_fit(
     level: float | None,
     size: float,
 ) -> ModelFit:
-    """Return a fit; without a level no intervals are looked for."""
+    """Return the fit of a model; without a level no intervals are computed."""
     intervals = {}
     if level is not None:
         names = ["work_of_adhesion", "contact_modulus"]
@@ -381,20 +387,22 @@ def _words(test: SlowTest, fits: list[ModelFit], size: float, level: float) -> l
     alike = [fit.model.upper() for fit in fits[1:] if fit.criterion - best.criterion < _DIFFERENT]
     if alike:
         said.append(
-            f"the data do not tell {best.model.upper()} from {' and '.join(alike)} (criteria "
-            f"within {_DIFFERENT:g})"
+            f"the data do not distinguish {best.model.upper()} from {' and '.join(alike)} "
+            f"(criteria within {_DIFFERENT:g})"
         )
     ranged = next((fit for fit in fits if "tabor" in fit.intervals), None)
     if ranged is not None:
         said.append(_of_range(ranged, level))
     if size > _LOUD:
         said.append(
-            f"residuals are {size:.2g} times the noise: no elastic law holds here. Was the test "
-            "slow? Energy lost at a viscoelastic edge looks like a longer range, and the Tabor "
-            "number above is then too small; take a slower test, or fit a rate series"
+            f"residuals are {size:.2g} times the noise: no elastic law fits. If the test was not "
+            "slow, energy dissipated at a viscoelastic edge appears as a longer range, and the "
+            "Tabor number above is too small; use a slower test, or fit a rate series"
         )
     if test.against == "depth":
-        said.append("the zero of depth was fitted too: without a camera the range is told weakly")
+        said.append(
+            "the zero of depth was also fitted; without a camera the range is poorly determined"
+        )
     return said
 
 
@@ -408,12 +416,12 @@ def _of_range(fit: ModelFit, level: float) -> str:
         )
     if ends.closed_below:
         return (
-            f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); how far above, and "
-            "so the range of attraction, these data cannot tell: it is JKR for them"
+            f"the Tabor number is above {ends.low:.3g} ({level:.0%}, {name}); these data give no "
+            "upper bound, hence no range of attraction: JKR is sufficient"
         )
     if ends.closed_above:
         return (
-            f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); how far below these "
-            "data cannot tell: it is DMT for them"
+            f"the Tabor number is below {ends.high:.3g} ({level:.0%}, {name}); these data give no "
+            "lower bound: DMT is sufficient"
         )
-    return f"these data cannot tell the range of attraction at all ({name})"
+    return f"these data do not determine the range of attraction ({name})"

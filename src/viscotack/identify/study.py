@@ -1,4 +1,4 @@
-"""A study: what a lab measured on what, how its files are to be read, and the interface of them."""
+"""A study: the files and settings of a series of tack tests, and its evaluation."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -22,29 +22,30 @@ class Study:
     Parameters
     ----------
     files : tuple of Path
-        What the rig wrote.
+        Files written by the rig.
     material : Passport, Material or str
-        A passport, a solid without one, or the name or file of a passport.
+        Passport, material, or the name or file of a passport.
     radius : float
-        Of the sphere [m].
+        Radius of the sphere [m].
     preload : float, optional
-        Under which contacts relaxed [N]; else the force where retractions begin.
+        Force under which contacts relaxed [N]; by default the force at the start of the retraction.
     temperature : float, optional
-        Of the tests [K]; else that of the passport.
+        Temperature of the tests [K]; by default that of the passport.
     work_of_adhesion : (float, float), optional
-        Known from a slow test, with its standard uncertainty [J/m2].
+        Value known from a slow test, with its standard uncertainty [J/m2].
     curves : bool
-        Take whole curves, not only pull-offs.
+        Whether to fit whole curves, not only pull-offs.
     growth : bool
-        Look for an interface that grows with the opening speed.
+        Whether to fit an interface that grows with the opening speed.
     scatter : float
-        Relative standard deviation from test to test, where the tests do not show it themselves.
+        Relative standard deviation between tests, if repeated tests do not show it.
     level : float
         Confidence level of all intervals and bands.
     reading, evaluation : mapping
-        Keywords of :func:`viscotack.lab.tack.read` and :func:`viscotack.lab.tack.evaluate`.
+        Keyword arguments of :func:`viscotack.lab.tack.read` and
+        :func:`viscotack.lab.tack.evaluate`.
     title, notes : str
-        For the report.
+        Text for the report.
     """
 
     files: tuple[Path, ...]
@@ -64,7 +65,7 @@ class Study:
 
     def __post_init__(self):
         if not self.files:
-            raise InputError("a study has files that a rig wrote; it names none")
+            raise InputError("a study needs at least one file of a rig, got none")
 
     def solid(self) -> Passport | Material:
         """Return the material at the temperature of the tests."""
@@ -73,15 +74,15 @@ class Study:
             return found
         if not isinstance(found, Passport):
             raise InputError(
-                "--temperature is for a material with a passport, which says how times shift; "
-                "leave it out"
+                "--temperature needs a material with a passport, which contains the shift of its "
+                "times; omit it"
             )
         return found.moved_to(self.temperature)
 
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What the files of a study say, and the interface they tell of."""
+    """Evaluated files of a study, and the fitted interface."""
 
     study: Study
     survey: Survey
@@ -89,14 +90,14 @@ class Answer:
 
 
 def answer(study: Study) -> Answer:
-    """Return the interface of a study: files read, pull-offs averaged, rate series fitted.
+    """Evaluate a study: read files, average pull-offs and fit the rate series.
 
     Raises
     ------
     OSError
         If a file cannot be opened.
     ValueError
-        If no cycle can be trusted, or the series says nothing.
+        If no cycle is valid, or the series cannot be fitted.
     """
     solid = study.solid()
     found = survey(study.files, reading=study.reading, evaluation=study.evaluation)

@@ -1,9 +1,9 @@
-"""What the whole curve of a retraction says beside its largest tension: travels between forces.
+"""Travels between forces of a retraction curve, in addition to its pull-off force.
 
-The travel from the start of the retraction to zero force, and from there to parts of the largest
-tension. They need no zero of depth, and no level of force beside that of the pull-off itself; the
-soft machine is taken off the depth. Where an edge speeds up on its way, they tell of the rate
-within one test.
+The travels are measured from the start of the retraction to zero force, and from there to fractions
+of the largest tension. They need no zero of depth and no force other than the pull-off; machine
+compliance is subtracted. Where an edge accelerates during one test, they contain its rate
+dependence.
 """
 
 import numpy as np
@@ -11,15 +11,16 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.lab.tack import Cycle, Measured
 
-# Parts of the largest tension at which the travel is read, beside zero.
+# Fractions of the largest tension at which the travel is read, in addition to zero.
 PARTS = (0.3, 0.6, 0.85)
-_WINDOW, _FEWEST = 0.06, 6  # of the pull-off around such a force, and points there
+# window relative to the pull-off around such a force, and smallest number of points in it
+_WINDOW, _FEWEST = 0.06, 6
 
 
 def travels(cycle: Cycle) -> tuple[Measured, ...] | None:
-    """Return the travels of a cycle [m], the first to zero force, the others from there.
+    """Return the travels of a cycle [m]: the first to zero force, the others from there.
 
-    None where the retraction begins in tension, or has too few points for them.
+    None if the retraction begins in tension, or has too few points.
     """
     back = slice(cycle.segments.retract, cycle.pull_off_at + 1)
     force, depth = cycle.force[back], cycle.depth[back]
@@ -31,10 +32,10 @@ def travels(cycle: Cycle) -> tuple[Measured, ...] | None:
         near = np.abs(force + part * size) < _WINDOW * size
         if np.count_nonzero(near) < _FEWEST or np.ptp(force[near]) == 0:
             return None
-        # a parabola: a fast retraction begins steeply and bends
+        # a parabola, because fast retractions are curved
         _, slope, level = np.polyfit(force[near] + part * size, depth[near], 2)
         noise = abs(slope) * cycle.noise / np.sqrt(np.count_nonzero(near))
-        # the level of the tension is a part of the pull-off, which is not known exactly
+        # the uncertainty of the pull-off moves the level of the tension
         noise = float(np.hypot(noise, abs(slope) * part * cycle.pull_off_force.uncertainty))
         places.append((float(level), noise))
     (zero, doubt), start = places[0], float(depth[0])
@@ -44,19 +45,19 @@ def travels(cycle: Cycle) -> tuple[Measured, ...] | None:
 
 
 def travels_of(travel: Array, force: Array, tension: Array) -> Array:
-    """Return the same of computed curves.
+    """Return the travels of computed curves.
 
     Parameters
     ----------
     travel, force : ndarray, shape (points, cases)
         Travel, ascending, and force, compression positive.
     tension : ndarray, shape (cases,)
-        The largest tension.
+        Largest tension.
 
     Returns
     -------
     ndarray, shape (cases, 1 + parts)
-        nan where a curve does not begin above zero force.
+        nan where a curve does not begin in compression.
     """
     cases = np.arange(tension.size)
     places = []

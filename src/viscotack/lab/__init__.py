@@ -1,4 +1,4 @@
-"""What laboratories have, and what it says: sweeps, master curves, relaxation and creep tests."""
+"""Laboratory data: frequency sweeps, master curves, relaxation and creep tests, and their fits."""
 
 from viscotack.materials.shift import FittedShift as ShiftFit
 

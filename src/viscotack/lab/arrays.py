@@ -1,6 +1,6 @@
-"""Columns of measured numbers: checked once, of one length, and read-only ever after.
+"""Validated, read-only columns of measured numbers.
 
-The frozen objects of :mod:`viscotack.lab.sweeps` are built of these.
+The frozen dataclasses of :mod:`viscotack.lab.sweeps` store their columns with these functions.
 """
 
 from dataclasses import replace
@@ -17,13 +17,13 @@ KINDS = {"E": "tension", "G": "shear"}
 
 
 def check_kind(kind: Any) -> None:
-    """Refuse a kind of modulus that is none."""
+    """Raise an error unless the kind of modulus is "E" (tensile) or "G" (shear)."""
     if kind not in KINDS:
         raise InputError(f"kind must be 'E' (tensile) or 'G' (shear), got {kind!r}")
 
 
 def store_temperature(instance: Any, name: str) -> None:
-    """Store one temperature [K] as a float; None stays."""
+    """Store one temperature [K] as a float, or None where it is unknown."""
     value = getattr(instance, name)
     if value is None:
         return
@@ -34,7 +34,7 @@ def store_temperature(instance: Any, name: str) -> None:
 
 
 def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None) -> Array:
-    """Return a copy as one row of floats, of a given length."""
+    """Return a copy as a one-dimensional array of floats, of a given length."""
     row = np.array(values, dtype=float)
     if row.ndim != 1 or not row.size:
         raise InputError(f"{name} must be a row of numbers [{unit}], got shape {row.shape}")
@@ -44,7 +44,7 @@ def array(name: str, values: npt.ArrayLike, unit: str, length: int | None = None
 
 
 def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
-    """Store read-only arrays of one length, all positive; some may be unknown (nan)."""
+    """Store positive read-only arrays of one length; some columns may contain nan (unknown)."""
     length = None
     for name, (unit, may_miss) in units.items():
         row = array(name, getattr(instance, name), unit, length)
@@ -57,7 +57,7 @@ def store_columns(instance: Any, **units: tuple[str, bool]) -> None:
 
 
 def store_whole(instance: Any, name: str, values: npt.ArrayLike, length: int) -> None:
-    """Store a row of whole numbers."""
+    """Store a row of whole numbers as a read-only array."""
     row = array(name, values, "-", length)
     broken = row[row != np.round(row)]
     if broken.size:
@@ -66,13 +66,13 @@ def store_whole(instance: Any, name: str, values: npt.ArrayLike, length: int) ->
 
 
 def store(instance: Any, name: str, row: npt.NDArray[Any]) -> None:
-    """Store an array that nobody can write to."""
+    """Store a read-only array."""
     row.flags.writeable = False
     object.__setattr__(instance, name, row)
 
 
 def sort_along(instance: Any, along: Array) -> None:
-    """Put every column of a curve in ascending order of one of them."""
+    """Sort all columns of a curve in ascending order of one of them."""
     order = np.argsort(along, kind="stable")
     for name, values in vars(instance).items():
         if isinstance(values, np.ndarray):
@@ -80,7 +80,7 @@ def sort_along(instance: Any, along: Array) -> None:
 
 
 def chosen(instance: Any, points: npt.ArrayLike) -> Any:
-    """Return a copy with some of the points."""
+    """Return a copy with the selected points."""
     columns = {
         name: values[np.asarray(points)]
         for name, values in vars(instance).items()
@@ -90,7 +90,7 @@ def chosen(instance: Any, points: npt.ArrayLike) -> Any:
 
 
 def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1) -> Any:
-    """Return a copy in tension; the note says which Poisson ratio did it."""
+    """Convert shear to tensile moduli; a note records the Poisson ratio used."""
     nu = checked_poisson_ratio(poisson_ratio)
     if instance.kind == "E":
         return instance
@@ -98,6 +98,6 @@ def in_tension(instance: Any, poisson_ratio: float, *names: str, power: int = 1)
     return replace(
         instance,
         kind="E",
-        source=instance.source.noted(f"shear turned into tension with Poisson ratio {nu:g}"),
+        source=instance.source.noted(f"shear converted to tension with Poisson ratio {nu:g}"),
         **{name: factor * getattr(instance, name) for name in names},
     )

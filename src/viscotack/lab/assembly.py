@@ -1,4 +1,4 @@
-"""From the tables of a file to frequency sweeps in SI, and what all readers have in common."""
+"""Assemble frequency sweeps in SI from the tables of a file; functions shared by all readers."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,20 +12,20 @@ from viscotack.errors import InputError
 
 from .columns import Columns, Table, Units
 from .diagnosis import cause, has_sweep
-from .doubts import doubtful_modulus
 from .grouping import GAP, grouped
 from .joining import numbered_on
 from .lab_file import LabFile
 from .sweeps import FrequencySweeps, Source
+from .unit_checks import doubtful_modulus
 
 STIFFEST = 1.2e12  # Pa, diamond
-_TANGENTS = 1e-5, 1e4  # of every solid and most liquids: beyond, one of the units is wrong
-_TOLERANCE = 0.02  # of tan(delta) and |E*| against storage and loss, beside the digits written
+_TANGENTS = 1e-5, 1e4  # range for solids and most liquids; beyond it a unit is wrong
+_TOLERANCE = 0.02  # relative, of tan(delta) and |E*|, in addition to rounding
 
 
 @dataclass(frozen=True)
 class Given:
-    """What the caller says about a file: kind, temperature [K] and units it may lack."""
+    """Kind of modulus, temperature [K] and units given by the caller, for files that lack them."""
 
     kind: str | None
     temperature: float | None
@@ -33,33 +33,33 @@ class Given:
 
 
 def sweeps(file: LabFile, format: str, tables: Sequence[Table], given: Given) -> FrequencySweeps:
-    """Return the frequency sweeps of all tables that have them, in the order of the file."""
+    """Return the frequency sweeps of all tables that contain them, in the order of the file."""
     parts, notes = [], list(file.notes)
     for table in tables:
         columns = Columns(file, table, given.units, given.kind)
         if not table.rows or not has_sweep(columns):
-            notes.append(f"a table without sweeps is not used: {headings_of([table])}")
+            notes.append(f"ignored a table without sweeps: {headings_of([table])}")
             continue
         part = _part(columns, given)
         if _repeats_one_state(part):
-            what = "one temperature and one frequency, perhaps an amplitude or time sweep"
+            what = "all points have one temperature and one frequency (an amplitude or time sweep?)"
             if len(tables) == 1:
                 raise columns.error(f"{what}; expected several frequencies or temperatures")
-            notes.append(f"a table from line {table.rows[0][0]} is not used: {what}")
+            notes.append(f"ignored the table from line {table.rows[0][0]}: {what}")
             continue
         parts.append(part)
         notes += columns.notes
     if not parts:
         raise no_such_test(file, tables, given, "dma")
     if len({part.kind for part in parts}) > 1:
-        raise file.error("some tables are tensile (E), others shear (G); say --kind E or --kind G")
+        raise file.error("some tables are tensile (E), others shear (G); set --kind E or --kind G")
     source = source_of(file, format, notes)
-    # one table keeps its own numbers
+    # a single table keeps its own sweep numbers
     return numbered_on(parts, source) if len(parts) > 1 else replace(parts[0], source=source)
 
 
 def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: str) -> InputError:
-    """Return the error that says what a file holds in place of the test asked for."""
+    """Return the error for a file without the requested test; it names what the file contains."""
     expected = {
         "dma": "a frequency, a storage modulus and a loss modulus or tan(delta)",
         "relaxation": "a time and a modulus (or stress and strain)",
@@ -71,10 +71,10 @@ def no_such_test(file: LabFile, tables: Sequence[Table], given: Given, wanted: s
 
 
 def _repeats_one_state(part: FrequencySweeps) -> bool:
-    """Return whether many points share one frequency and one temperature."""
+    """Return whether most points repeat one frequency at one temperature."""
     omega, temperature = part.angular_frequency, part.temperature
     one_frequency = np.ptp(omega) <= 1e-3 * omega[0]
-    # a temperature that nobody says does not tell points apart
+    # an unknown temperature cannot distinguish points
     return omega.size > 1 and bool(one_frequency and not np.ptp(temperature) > GAP)
 
 
@@ -99,7 +99,7 @@ def _part(columns: Columns, given: Given) -> FrequencySweeps:
     tangent = float(np.median(values["loss"][keep] / values["storage"][keep]))
     if not _TANGENTS[0] < tangent < _TANGENTS[1]:
         raise columns.error(
-            f"loss over storage modulus is {tangent:.2g} in the median; are their units right?"
+            f"the median loss tangent is {tangent:.2g}; check the units of both moduli"
         )
     columns.notes += doubtful_modulus(np.hypot(values["storage"], values["loss"])[keep])
     values = _without_repeats(columns, {name: column[keep] for name, column in values.items()})
@@ -108,12 +108,12 @@ def _part(columns: Columns, given: Given) -> FrequencySweeps:
         values["sweep"] = numbers.astype(float)
         columns.notes += [how] * bool(how)
     elif np.any(values["sweep"] != np.round(values["sweep"])):
-        raise columns.error(f'column "{columns.name("sweep")}" must hold whole numbers')
+        raise columns.error(f'column "{columns.name("sweep")}" must contain whole numbers')
     return FrequencySweeps(**values, kind=kind)
 
 
 def _moduli(columns: Columns) -> tuple[Array, Array]:
-    """Return storage and loss modulus [Pa]; of two parts of the complex number, in any form."""
+    """Return storage and loss modulus [Pa], from any two columns that determine them."""
     if "storage" not in columns:
         size, angle = columns.si("magnitude"), np.arctan(_tangent(columns))
         columns.notes.append(f'moduli from "{columns.name("magnitude")}" and the loss angle')
@@ -135,8 +135,8 @@ def _tangent(columns: Columns) -> Array:
     wrong = np.flatnonzero((angle < 0) | (angle >= np.pi / 2))
     for row in wrong:
         raise columns.error(
-            f'"{columns.name("phase")}" is {angle[row]:g} rad; a loss angle is between 0 and 90 '
-            "degrees, is its unit right?",
+            f'"{columns.name("phase")}" is {angle[row]:g} rad; a loss angle lies between 0 and 90 '
+            "degrees; check its unit",
             int(row),
         )
     return np.tan(angle)
@@ -145,68 +145,68 @@ def _tangent(columns: Columns) -> Array:
 def refuse_what_is_lacking(
     columns: Columns, given: Given, moduli: Sequence[str], *quantities: str
 ) -> None:
-    """Refuse columns about which neither file nor caller says enough: all of it at once."""
+    """Raise one error that lists everything missing in both file and caller's options."""
     lacking = columns.lacking(*quantities)
     if columns.kind(*moduli) is None and given.kind is None:
         lacking.append(
             f'whether "{columns.name(moduli[0])}" is tensile or shear (--kind E or --kind G)'
         )
     if lacking:
-        raise columns.error(f"the file does not say {'; nor '.join(lacking)}")
+        raise columns.error(f"the file does not state {'; nor '.join(lacking)}")
 
 
 def _without_repeats(columns: Columns, values: dict[str, Array]) -> dict[str, Array]:
-    """Return the rows that do not say all the same as an earlier one."""
+    """Remove rows that repeat an earlier row exactly."""
     rows = np.column_stack(list(values.values()))
     _, first = np.unique(rows, axis=0, return_index=True)
     if first.size < len(rows):
-        columns.notes.append(f"{len(rows) - first.size} repeated rows left out")
+        columns.notes.append(f"{len(rows) - first.size} repeated rows removed")
     return {name: column[np.sort(first)] for name, column in values.items()}
 
 
 def kind_of(columns: Columns, given: Given, *quantities: str) -> str:
-    """Return the kind of modulus that the file or the caller says."""
+    """Return the kind of modulus ("E" or "G") stated by the file or the caller."""
     said = columns.kind(*quantities)
     if said is not None and given.kind is not None and said != given.kind:
-        raise columns.error(f"the file has a modulus of kind {said}, --kind {given.kind} was given")
+        raise columns.error(f"the file has a modulus of kind {said}, but --kind is {given.kind}")
     return said or given.kind or ""
 
 
 def temperatures(columns: Columns, given: Given) -> Array:
-    """Return the temperature of each row that the file or the caller says [K]."""
+    """Return the temperature of each row [K], from the file or the caller; nan if unknown."""
     temperature = columns.temperature()
     if given.temperature is None:
         return temperature
     if not np.all(np.isnan(temperature)):
-        raise columns.error("the file says its temperatures; leave --temperature out")
+        raise columns.error("the file states its temperatures; omit --temperature")
     return np.full(temperature.size, given.temperature)
 
 
 def kept(columns: Columns, *positive: Array) -> npt.NDArray[np.bool_]:
-    """Return which rows are used, and note how many are not, and why."""
+    """Return a mask of the usable rows, and note how many were rejected and why."""
     lines = np.array([line for line, _ in columns.table.rows])
     missing = ~columns.keep
     wrong = columns.keep & ~np.all([values > 0 for values in positive], axis=0)
     for rows, why in ((missing, "a number is missing"), (wrong, "a value is not positive")):
         if rows.any():
-            columns.notes.append(f"left out because {why}: {_listed(lines[rows])}")
+            columns.notes.append(f"rejected because {why}: {_listed(lines[rows])}")
     keep = ~missing & ~wrong
     if not keep.any():
-        raise columns.error("no row has all the numbers that are needed")
+        raise columns.error("no row has all required numbers")
     return keep
 
 
 def refuse_stiffer_than_diamond(columns: Columns, modulus: Array) -> None:
-    """Refuse a modulus that no solid has: its unit is wrong."""
+    """Raise an error if a modulus exceeds that of diamond, because its unit must be wrong."""
     for row in np.flatnonzero(modulus > STIFFEST):
         raise columns.error(
-            f"a modulus of {modulus[row]:g} Pa is above that of diamond; is the unit right?",
+            f"a modulus of {modulus[row]:g} Pa exceeds that of diamond; check its unit",
             int(row),
         )
 
 
 def _agree(columns: Columns, storage: Array, loss: Array) -> None:
-    """Refuse a row whose tan(delta) or |E*| contradicts its storage and loss modulus."""
+    """Raise an error if tan(delta) or |E*| contradicts the storage and loss modulus of its row."""
     digits = [columns.resolution(name) * columns.factor(name) for name in ("storage", "loss")]
     sizes = np.hypot(storage, loss)
     if "tan_delta" in columns:
@@ -223,14 +223,14 @@ def _same(columns: Columns, name: str, factor: float, expected: Array, slack: Ar
     slack = slack + factor * columns.resolution(name) + _TOLERANCE * np.abs(expected)
     for row in np.flatnonzero(np.abs(found - expected) > slack):
         raise columns.error(
-            f'"{columns.name(name)}" is {found[row]:g}, but storage and loss modulus make it '
-            f"{expected[row]:g}: a number is damaged, or the units are wrong",
+            f'"{columns.name(name)}" is {found[row]:g}, but storage and loss modulus give '
+            f"{expected[row]:g}; a number is damaged or a unit is wrong",
             int(row),
         )
 
 
 def headings_of(tables: Sequence[Table]) -> str:
-    """Return the headings that were found, for the words of an error."""
+    """Return the headings of all tables as text for an error message."""
     headings = [heading for table in tables for heading in table.headings if heading]
     return ", ".join(f'"{heading}"' for heading in dict.fromkeys(headings)) or "no headings"
 
@@ -241,5 +241,5 @@ def _listed(lines: npt.NDArray[np.int64]) -> str:
 
 
 def source_of(file: LabFile, format: str, notes: Sequence[str]) -> Source:
-    """Return where numbers come from, each note once."""
+    """Return the source of the numbers, with each note once."""
     return Source(file.path, file.sha256, format, tuple(dict.fromkeys(notes)))

@@ -1,6 +1,7 @@
-"""A table as a file has it, in text, and its columns as numbers in SI.
+"""A table of a laboratory file as text, and its recognised columns as numbers in SI.
 
-Every format is brought into this one shape first; what the words mean is decided here, once.
+Readers of all formats produce a :class:`Table`; :class:`Columns` alone interprets headings and
+units.
 """
 
 import math
@@ -17,7 +18,6 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 
 from .arrays import KINDS
-from .doubts import doubtful_temperature
 from .lab_file import LabFile
 from .numbers import decimal_mark, half_digit, number, plain_numbers
 from .quantities import (
@@ -32,6 +32,7 @@ from .quantities import (
     recognise,
     scale,
 )
+from .unit_checks import doubtful_temperature
 
 _UNITS = {
     "storage": "Pa",
@@ -46,14 +47,14 @@ _UNITS = {
 }
 
 
-# what gives the unit of a column that has none
+# the option that sets the unit of a column without one
 _FLAGS = {
     "Pa": "--modulus-unit Pa, kPa or MPa",
     "1/Pa": "--modulus-unit Pa, kPa or MPa, of the stress",
     "s": "--time-unit s or min",
 }
 _IN_FILE = "written in the heading or below it"
-_HELD = 0.05  # of the level of a step; an instrument holds it better
+_HELD = 0.05  # relative to the level of a step; instruments hold it better than this
 _STATED = re.compile(r"([+-]?[0-9]+(?:[.,][0-9]*)?)\s*(°C|C|K|°F)")
 _TEMPERATURE = re.compile(r"(?:[Tt]\s*=\s*)?([+-]?[0-9]+(?:\.[0-9]*)?)\s*(°C|ºC|oC|degC|C|K|°F)?")
 
@@ -67,19 +68,19 @@ class Table:
     Parameters
     ----------
     headings, units : tuple of str
-        One per column; an empty unit where the file gives none.
+        One per column; an empty unit where the file states none.
     rows : tuple of (int, tuple of str)
-        Line number in the file and cells, as many as headings.
+        Line number in the file, and cells, one per heading.
     words : str
-        What the file says around the table: geometry, step name.
+        Text around the table: geometry, step name.
     temperature : float or None
-        Temperature that the file states once for all rows [K].
+        Temperature stated once for all rows [K].
     levels : dict of str to float
-        What else the file states once for all rows: the step of ``strain`` [-] or ``stress`` [Pa].
+        Other values stated once for all rows: the step of ``strain`` [-] or ``stress`` [Pa].
     label : str
-        What stands above the columns of one table beside others: a temperature, perhaps.
+        Text above the columns of one of several tables side by side, such as a temperature.
     notes : tuple of str
-        What the layout decided.
+        Decisions of the layout's reader.
     """
 
     headings: tuple[str, ...]
@@ -94,7 +95,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Units:
-    """What the caller says where a file does not: units and the decimal mark."""
+    """Units and decimal mark given by the caller, for files that state none."""
 
     frequency: str | None = None
     modulus: str | None = None
@@ -110,13 +111,13 @@ def tabulated(
     rows: Iterable[tuple[int, Sequence[str]]],
     **stated: Any,
 ) -> Table:
-    """Return a table whose rows are as long as its headings, or say which row is not.
+    """Return a table; raise an error that names the first row of another length.
 
     `stated` are the other fields of :class:`Table`.
     """
     names, beside, chosen = ruled(file, headings, units, rows)
     given = [recognise(heading) for heading in names]
-    # a row of units wins only where the heading itself has none
+    # a row of units counts only where the heading itself has no unit
     own = [(heading and heading.unit) or unit for heading, unit in zip(given, beside, strict=True)]
     return Table(names, tuple(own), chosen, **stated)
 
@@ -127,15 +128,15 @@ def ruled(
     units: Sequence[str] | None,
     rows: Iterable[tuple[int, Sequence[str]]],
 ) -> tuple[tuple[str, ...], tuple[str, ...], Rows]:
-    """Return headings, units and rows of one length, or say which row is longer or shorter."""
+    """Return headings, units and rows of one length; raise an error for a row of another length."""
     width = max((i + 1 for i, cell in enumerate(headings) if cell.strip()), default=0)
     chosen = []
     for line, cells in rows:
         cells = tuple(map(str.strip, cells))
         if len(cells) < width or any(cells[width:]):
             raise file.error(
-                f"{len(cells)} cells where the headings have {width}; a cell is missing or added, "
-                "or the file is cut",
+                f"{len(cells)} cells under {width} headings; a cell is missing or extra, "
+                "or the file is truncated",
                 line,
             )
         chosen.append((line, cells[:width]))
@@ -147,8 +148,8 @@ def ruled(
 def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
     """Return the index of the first row that names two or more quantities, or None.
 
-    A row that begins with a label and a colon speaks of the test and heads no columns, unless two
-    quantities follow.
+    A row that begins with a label and a colon describes the test and is no row of headings, unless
+    two quantities follow.
     """
     for index, row in enumerate(rows):
         if row and row[0].rstrip().endswith(":"):
@@ -159,7 +160,7 @@ def first_headings(rows: Sequence[Sequence[str]]) -> int | None:
 
 
 def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
-    """Return the one temperature that lines above a table state [K], None for none or several.
+    """Return the temperature stated above a table [K]; None if there is none or more than one.
 
     Examples
     --------
@@ -183,18 +184,18 @@ def stated_temperature(rows: Iterable[Sequence[str]]) -> float | None:
 
 
 class Columns:
-    """The columns of one table that were recognised, as numbers in SI.
+    """The recognised columns of one table, as numbers in SI.
 
     Parameters
     ----------
     file : LabFile
-        For the words of an error.
+        Used in error messages.
     table : Table
-        What was read.
+        The table that was read.
     units : Units
-        What the caller says where the file does not.
+        Units given by the caller where the file states none.
     kind : {"E", "G"} or None
-        Which modulus to take where the table has both.
+        Modulus to use where the table has both.
     """
 
     def __init__(self, file: LabFile, table: Table, units: Units, kind: str | None = None):
@@ -215,21 +216,23 @@ class Columns:
         return quantity in self._found
 
     def error(self, what: str, row: int | None = None) -> InputError:
-        """Return an error that names the line of a row, or of the first row."""
+        """Return an error that names the line of a row, by default of the first row."""
         rows = self.table.rows
         line = rows[row][0] if row is not None else rows[0][0] if rows else None
         return self.file.error(what, line)
 
     def name(self, quantity: str) -> str:
-        """Return the heading of a quantity as the file has it."""
+        """Return the heading of a quantity as written in the file."""
         return self.table.headings[self._found[quantity][0][0]]
 
     def kind(self, *quantities: str) -> str | None:
-        """Return the kind of modulus that headings, neighbours or words around the table say."""
+        """Return the kind of modulus stated by headings, neighbouring columns or text, or None."""
         headings = [h for q in quantities for _, h in self._found.get(q, [])]
         said = {heading.kind for heading in headings} - {None}
         if len(said) > 1:
-            raise self.error("one column is tensile (E), another one is shear (G); say --kind E|G")
+            raise self.error(
+                "one column is tensile (E), another one is shear (G); set --kind E or --kind G"
+            )
         if said:
             return said.pop()
         known = [heading.kind for heading in map(recognise, self.table.headings) if heading]
@@ -238,11 +241,11 @@ class Columns:
         kind = beside.pop() if len(beside) == 1 else None
         if kind is not None:
             word = KINDS[kind]
-            self.notes.append(f"the words around the moduli speak of {word}, so kind is {kind!r}")
+            self.notes.append(f"kind {kind!r} from the word {word} beside the moduli")
         return kind
 
     def numbers(self, quantity: str, *, needed: bool = True) -> Array:
-        """Return a column in the unit of the file; a row without a needed number is left out."""
+        """Return a column in the unit of the file; rows without a needed number are rejected."""
         index, _ = self._column(quantity)
         values = self._cells.numbers(index)
         if needed:
@@ -255,13 +258,14 @@ class Columns:
         return np.array([half_digit(cells[index]) for _, cells in self.table.rows])
 
     def has_unit(self, quantity: str) -> bool:
-        """Return whether the file says in which unit a column is."""
+        """Return whether the file states the unit of a column."""
         return not no_unit(self._unit(quantity))
 
     def held(self, quantity: str) -> npt.NDArray[np.bool_]:
-        """Return in which rows a column is within 5 % of its level, the middle of its upper half.
+        """Return a mask of the rows in which a column is within 5 % of its level.
 
-        What lies below is the way to the step, or what came after it.
+        The level is the median of the upper half. Other rows belong to the ramp before or after the
+        step.
         """
         values = np.abs(self.numbers(quantity, needed=False))
         known = values[np.isfinite(values)]
@@ -271,7 +275,7 @@ class Columns:
         return np.abs(values - level) <= _HELD * level
 
     def lacking(self, *quantities: str) -> list[str]:
-        """Return what neither file nor caller says about columns, each with the flag to say it."""
+        """Return the missing units and labels of columns, each with the option that sets it."""
         found: dict[str, list[str]] = {}
         for quantity in quantities:
             if quantity not in self or not no_unit(self._unit(quantity)):
@@ -289,20 +293,20 @@ class Columns:
         label = _TEMPERATURE.fullmatch(self.table.label.replace(",", "."))
         if "temperature" in quantities and label and not (label[2] or self.units.temperature):
             lacking.append(
-                f"whether {self.table.label!r} above the columns is a temperature "
+                f"whether {self.table.label!r} above the columns is a temperature in C or K "
                 "(--temperature-unit degC or K)"
             )
         return lacking
 
     def factor(self, quantity: str) -> float:
-        """Return the factor that takes a column of moduli, times or pure numbers to SI."""
+        """Return the factor from the unit of a column (modulus, time or pure number) to SI."""
         target = _UNITS.get(quantity, "1")
         unit = self._unit(quantity)
         if no_unit(unit) and target != "1":
             unit = self._said(target)
         if no_unit(unit) and target != "1":
             flag = _FLAGS.get(target)
-            cure = f"; say {flag} or write the unit" if flag else ""
+            cure = f"; set {flag} or write the unit" if flag else ""
             raise self.error(f'the column "{self.name(quantity)}" has no unit{cure}')
         try:
             return scale(unit, target)
@@ -314,7 +318,7 @@ class Columns:
         return self.factor(quantity) * self.numbers(quantity)
 
     def temperature(self) -> Array:
-        """Return the temperature of each row [K]; nan where the file does not say."""
+        """Return the temperature of each row [K]; nan where the file states none."""
         if "temperature" not in self:
             stated = self.table.temperature if not self.table.label else self._labelled()
             return np.full(len(self.table.rows), math.nan if stated is None else stated)
@@ -324,22 +328,25 @@ class Columns:
             raise self._located("temperature", error) from None
         kelvins = self.numbers("temperature") * factor + offset
         for row in np.flatnonzero((kelvins <= POSSIBLE[0]) | (kelvins >= POSSIBLE[1])):
-            raise self.error(f"a temperature of {kelvins[row]:g} K is not possible", int(row))
+            raise self.error(
+                f"a temperature of {kelvins[row]:g} K is impossible; check its unit",
+                int(row),
+            )
         self.notes += doubtful_temperature(kelvins, offset == 0.0)
         return kelvins
 
     def angular_frequency(self) -> Array:
-        """Return 2 pi f [rad/s] of each row, from one column or from two that agree."""
+        """Return the angular frequency [rad/s] of each row, from one column or two that agree."""
         names = [name for name in ("angular_frequency", "frequency") if name in self]
         if len(names) == 2 and self.lacking("frequency"):
-            names.pop()  # not needed, and it does not say what it is
+            names.pop()  # redundant, and its unit is ambiguous
         found = {name: self._angular(name) for name in names}
         if len(found) == 2:
             both = found["angular_frequency"], found["frequency"]
             for row in np.flatnonzero(np.abs(both[0] - both[1]) > 0.01 * np.abs(both[0])):
                 raise self.error(
                     f'"{self.name("angular_frequency")}" is {both[0][row]:g} rad/s but '
-                    f'"{self.name("frequency")}" makes {both[1][row]:g} rad/s',
+                    f'"{self.name("frequency")}" gives {both[1][row]:g} rad/s',
                     int(row),
                 )
         omega = next(iter(found.values()))
@@ -351,7 +358,7 @@ class Columns:
         unit, said = self._unit(name), self.units.frequency
         angular = name == "angular_frequency"
         if no_unit(unit) and said is None and angular:
-            self.notes.append(f'"{self.name(name)}" has no unit and is taken in rad/s')
+            self.notes.append(f'"{self.name(name)}" has no unit; rad/s assumed')
             return self.numbers(name)
         try:
             if said is None:
@@ -359,10 +366,12 @@ class Columns:
             else:
                 factor = own = radians_per_second(said, angular="rad" in said)
                 if not no_unit(unit):
-                    with suppress(ValueError):  # where the file is ambiguous the caller decides
+                    with suppress(ValueError):  # an ambiguous unit is decided by the caller
                         own = radians_per_second(unit, angular=angular)
                 if not math.isclose(own, factor):
-                    raise InputError(f"the file says {bare(unit)}, --frequency-unit says {said}")
+                    raise InputError(
+                        f"the file states {bare(unit)}, but --frequency-unit is {said}"
+                    )
         except ValueError as error:
             raise self._located(name, error) from None
         return self.numbers(name) * factor
@@ -370,25 +379,25 @@ class Columns:
     def _temperature_unit(self) -> str:
         unit = self._unit("temperature")
         if no_unit(unit) and self.units.temperature is None:
-            raise InputError("no unit; say --temperature-unit degC or K, or write it")
+            raise InputError("no unit; set --temperature-unit degC or K, or write it into the file")
         return (self.units.temperature or "") if no_unit(unit) else unit
 
     def _labelled(self) -> float:
-        """Return the temperature that stands above the columns of this table [K]."""
+        """Return the temperature in the label above the columns of this table [K]."""
         text = self.table.label
         match = _TEMPERATURE.fullmatch(text.replace(",", "."))
         if match is None:
             raise self.error(
-                f"{text!r} above the columns is no temperature; expected such as '20 °C'"
+                f"{text!r} above the columns is not a temperature; expected, for example, '20 °C'"
             )
-        # a label without a unit was refused by `lacking`
+        # `lacking` has already rejected a label without a unit
         value = in_kelvin(float(match[1]), match[2] or self.units.temperature or "")
         if not POSSIBLE[0] < value < POSSIBLE[1]:
-            raise self.error(f"a temperature of {value:g} K is not possible")
+            raise self.error(f"a temperature of {value:g} K is impossible; check its unit")
         return value
 
     def _said(self, target: str) -> str:
-        """Return the unit that the caller gives for columns without one."""
+        """Return the unit given by the caller for columns without one."""
         if target == "Pa":
             return self.units.modulus or ""
         if target == "1/Pa" and self.units.modulus:
@@ -396,7 +405,7 @@ class Columns:
         return self.units.time or "" if target == "s" else ""
 
     def _column(self, quantity: str) -> tuple[int, Heading]:
-        """Return the one column of a quantity; of several, the first, if all say the same."""
+        """Return the column of a quantity; if several columns agree, the first one."""
         if quantity not in self._chosen:
             first, *others = self._found[quantity]
             for other in others:
@@ -412,12 +421,12 @@ class Columns:
         units = {bare(heading.unit or self.table.units[index]) for index, heading in (first, other)}
         if len(kinds) < 2 and len(units) == 1:
             values = [self._cells.numbers(index) for index, _ in (first, other)]
-            # a temperature is in degrees, where one percent of the number means nothing
+            # temperatures in degrees Celsius: a relative difference has no meaning
             slack = 0.5 if quantity == "temperature" else 0.01 * np.abs(values[0])
             if np.all((np.abs(values[0] - values[1]) <= slack) | np.isnan(values[0])):
-                self.notes.append(f'of two columns that say the same, "{names[0]}" is used')
+                self.notes.append(f'two equal columns; "{names[0]}" is used')
                 return
-        cure = "say --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
+        cure = "set --kind E or --kind G" if len(kinds) > 1 else "keep one of them"
         raise self.error(f'two columns of one quantity: "{names[0]}" and "{names[1]}"; {cure}')
 
     def _unit(self, quantity: str) -> str:
@@ -432,18 +441,18 @@ class Columns:
 
 
 class Cells:
-    """Cells of a table as numbers, with one decimal mark for all columns that are used.
+    """Cells of a table as numbers, with one decimal mark for all columns in use.
 
     Parameters
     ----------
     file, table
-        Where the cells stand.
+        Source of the cells.
     decimal : str or None
-        Decimal mark that the caller says.
+        Decimal mark given by the caller.
     used : iterable of int
-        Columns that were recognised.
+        Indices of the recognised columns.
     notes : list of str
-        To which a decimal comma is added.
+        Receives a note if the decimal mark is a comma.
     """
 
     def __init__(

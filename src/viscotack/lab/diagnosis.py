@@ -1,4 +1,4 @@
-"""What a file holds that was asked for something else, in words: the true cause of a refusal."""
+"""Explain why a file lacks the requested test, from what its tables contain."""
 
 from collections.abc import Sequence
 
@@ -9,9 +9,9 @@ TESTS = ("dma", "relaxation", "creep", "shifts")
 
 
 def test_of(columns: Columns) -> str | None:
-    """Return which test the columns of a table belong to, or None.
+    """Return the test that the columns of a table belong to, or None.
 
-    Where stress and strain are both there, what was held says which test it was.
+    If both stress and strain are present, the one held constant identifies the test.
     """
     if has_sweep(columns):
         return "dma"
@@ -32,7 +32,7 @@ def test_of(columns: Columns) -> str | None:
 
 
 def has_sweep(columns: Columns) -> bool:
-    """Return whether there are a frequency and two numbers that make a complex modulus."""
+    """Return whether the columns hold a frequency and two numbers that give a complex modulus."""
     if not ("frequency" in columns or "angular_frequency" in columns):
         return False
     angle = "phase" in columns or "tan_delta" in columns
@@ -42,25 +42,25 @@ def has_sweep(columns: Columns) -> bool:
 
 
 def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:
-    """Return why the tables of a file have not the test that was asked for.
+    """Return the reason why the tables of a file lack the requested test.
 
     Parameters
     ----------
     tables : sequence of Columns
-        Of the whole file, without regard to the kind that was asked for.
+        All tables of the file, whatever kind of modulus was requested.
     wanted : str
         One of :data:`TESTS`.
     kind : {"E", "G"} or None
-        What was asked for.
+        Requested kind.
     """
     if not any(columns.table.rows for columns in tables):
-        return "below its headings are no numbers"
+        return "there are no numbers below its headings"
     tests = {test_of(columns) for columns in tables if columns.table.rows} - {None}
     if wanted in tests and kind:
         other = "G" if kind == "E" else "E"
         return (
-            f"its moduli are of {KINDS[other]} ({other}) and --kind {kind} asks for "
-            f"{KINDS[kind]}; leave --kind out, --poisson-ratio turns one into the other"
+            f"its moduli are of {KINDS[other]} ({other}), but --kind {kind} requests "
+            f"{KINDS[kind]}; omit --kind; --poisson-ratio converts one into the other"
         )
     for test in TESTS:
         if test in tests and test != wanted:
@@ -70,25 +70,25 @@ def cause(tables: Sequence[Columns], wanted: str, kind: str | None) -> str:
                 "creep": "a creep test, --test creep",
                 "shifts": "shift factors, --shift-file",
             }
-            return f"it holds {words[test]}"
+            return f"it contains {words[test]}"
     return next(filter(None, (_nonlinear(columns) for columns in tables)), "")
 
 
 def _nonlinear(columns: Columns) -> str:
-    """Return what a table is that holds no linear viscoelastic test, or nothing."""
+    """Describe a table without a linear viscoelastic test; empty if unknown."""
     timed = "time" in columns or "step_time" in columns
     flows = "shear_rate" in columns or "viscosity" in columns
     if flows and timed:
-        return "it is the start-up or the course of a steady flow, not a test of linear response"
+        return "it is the start-up of a steady flow, not a test of linear response"
     if flows:
-        return "it is a flow curve, viscosity or stress over shear rate, which holds no modulus"
+        return "it is a flow curve, viscosity or stress over shear rate, without a modulus"
     if timed and "stress" in columns:
-        return "it has a stress over time without the strain: write the strain or the modulus"
+        return "it has a stress over time without the strain; add the strain or the modulus"
     if timed and "strain" in columns:
-        return "it has a strain over time without the stress: write the stress or the compliance"
+        return "it has a strain over time without the stress; add the stress or the compliance"
     swept = "frequency" in columns or "angular_frequency" in columns
     if swept and ("storage" in columns or "magnitude" in columns):
-        return "one number of the complex modulus is missing: a loss modulus or a loss angle"
+        return "the complex modulus is incomplete; add a loss modulus or a loss angle"
     return ""
 
 

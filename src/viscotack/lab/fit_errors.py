@@ -1,29 +1,29 @@
-r"""How the errors of measured numbers hang together, and how far a fitted quantity may lie off.
+r"""Correlated errors of measured numbers, and the uncertainty of fitted quantities.
 
-Least squares takes every residual for an error of its own, and of one size. Laboratories have
-others: a clamp that slipped moves both moduli of one sweep together, a transducer that drifts bends
-a creep curve over a decade, noise grows towards one end. The fitted constants hardly suffer, their
-intervals do: a hundred points of five sweeps know the level of the curve as five numbers do.
+Least squares assumes independent residuals of equal variance. Laboratory data often differ: a clamp
+that slips moves both moduli of one sweep together, a drifting transducer bends a creep curve over
+a decade, noise grows towards one end. The fitted constants hardly change, but their intervals do:
+for the level of the curve, a hundred points in five sweeps carry the information of five numbers.
 
-The errors e (the logarithms' residuals over their noise) are taken to have the covariance
+The errors e (residuals of the logarithms over their noise) are assumed to have the covariance
 
 .. math::
 
     V_\theta = s^2 \left( D_g + a^2 Z Z^T + b^2 K_\ell \right) ,
 
-D_g being diagonal with exp(g u) along the axis (u from -1 to 1; its mean is 1), Z telling which
-points belong to one sweep, and K_l a drift, \|K_ij\| = exp(-\|ln x_i - ln x_j\|/l) within one part.
-What remains after a fit with slopes J has the restricted likelihood (Patterson & Thompson,
+where D_g is diagonal with exp(g u) along the axis (u from -1 to 1; its mean is 1), Z assigns points
+to sweeps, and K_l is a drift, \|K_ij\| = exp(-\|ln x_i - ln x_j\|/l) within one part.
+The residuals r of a fit with slopes J have the restricted likelihood (Patterson & Thompson,
 Biometrika 58 (1971) 545, doi:10.1093/biomet/58.3.545)
 
 .. math::
 
     -2 \ln L(\theta) = \ln |V_\theta| + \ln |J^T V_\theta^{-1} J| + (M - p) \ln r^T P_\theta r .
 
-No theta is chosen: a table of them is weighed by likelihood times prior, and a quantity that the
-fit takes as the sum w_i e_i of the errors lies off by a mixture of Student distributions, of
-variances w^T V w. So little data, which cannot tell a drift from a slope, has wider intervals than
-much; and where each error is its own the mixture falls back to Student's t, a little wider.
+The result averages over a table of theta, weighted by likelihood times prior. The error of a fitted
+quantity, the sum w_i e_i, then has a mixture of Student distributions with variances w^T V w. Few
+data, which cannot distinguish a drift from a slope, thus give wider intervals than many. For
+independent errors the mixture reduces to a slightly wider Student's t.
 """
 
 from dataclasses import dataclass, replace
@@ -39,17 +39,17 @@ from viscotack.arrays import Array
 from .observed import Observed
 
 _TRENDS = (-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0)  # of the logarithm of the variance
-_SHARED = (0.5, 1.0, 2.0, 4.0, 8.0)  # common error beside each number's own
+_SHARED = (0.5, 1.0, 2.0, 4.0, 8.0)  # ratio of the common to the independent error
 _LENGTHS = (0.7, 2.3, 7.0)  # of a drift: a third of a decade, one, three
 _TREND_PRIOR = 1.0  # standard deviation of a trend, before the data
-# Prior probability that each error is its own: instruments drift over time, less so over frequency.
+# Prior probability of independent errors: instruments drift over time, less so over frequency.
 _OWN, _OWN_IN_TIME = 0.8, 0.4
-_ROWS = 160  # beyond, neighbours are averaged before their covariance is sought
+_ROWS = 160  # above this number, neighbours are averaged first
 
 
 @dataclass(frozen=True)
 class _Form:
-    """One covariance of the errors: its trend, what sweeps share, and a drift with its length."""
+    """One covariance of the errors: trend, error common to a sweep, drift and its length."""
 
     trend: float
     sweep: float = 0.0
@@ -58,13 +58,13 @@ class _Form:
 
     @property
     def shared(self) -> bool:
-        """Whether errors have something in common."""
+        """Whether the errors are correlated."""
         return self.sweep > 0 or self.drift > 0
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Where numbers stand: part, place on the axis and sweep of each, in the order of residuals."""
+    """Part, position on the axis and sweep of each number, in the order of the residuals."""
 
     part: npt.NDArray[np.int64]
     log: Array
@@ -80,7 +80,7 @@ class Rows:
         return cls(np.repeat(np.arange(parts), points), np.tile(np.log(data.at), parts), sweep)
 
     def covariance(self, form: _Form) -> Array:
-        """Return the covariance matrix of a form, of mean diagonal 1 without what is shared."""
+        """Return the covariance matrix of a form; its uncorrelated part has mean diagonal 1."""
         span = max(float(np.ptp(self.log)), 1e-12)
         u = 2 * (self.log - np.min(self.log)) / span - 1
         own = np.exp(form.trend * u)
@@ -95,20 +95,20 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class Errors:
-    """What the residuals say of the errors.
+    """Posterior of the error covariance, given the residuals of a fit.
 
     Attributes
     ----------
     rows : Rows
-        Where the numbers stand.
+        Part, position and sweep of the numbers.
     forms : tuple of _Form
-        Covariances that the residuals allow.
+        Candidate covariances.
     weights : ndarray, shape (F,)
-        How probable each is, of sum 1.
+        Probability of each; the sum is 1.
     scales : ndarray, shape (F,)
         Factor s of each.
     degrees : int
-        Numbers less constants.
+        Numbers minus constants.
     """
 
     rows: Rows
@@ -118,12 +118,12 @@ class Errors:
     degrees: int
 
     def half_width(self, influences: Array, level: float) -> Array:
-        """Return how far quantities may lie off at a confidence level.
+        """Return the half-width of the confidence intervals of quantities.
 
         Parameters
         ----------
         influences : ndarray, shape (Q, M)
-            What an error of each number adds to each quantity.
+            Derivative of each quantity with respect to the error of each number.
         level : float
             Of the interval from -half to half, in (0, 1).
         """
@@ -135,7 +135,7 @@ class Errors:
         return np.einsum("f,fij->ij", self.weights, np.array(self._covariances(influences)))
 
     def drawn(self, count: int, random: np.random.Generator, *, sure: bool = True) -> Array:
-        """Return errors drawn at random, shape (count, M); not sure: their size is drawn too."""
+        """Return random errors, shape (count, M); unless `sure`, their size is random too."""
         which = random.choice(len(self.forms), size=count, p=self.weights)
         found = np.empty((count, self.rows.log.size))
         for i in np.unique(which):
@@ -145,16 +145,16 @@ class Errors:
             found[mine] = self.scales[i] * own @ root.T
         if sure:
             return found
-        # Student's t is the normal distribution of a deviation that few residuals tell
+        # a normal distribution of uncertain deviation gives Student's t
         return found * np.sqrt(self.degrees / random.chisquare(self.degrees, size=(count, 1)))
 
     @property
     def shared(self) -> float:
-        """How probable it is that errors have something in common."""
+        """Posterior probability of correlated errors."""
         return float(np.sum(self.weights[[form.shared for form in self.forms]]))
 
     def words(self) -> str:
-        """Return what errors have in common, in words; empty where each is its own."""
+        """Describe the correlation of the errors in words; empty for independent errors."""
         if self.shared < 0.5:
             return ""
         shared = np.array([form.shared for form in self.forms])
@@ -162,12 +162,13 @@ class Errors:
         size = self.scales[self.forms.index(likely)]
         if likely.sweep:
             return (
-                f"the points of one sweep err together, by about {100 * size * likely.sweep:.2g} %"
+                "the points of one sweep have a common error of about "
+                f"{100 * size * likely.sweep:.2g} %"
             )
         decades = likely.length / np.log(10)
         return (
-            f"neighbouring points err alike over about {decades:.1g} decades, by "
-            f"{100 * size * likely.drift:.2g} %: the model, or a sweep, is off in places, or the "
+            f"neighbouring points have correlated errors over about {decades:.1g} decades, of "
+            f"{100 * size * likely.drift:.2g} %: the model or a sweep deviates locally, or the "
             "instrument drifts"
         )
 
@@ -194,12 +195,12 @@ class Errors:
 
 
 def errors(data: Observed, residuals: Array, slopes: Array) -> Errors:
-    """Return what residuals after a fit say of the errors.
+    """Estimate the error covariance from the residuals of a fit.
 
     Parameters
     ----------
     data : Observed
-        What was fitted.
+        The fitted numbers.
     residuals : ndarray, shape (P, N)
         ln(measured/fitted) over the noise of each part.
     slopes : ndarray, shape (P N, p)
@@ -215,7 +216,7 @@ def errors(data: Observed, residuals: Array, slopes: Array) -> Errors:
     posterior = np.log(prior) + likelihood
     weights = np.exp(posterior - np.max(posterior))
     weights /= np.sum(weights)
-    # what adds nothing is left out
+    # negligible terms are dropped
     keep = weights > 1e-2 * np.max(weights)
     kept = tuple(form for form, yes in zip(forms, keep, strict=True) if yes)
     degrees = max(min(r.size, small[1].size) - slopes.shape[1], 1)
@@ -241,7 +242,7 @@ def _prior(form: _Form, forms: list[_Form], own: float) -> float:
 
 
 def _averaged(rows: Rows, r: Array, slopes: Array) -> tuple[Rows, Array, Array, Array]:
-    """Return rows, residuals and slopes of at most about _ROWS groups of neighbours, and counts."""
+    """Average neighbours into at most about _ROWS rows; return rows, residuals, slopes, counts."""
     each = -(-r.size // _ROWS)
     if each == 1:
         return rows, r, slopes, np.ones(r.size)
@@ -270,7 +271,8 @@ def _likelihood(rows: Rows, r: Array, J: Array, count: Array, form: _Form) -> tu
     """Return the logarithm of the restricted likelihood, up to a constant, and the factor s."""
     V = rows.covariance(form)
     own = np.diag(rows.covariance(replace(form, sweep=0.0, drift=0.0)))
-    V[np.diag_indices_from(V)] += own * (1 / count - 1)  # a mean of n has the n-th part
+    # the mean of n errors has 1/n of the variance
+    V[np.diag_indices_from(V)] += own * (1 / count - 1)
     rest, log_V, log_J = _projected(V, r, J)
     degrees = max(r.size - J.shape[1], 1)
     likelihood = -0.5 * (log_V + log_J + degrees * np.log(max(rest, 1e-300)))
@@ -283,7 +285,7 @@ def _projected(V: Array, r: Array, J: Array) -> tuple[float, float, float]:
     solved = cho_solve(factor, np.column_stack((r, J)))
     normal = J.T @ solved[:, 1:]
     right = J.T @ solved[:, 0]
-    # neighbouring arms are nearly one: the pseudo-inverse leaves out what they cannot tell
+    # neighbouring arms are nearly collinear: the pseudo-inverse drops what is undetermined
     value, vector = np.linalg.eigh((normal + normal.T) / 2)
     kept = value > 1e-12 * max(float(value[-1]), 1e-300)
     part = vector[:, kept].T @ right

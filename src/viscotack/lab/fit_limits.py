@@ -1,4 +1,4 @@
-"""What a measurement cannot determine, in sentences that say so."""
+"""Cautions: constants and ranges that a measurement does not determine."""
 
 from typing import Any
 
@@ -9,23 +9,23 @@ from .fit_prony import fit_series
 from .fit_report import Fitted, Interval, Scatter
 from .observed import Observed, only
 
-# A law that puts a plateau this many times beyond the measured moduli extrapolates.
+# Ratio of a plateau to the measured moduli above which the law extrapolates.
 _BEYOND = 1.25
-# Points from which on one modulus alone has a shape to be compared with the other.
+# Smallest number of points at which the shapes of the two moduli are compared.
 _SHAPE = 8
-# Decades between neighbouring points over which single arms show as stairs.
+# Decades between neighbouring points above which single arms show as steps.
 _GAP = 1.5
-# Root mean square of ln(measured/fitted) from which on a model has missed.
+# Root mean square of ln(measured/fitted) above which a model has failed.
 _MISSED = 0.4
-# Loss over storage modulus at the slowest point from which on a material flows. The most lossy
+# Loss tangent at the slowest point above which a material flows. The most lossy
 # rubbers reach 2 to 2.5 at their peak.
 _FLOWS = 3.0
-# Slope of ln(compliance), or fall of ln(modulus), over ln(time) from which on it does.
+# Slope of ln(compliance) or -ln(modulus) over ln(time) above which a material flows.
 _FLOWING = 0.8
 
 
 def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
-    """Return what the measurement cannot say of the constants, and where it ends."""
+    """Return sentences on undetermined constants and on the ends of the measured range."""
     if getattr(material, "no_contact", ""):
         flowing = flow(data, material)
         liquid = (f"this is a liquid: at the slowest point {flowing}",) if flowing else ()
@@ -36,7 +36,7 @@ def undetermined(data: Observed, material: Any, intervals: tuple[Interval, ...])
 
 
 def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -> tuple[str, ...]:
-    """Return what the measurement cannot say of single constants."""
+    """Return sentences on single undetermined constants."""
     said = {"rubbery_modulus": _rubbery, "glassy_modulus": _glassy}
     words = []
     for each in intervals:
@@ -48,57 +48,58 @@ def _constants(data: Observed, material: Any, intervals: tuple[Interval, ...]) -
         elif each.name in said:
             words += said[each.name](data, material, each)
         elif not each.bounded:
-            words.append(f"{each.name}: the data set no bound on one side or on both")
+            words.append(f"{each.name}: the data give no bound on one or both sides")
         elif each.high > 3 * each.low:
             words.append(
                 f"{each.name} is known only to a factor of {each.high / each.low:.2g}; "
-                "the constants can make up for each other"
+                "the constants compensate each other"
             )
     return tuple(words)
 
 
 def misfit_cautions(data: Observed, material: Any, found: Scatter) -> tuple[str, ...]:
-    """Return what the residuals say of the fit: a model that misses, neighbours that err alike."""
+    """Return sentences on a poor fit and on correlated residuals."""
     words = []
     if scatter_of(data, material) > _MISSED:
         words.append(
-            "this model does not describe the measurement: it is off by a factor of "
-            f"{np.exp(scatter_of(data, material)):.2g} on average. Its constants and intervals "
-            "mean nothing; choose another model"
+            "this model does not describe the measurement: its root mean square error is a "
+            f"factor of {np.exp(scatter_of(data, material)):.2g}. Its constants and intervals are "
+            "meaningless; choose another model"
         )
     if np.max(data.noise) > 1:
         noise = dict(zip(data.parts, data.noise, strict=True))
         worse = max(noise, key=lambda part: noise[part])
         words.append(
-            f"the {worse} modulus scatters {noise[worse]:.2g} times as much as the other part "
-            "about a smooth curve, and counts by so much less"
+            f"the scatter of the {worse} modulus about a smooth curve is {noise[worse]:.2g} times "
+            "that of the other part; its weight is reduced accordingly"
         )
     if found.shared:
-        words.append(f"{found.shared}; the intervals are wider for it")
+        words.append(f"{found.shared}; the intervals are widened accordingly")
     return tuple(words)
 
 
 def scatter_of(data: Observed, material: Any) -> float:
-    """Return the root of the mean square of ln(measured/fitted)."""
+    """Return the root mean square of ln(measured/fitted)."""
     return float(np.sqrt(np.mean(data.weighed(data.residuals(material)) ** 2)))
 
 
 def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, ...]:
-    """Return what to know of a fitted series: too many constants, gaps, moduli that contradict."""
+    """Return sentences on too many arms, gaps between points, and contradictory moduli."""
     words = []
     arms, numbers = found.grid, data.values.size
     if 2 * arms + 1 > numbers:
         words.append(
-            f"{arms} arms are {2 * arms + 1} constants (moduli, times and the rubbery modulus) on "
-            f"{numbers} numbers; with times on a grid {arms + 1} moduli are fitted, none negative, "
-            f"and {found.constants} are not zero. Between the points the series is not determined"
+            f"{arms} arms have {2 * arms + 1} constants (moduli, times and the rubbery modulus) "
+            f"for {numbers} numbers; with times on a grid {arms + 1} non-negative moduli are "
+            f"fitted, of which {found.constants} are not zero. Between the points the series is "
+            "not determined"
         )
     steps = np.diff(np.log10(data.at))
     if np.max(steps) > _GAP:
         words.append(
-            f"points are up to {np.max(steps):.2g} decades apart, and one arm reaches over about "
-            "one: in such gaps the series rises in stairs that nobody measured, and its band does "
-            "not show it; a power law goes smoothly through them"
+            f"points are up to {np.max(steps):.2g} decades apart, and one arm covers about one "
+            "decade: in such gaps the series rises in steps that were not measured and that its "
+            "band does not show; a power law interpolates smoothly"
         )
     if few:
         return tuple(words)
@@ -108,16 +109,16 @@ def series_cautions(data: Observed, found: Fitted, *, few: bool) -> tuple[str, .
             off = np.median(np.abs(np.expm1(data.residuals(alone.material)[1])))
             words.append(
                 "storage and loss modulus contradict each other (Kramers-Kronig): a series that "
-                f"meets the storage modulus to {100 * alone.scatter.deviation:.2g} % has a loss "
-                f"that is {100 * off:.2g} % off the measured one in the median. Shift factors, a "
-                "sweep or a calibration are wrong; this fit is a compromise, and one without the "
-                "loss modulus trusts the storage modulus alone"
+                f"fits the storage modulus to {100 * alone.scatter.deviation:.2g} % has a loss "
+                f"modulus {100 * off:.2g} % off the measured one (median). Shift factors, a sweep "
+                "or a calibration are wrong; this fit is a compromise, and a fit without the "
+                "loss modulus relies on the storage modulus alone"
             )
     return tuple(words)
 
 
 def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
-    """Return what a given number of arms costs beside as many as the data carry."""
+    """Return sentences on the accuracy lost by a given small number of arms."""
     few = len(found.material.branches)
     if data.values.size < 6:
         return ()
@@ -128,21 +129,21 @@ def few_arms_caution(data: Observed, found: Fitted) -> tuple[str, ...]:
         return ()
     worst = float(np.max(np.abs(np.expm1(-data.residuals(found.material)))))
     return (
-        f"{few} arms meet the measurement to {100 * own:.2g} % on average and {100 * worst:.2g} % "
-        f"at worst; the {many} that the data carry, to {100 * best:.2g} %",
+        f"the error of {few} arms is {100 * own:.2g} % on average and {100 * worst:.2g} % "
+        f"at most; with {many} arms, the best number for these data, it is {100 * best:.2g} %",
     )
 
 
 def _ends(data: Observed) -> str:
     slow, fast = data.frequencies
     return (
-        f"nothing faster than {1 / fast:.2g} s or slower than {1 / slow:.2g} s was measured; "
-        "what happens in such times is the model's guess"
+        f"the measurement covers {1 / fast:.2g} s to {1 / slow:.2g} s; "
+        "faster or slower response is an extrapolation of the model"
     )
 
 
 def flow(data: Observed, material: Any) -> str:
-    """Return that a material flows at the slowest point and with which viscosity, or nothing."""
+    """Describe the flow and viscosity of a liquid at the slowest point; empty for a solid."""
     shear = 2 * (1 + data.poisson_ratio)
     if data.in_frequency:
         slow = data.frequencies[0]
@@ -160,8 +161,8 @@ def flow(data: Observed, material: Any) -> str:
         if (slope if creeping else -slope) < _FLOWING:
             return ""
         what = "compliance rises" if creeping else "modulus falls"
-        how = f"the {what} as time to the power {abs(slope):.2g}"
-        # stress over the rate of strain of a creep; at least, from a relaxation
+        how = f"the {what} with time to the power {abs(slope):.2g}"
+        # creep: stress over strain rate; relaxation: a lower bound
         viscosity = end / near[1] / slope if creeping else end * near[1]
     return f"{how} (shear viscosity about {viscosity / shear:.2g} Pa s)"
 
@@ -172,20 +173,20 @@ def _rubbery(data: Observed, material: Any, interval: Interval) -> list[str]:
     if flowing:
         return [
             f"this is a liquid: at the slowest point {flowing}. It has no rubbery plateau; "
-            f"rubbery_modulus = {interval.value:.3g} Pa is where the fit ends and no property of "
-            "the material, and what rests on it (a relaxed contact, slow detachment) is not known"
+            f"rubbery_modulus = {interval.value:.3g} Pa is the end of the fit, not a property of "
+            "the material, so relaxed contact and slow detachment cannot be predicted"
         ]
     if not interval.bounded:
         rate = 100 * change(data, material, interval.name)
         return [
-            "no rubbery plateau was measured: at the slowest point the modulus still falls by "
-            f"{rate:.2g} % a decade. rubbery_modulus is {_bound(interval)}, and slow detachment "
-            "cannot be forecast; give it if you know it"
+            "the rubbery plateau was not measured: at the slowest point the modulus still falls by "
+            f"{rate:.2g} % per decade. rubbery_modulus is {_bound(interval)}, and slow detachment "
+            "cannot be predicted; give rubbery_modulus if you know it"
         ]
     if softest > _BEYOND * interval.value:
         return [
             f"rubbery_modulus lies {softest / interval.value:.3g} times below the softest point: "
-            "the law says so, not the data, and its interval holds only if the law does"
+            "it is an extrapolation of the law, and so is its interval"
         ]
     return []
 
@@ -197,15 +198,15 @@ def _glassy(data: Observed, material: Any, interval: Interval) -> list[str]:
         least = interval.low if interval.told else interval.value
         ratio = material.rubbery_modulus / max(least, material.rubbery_modulus)
         return [
-            "no glassy plateau was measured: at the fastest point the modulus still rises by "
-            f"{rate:.2g} % a decade. glassy_modulus is {_bound(interval)} and "
-            f"modulus_ratio at most {ratio:.2g}, so that fast detachment may hold up to 1/k times "
-            "the slow force with k unknown; give glassy_modulus if you know it"
+            "the glassy plateau was not measured: at the fastest point the modulus still rises by "
+            f"{rate:.2g} % per decade. glassy_modulus is {_bound(interval)} and "
+            f"modulus_ratio at most {ratio:.2g}, so the bound 1/k on the ratio of fast to slow "
+            "pull-off force is unknown; give glassy_modulus if you know it"
         ]
     if interval.value > _BEYOND * stiffest:
         return [
             f"glassy_modulus lies {interval.value / stiffest:.3g} times above the stiffest point: "
-            "the law says so, not the data, and its interval holds only if the law does"
+            "it is an extrapolation of the law, and so is its interval"
         ]
     return []
 

@@ -1,4 +1,4 @@
-"""From a fit to a passport: the material with what is known of it."""
+"""Issue a material passport from a fit."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ from .fit_report import FitReport
 from .shift_laws import nearest_law
 from .sweeps import ShiftTable
 
-_ALLOWED = 24  # solids that a passport keeps
+_ALLOWED = 24  # largest number of sampled solids in a passport
 
 
 def issued(
@@ -28,18 +28,36 @@ def issued(
     report : FitReport
         The fit.
     name : str
-        What the material is called.
+        Name of the material.
     shift : WLF, Arrhenius, TabulatedShift, ShiftTable or None
-        How its times change with temperature; a table is interpolated, never extrapolated.
+        Temperature dependence of its times; a table is interpolated, never extrapolated.
     reference : str
-        Who measured it, in words.
+        Origin of the measurement, as text.
     made_by : str
         Program and version.
+
+    Returns
+    -------
+    Passport
+        The fitted material with its intervals and sampled solids.
 
     Raises
     ------
     ValueError
-        If a shift is given and the measurement does not say its temperature.
+        If a shift is given but the temperature of the measurement is unknown.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscotack.lab import MasterCurve, fit
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> curve = MasterCurve(293.15, omega, modulus.real, modulus.imag, "E")
+    >>> passport = issued(fit(curve, poisson_ratio=0.5, model="sls"), name="rubber")
+    >>> passport.name, passport.temperature
+    ('rubber', 293.15)
     """
     seen = report.observed
     source = seen.source
@@ -50,7 +68,7 @@ def issued(
             raise InputError("a table of shifts needs the temperature of the master curve [K]")
         if zero is not None and rows > 2:
             fitted = nearest_law(shift, reference_temperature=zero)
-        # one row shifts nothing
+        # a table of one row contains no shift
         shift = shift.at_reference(zero) if zero is not None and rows > 1 else None
     elif shift is not None and seen.temperature is not None:
         shift = shift.at_reference(seen.temperature)
@@ -85,5 +103,5 @@ def issued(
 
 
 def _thinned(draws: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return as many of the solids drawn as a file needs to say how they scatter."""
+    """Select evenly at most _ALLOWED of the sampled solids."""
     return draws[:: max(len(draws) // _ALLOWED, 1)][:_ALLOWED]

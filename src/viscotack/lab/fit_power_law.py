@@ -1,12 +1,12 @@
-r"""Solids of few constants fitted to measured numbers: both power laws and the standard solid.
+r"""Fit solids with few constants: both power laws, the fractional solids and the standard solid.
 
-The sum of squares of ln(measured/fitted) is made smallest by :func:`scipy.optimize.least_squares`
-over the logarithms of the constants, from the best places of a coarse search. Intervals are those
-of the linearised problem; where a constant is poorly determined, those of the profile: the
-constant is moved and all others refitted, until the sum of squares has grown by as much as the
-confidence level allows (Venzon & Moolgavkar, Applied Statistics 37 (1988) 87-94). A profile that
-never grows so far has no end on that side: the data set no bound. How much the level allows is said
-by the residuals (:mod:`.fit_errors`): errors that points have in common count as what they are.
+:func:`scipy.optimize.least_squares` minimises the sum of squares of ln(measured/fitted)
+over the logarithms of the constants, from the best starts of a coarse search. Intervals are those
+of the linearised problem; for a poorly determined constant, those of the profile: the
+constant is varied and all others refitted, until the sum of squares exceeds the limit of the
+confidence level (Venzon & Moolgavkar, Applied Statistics 37 (1988) 87-94). If the profile never
+reaches the limit, the interval has no bound on that side. The limit follows from the residuals,
+including correlated errors (:mod:`.fit_errors`).
 """
 
 from collections.abc import Mapping
@@ -21,13 +21,13 @@ from .fit_report import Fitted, Interval, information_criterion, scatter, unit_o
 from .fit_search import Search
 from .observed import Observed
 
-_POOR = 0.25  # half an interval of ln(constant) from which on the profile is asked
+_POOR = 0.25  # half-width of the interval of ln(constant) above which the profile is computed
 
 
 def fit_constants(
     data: Observed, *, model: str, known: Mapping[str, float], level: float, draws: int, seed: int
 ) -> Fitted:
-    """Return a power law or a standard solid fitted to measured numbers.
+    """Fit a power law or a standard solid to measured numbers.
 
     Parameters
     ----------
@@ -36,18 +36,18 @@ def fit_constants(
     model : str
         "power-law", "relaxation-power-law" or "sls".
     known : mapping
-        Constants that are given and not fitted, by name, in SI.
+        Constants that are given, not fitted, by name, in SI.
     level : float
         Confidence level of the intervals, in (0, 1).
     draws : int
-        How many allowed solids to draw.
+        Number of solids to sample.
     seed : int
         Of the random numbers.
 
     Raises
     ------
     ValueError
-        If a known constant is none of the model's or impossible, or nothing is left to fit.
+        If a known constant is unknown to the model or impossible, or nothing is left to fit.
     """
     search = Search.of(data, model, known)
     best = search.minimum()
@@ -57,10 +57,10 @@ def fit_constants(
     influences = np.linalg.pinv(best.jac)
     half = known_errors.half_width(influences, level)
     poor = bool(np.any(half > _POOR) or np.any(search.at_bound(best.x)))
-    # linearised, or by the profile where a straight line is no good picture of the sum of squares
+    # linearised, or by the profile where the linearisation is poor
     ends = np.array([best.x - half, best.x + half]).T
     if poor:
-        # an error that moves the constant by so much costs so much; what no error moves, nothing
+        # limit on the sum of squares; zero for a constant without influence
         moved = np.sum(influences**2, axis=1)
         more = np.divide(half**2, moved, out=np.full(half.size, np.inf), where=moved > 0)
         allowed = 2 * best.cost + more
@@ -85,7 +85,7 @@ def fit_constants(
 
 
 def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) -> tuple[Any, int]:
-    """Return the fitted solid and how many constants it took, without intervals."""
+    """Return the fitted solid and its number of constants, without intervals."""
     search = Search.of(data, model, known)
     return search.solid(search.minimum().x), len(search.free)
 
@@ -93,13 +93,13 @@ def fitted_constants(data: Observed, *, model: str, known: Mapping[str, float]) 
 def _draws(
     search: Search, x: Array, covariance: Array, ends: Array, count: int, seed: int
 ) -> tuple[Any, ...]:
-    """Return solids drawn from the normal distribution of the constants, inside their bounds."""
+    """Sample solids from the normal distribution of the constants, within their bounds."""
     if not count:
         return ()
-    # a constant without bound would be drawn from everywhere: it stays within its interval
+    # the spread of an unbounded constant is limited to its interval
     low = np.maximum(search.low, np.where(np.isfinite(ends[:, 0]), -np.inf, x - 1.0)) + 1e-9
     high = np.minimum(search.high, np.where(np.isfinite(ends[:, 1]), np.inf, x + 1.0)) - 1e-9
-    # by its own axes: a constant that nothing tells makes the matrix indefinite by round-off
+    # by eigenvectors: an undetermined constant makes the matrix indefinite by round-off
     value, axes = np.linalg.eigh((covariance + covariance.T) / 2)
     along = np.random.default_rng(seed).normal(size=(count, x.size))
     drawn = x + along * np.sqrt(np.maximum(value, 0.0)) @ axes.T

@@ -1,11 +1,11 @@
-r"""A Prony series fitted to measured numbers: as many arms as the data can carry.
+r"""Fit a Prony series, with the number of arms chosen by an information criterion.
 
-The relaxation times stand on a logarithmic grid over the measured range, and the moduli, none
-negative, make the sum of squares of ln(measured/fitted) smallest: a few steps of Gauss and Newton,
-each a linear problem with bounds (:mod:`.nonnegative`). Creep is fitted by
-retardation times in the same way, and interconverted exactly. Grids of more and more arms are
-tried; the information criterion chooses. Arms that get no modulus are left out. Intervals of the
-plateaus are those of all series on a dense grid (:mod:`.fit_plateaus`).
+The relaxation times lie on a logarithmic grid over the measured range. The non-negative moduli
+minimise the sum of squares of ln(measured/fitted) in a few Gauss-Newton steps, each a linear
+problem with bounds (:mod:`.nonnegative`). Creep is fitted in the same way by retardation times and
+interconverted exactly. The number of grid times is increased and the corrected Akaike criterion
+chooses. Arms of zero modulus are dropped. Intervals of the plateaus include all series on a dense
+grid (:mod:`.fit_plateaus`).
 """
 
 from dataclasses import replace
@@ -27,28 +27,28 @@ from .nonnegative import nonnegative
 from .observed import Observed, only
 
 _MOST = 60  # arms
-_ENOUGH = 40  # points of a curve from which on its scatter is known apart from its shape
-_REPEATABLE = 2e-3  # no laboratory finds a modulus again better: finer residuals decide nothing
-_DENSE, _DENSEST = 4, 80  # times a decade on the grid of the intervals, and at most
-_MOVED = 12  # arms up to which their times are moved to where they serve best
-_MADE = 120  # measurements made to see how far a sum of squares grows by chance
-_FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) beside the smallest number
+_ENOUGH = 40  # smallest number of points to separate the scatter of a curve from its shape
+_REPEATABLE = 2e-3  # best repeatability of a laboratory; smaller residuals do not count
+_DENSE, _DENSEST = 4, 80  # times per decade on the grid of the intervals, and their maximum
+_MOVED = 12  # largest number of arms whose times are optimised
+_MADE = 120  # synthetic data sets to simulate the growth of the sum of squares
+_FLOOR = 1e-4  # smallest floor (rubbery modulus, glassy compliance) relative to the smallest number
 
 
 def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, seed: int) -> Fitted:
-    """Return a Prony series fitted to measured numbers.
+    """Fit a Prony series to measured numbers.
 
     Parameters
     ----------
     data : Observed
         Measured numbers.
     arms : int or None
-        Number of relaxation times on the grid; None for as many as the criterion chooses.
+        Number of relaxation times on the grid; None lets the criterion choose.
     level : float
         Confidence level of the intervals, in (0, 1).
     draws : int
-        How many series to draw by the bootstrap: the fitted numbers with errors such as the
-        residuals, fitted again on the same times. 0: none, and no intervals.
+        Number of bootstrap samples: the fitted numbers with random errors like the
+        residuals, fitted again on the same times. 0: no samples and no intervals.
     seed : int
         Of the random numbers.
     """
@@ -59,8 +59,8 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
         grids = _grids(data)
         if not grids:
             raise InputError(
-                f"{data.values.size} numbers are too few to choose how many arms they carry; give "
-                "arms, or fit a law of few constants"
+                f"{data.values.size} numbers are too few to choose the number of arms; give "
+                "arms, or fit a model with few constants"
             )
         criteria = [_criterion(data, *_fitted(data, grid, data.logs)) for grid in grids]
         chosen = grids[int(np.argmin(criteria))]
@@ -97,12 +97,13 @@ def fit_series(data: Observed, *, arms: int | None, level: float, draws: int, se
 
 
 def with_noise(data: Observed) -> Observed:
-    """Return measured numbers that know which of their parts scatters more.
+    """Return a copy with the noise of each part, estimated from a smooth fit.
 
-    Storage and loss are fitted apart, each by a series of its own; the scatter about it is its
-    noise. At small loss angles the loss modulus is often ten times as noisy as the storage modulus,
-    and with equal weights it would drag the fit off it. Parts within a factor of 2 of each other
-    count alike, and so do those of few points, which cannot tell noise from shape.
+    Storage and loss modulus are fitted separately by a series each; the scatter about it is the
+    noise. At small loss angles the loss modulus is often ten times as noisy as the storage modulus;
+    with equal weights it would distort the fit of the storage modulus. Parts within a factor of 2
+    of each other have equal weights, and so do curves with few points, where noise and shape cannot
+    be separated.
     """
     if data.quantity != "complex modulus" or data.at.size < _ENOUGH:
         return data
@@ -116,10 +117,10 @@ def with_noise(data: Observed) -> Observed:
 
 
 def _grid(data: Observed, arms: int) -> Array:
-    """Return times over the measured range: the middles of equal cells, that reach over its ends.
+    """Return the midpoints of equal logarithmic cells that extend beyond the measured range.
 
-    Arms beyond the ends are needed: what relaxes faster than the fastest measurement still
-    shows in it.
+    Arms beyond the ends are needed because faster relaxation than the fastest measurement still
+    contributes to it.
     """
     slow, fast = data.frequencies
     decades = np.log10(fast / slow)
@@ -129,13 +130,13 @@ def _grid(data: Observed, arms: int) -> Array:
 
 
 def _grids(data: Observed) -> list[Array]:
-    """Return the grids to try: each count where they are few, then one in a few."""
+    """Return the grids to try: every size while small, then with increasing steps."""
     counts = [n for n in range(1, _MOST + 1) if n <= 12 or n % 2 == 0]
     return [_grid(data, n) for n in counts if n + 3 < data.values.size]
 
 
 def _basis(data: Observed, times: Array) -> npt.NDArray:
-    """Return what each arm of modulus (or compliance) 1 adds to the numbers, floor first."""
+    """Return the contribution of each arm of unit modulus (or compliance), floor first."""
     if data.in_frequency:
         terms = maxwell(data.at[:, None] * times)
         both = {"storage": (terms.real, 1.0), "loss": (terms.imag, 0.0)}
@@ -152,7 +153,7 @@ def _basis(data: Observed, times: Array) -> npt.NDArray:
 def _fitted(
     data: Observed, times: Array, logs: Array, start: Array | None = None
 ) -> tuple[Array, Array]:
-    """Return the times that got a modulus, and the floor and these moduli, shape (n + 1,)."""
+    """Return the times with a non-zero modulus, and the floor and these moduli, shape (n + 1,)."""
     basis = _basis(data, times)
     floor = _FLOOR * float(np.min(data.values[0]))
     values = np.exp(logs)
@@ -163,8 +164,8 @@ def _fitted(
         x = nonnegative(basis / (values * noise)[:, None], (1 - base / values) / noise)
     for _ in range(8):
         model = base + basis @ x
-        model = np.maximum(model, 1e-3 * values)  # as if: a number no arm reaches yet
-        # ln(model + d) to first order in the change: Gauss and Newton, with bounds
+        model = np.maximum(model, 1e-3 * values)  # avoids zero where no arm contributes yet
+        # ln(model + d) to first order in the change: Gauss-Newton with bounds
         target = 1 + np.log(values / model) - base / model
         new = nonnegative(basis / (model * noise)[:, None], target / noise)
         change = np.max(np.abs(basis @ (new - x)) / model)
@@ -178,11 +179,11 @@ def _fitted(
 
 
 def _moved(data: Observed, grid: Array, times: Array, weights: Array) -> tuple[Array, Array]:
-    """Return the few times, and weights, that meet the numbers best, from those of a grid."""
+    """Optimise few times and their weights, starting from those on a grid."""
     if not times.size:
         return times, weights
     kept, found = times, weights
-    # an arm that got nothing where the grid has it may be of use elsewhere
+    # an arm of zero modulus on the grid may contribute at another time
     least = 1e-2 * float(np.max(weights[1:]))
     times, weights = grid, np.full(grid.size + 1, least)
     weights[0] = found[0]
@@ -205,7 +206,7 @@ def _moved(data: Observed, grid: Array, times: Array, weights: Array) -> tuple[A
     where, sizes = parts(least_squares(misfit, start, bounds=(low, high), max_nfev=400).x)
     order = np.argsort(where)
     where = where[order]
-    if np.any(np.diff(where) < 1e-3 * where[1:]):  # two became one
+    if np.any(np.diff(where) < 1e-3 * where[1:]):  # two times have merged
         return kept, found
     return where, np.concatenate((sizes[:1], sizes[1:][order]))
 
@@ -214,8 +215,8 @@ def _material(data: Observed, times: Array, weights: Array) -> Prony:
     arms = tuple(zip(weights[1:], times, strict=True))
     if not arms:
         raise InputError(
-            "the measured modulus does not rise with frequency, or fall with time: there is "
-            "nothing that a Prony series could describe"
+            "the measured modulus does not rise with frequency (or fall with time), so a Prony "
+            "series cannot describe it"
         )
     if data.quantity == "creep":
         series = RetardationSeries(
@@ -230,7 +231,7 @@ def _criterion(data: Observed, times: Array, weights: Array) -> float:
         return float("inf")
     logs = np.log(np.maximum(_basis(data, times) @ weights, 1e-300))
     residuals = data.weighed((data.logs - logs).reshape(data.values.shape))
-    # the times of the grid follow from one number, their count
+    # the number of grid times counts as one constant
     return information_criterion(residuals, weights.size + 1, floor=_REPEATABLE)
 
 
@@ -254,7 +255,7 @@ def _bootstrap(
 
 
 def _dense(data: Observed) -> Array:
-    """Return times on a grid so dense that others between them add hardly anything."""
+    """Return a grid so dense that additional times hardly change the fit."""
     slow, fast = data.frequencies
     beyond = 10**-0.5 if data.in_frequency else 1.0
     count = int(np.clip(_DENSE * (np.log10(fast / slow) + 1), 8, _DENSEST))
@@ -270,15 +271,15 @@ def _plateaus(
     level: float,
     seed: int,
 ) -> tuple[Interval, ...]:
-    """Return the intervals of the plateaus; one-sided where the other side was not measured."""
+    """Return the intervals of the plateaus; one-sided where a plateau was not measured."""
     basis = _basis(data, _dense(data))
     logs = np.log(_basis(data, times) @ weights)
     noise = np.repeat(data.noise, data.at.size)
-    # about the fit the logarithm is straight
+    # linearise the logarithm about the fit
     columns = basis / (np.exp(logs) * noise)[:, None]
     numbers = (1 + data.logs - logs) / noise
     drawn = known.drawn(_MADE, np.random.default_rng(seed), sure=False)
-    # of creep the weights are compliances: the sum of all is the rubbery one
+    # creep: the weights are compliances, and their sum is the rubbery compliance
     creeping = data.quantity == "creep"
     whole, floor = np.ones(basis.shape[1]), np.eye(basis.shape[1])[0]
     opened = open_ends(data, material)

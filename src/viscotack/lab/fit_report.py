@@ -1,4 +1,4 @@
-"""What a fit found, how sure it is, and what the measurement cannot say."""
+"""Report of a fit: constants, intervals, scatter and cautions."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -17,22 +17,22 @@ _UNITS = {"rubbery_modulus": "Pa", "glassy_modulus": "Pa", "modulus": "Pa", "tau
 
 @dataclass(frozen=True)
 class Interval:
-    """A fitted quantity and where it may lie.
+    """A fitted quantity and its confidence interval.
 
     Attributes
     ----------
     name : str
-        Name of the quantity, as the material has it.
+        Name of the quantity, as in the material.
     value : float
-        Fitted, in SI.
+        Fitted value, in SI.
     low, high : float
-        Ends of the interval, in SI; 0 and inf where the data set no bound on that side. Both are
-        the value itself where it was given instead of fitted, and nan where nobody asked for an
-        interval.
+        Ends of the interval, in SI; 0 and inf where the data give no bound on that side. Both equal
+        the value if it was given instead of fitted, and are nan if no interval was
+        computed.
     unit : str
         SI unit, "1" for a pure number.
     known : bool
-        Whether the quantity was given.
+        Whether the quantity was given, not fitted.
     """
 
     name: str
@@ -44,22 +44,22 @@ class Interval:
 
     @property
     def told(self) -> bool:
-        """Whether there is an interval."""
+        """Whether an interval was computed."""
         return not (np.isnan(self.low) or np.isnan(self.high))
 
     @property
     def bounded(self) -> bool:
-        """Whether the data say how small and how large it may be."""
+        """Whether the data give a lower and an upper bound."""
         return self.low > 0 and bool(np.isfinite(self.high))
 
     def words(self) -> str:
-        """Return it as a line: value, interval, unit."""
+        """Format value, interval and unit as a line of text."""
         unit = "" if self.unit == "1" else f" {self.unit}"
         line = f"{self.name:<16} {self.value:>11.5g}{unit}"
         if self.known:
             return f"{line}  given"
         if not self.told:
-            return f"{line}  (no interval: no draws were asked for)"
+            return f"{line}  (no interval, because draws=0)"
         if self.bounded:
             return f"{line}  ({self.low:.5g} to {self.high:.5g})"
         if self.low > 0:
@@ -71,16 +71,16 @@ class Interval:
 
 @dataclass(frozen=True)
 class Scatter:
-    """How far the measured numbers lie from the fitted ones, in natural logarithms.
+    """Distance between measured and fitted numbers, in natural logarithms.
 
     Attributes
     ----------
     deviation : float
-        Standard deviation of one number, with the constants taken off the count.
+        Standard deviation of one number, corrected for the number of constants.
     degrees : int
-        Numbers less constants.
+        Numbers minus constants.
     shared : str
-        What the errors have in common, in words; empty where each is its own, or nobody asked.
+        Correlation of the errors in words; empty for independent errors or if not computed.
     """
 
     deviation: float
@@ -90,14 +90,14 @@ class Scatter:
 
 @dataclass(frozen=True, eq=False)
 class Fitted:
-    """A fitted solid, intervals of its constants, and solids that the data allow as well.
+    """A fitted solid with the intervals of its constants and sampled solids.
 
     Attributes
     ----------
     material, intervals, scatter, constants, criterion, compared, draws
-        As of :class:`FitReport`.
+        As in :class:`FitReport`.
     grid : int
-        Of a Prony series, how many relaxation times were tried.
+        For a Prony series, the number of relaxation times tried.
     """
 
     material: Any
@@ -111,17 +111,17 @@ class Fitted:
 
 
 def scatter(residuals: Array, constants: int, shared: str = "") -> Scatter:
-    """Return the scatter of residuals of shape (P, N) after a fit of so many constants."""
+    """Return the scatter of residuals of shape (P, N) after a fit of a number of constants."""
     degrees = residuals.size - constants
     return Scatter(float(np.sqrt(np.sum(residuals**2) / max(degrees, 1))), degrees, shared)
 
 
 def information_criterion(residuals: Array, constants: int, *, floor: float = 0.0) -> float:
-    """Return the corrected information criterion of Akaike; infinite without numbers to spare.
+    """Return the corrected Akaike information criterion; infinite with too few numbers.
 
-    -2 ln(likelihood) + 2 K + 2 K (K + 1)/(M - K - 1) with M numbers and K constants, the scatter
-    being one of them. The smaller the better; a difference of 10 decides. The scatter is not
-    counted as smaller than `floor`, in the unit of the residuals.
+    -2 ln(likelihood) + 2 K + 2 K (K + 1)/(M - K - 1) with M numbers and K constants, including the
+    scatter. Smaller is better; a difference of 10 is decisive. The scatter is at least `floor`, in
+    the unit of the residuals.
     """
     M, K = residuals.size, constants + 1
     if M - K - 1 <= 0:
@@ -133,7 +133,7 @@ def information_criterion(residuals: Array, constants: int, *, floor: float = 0.
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FitReport:
-    """A material fitted to a measurement.
+    """A material fitted to a measurement, returned by :func:`viscotack.lab.fit`.
 
     Attributes
     ----------
@@ -142,26 +142,26 @@ class FitReport:
     model : str
         "power-law", "relaxation-power-law", "sls" or "prony".
     observed : Observed
-        What it was fitted to.
+        Fitted numbers.
     intervals : tuple of Interval
-        The constants, or for a Prony series its two plateaus (without ends if nothing was drawn).
+        Intervals of the constants, or of the two plateaus of a Prony series (nan if draws=0).
     level : float
         Confidence level of the intervals and of `band`.
     scatter : Scatter
-        Residuals in short.
+        Size of the residuals.
     constants : int
-        How many were fitted.
+        Number of fitted constants.
     criterion : float
-        Corrected information criterion of Akaike; inf without numbers to spare.
+        Corrected Akaike information criterion; inf with too few numbers.
     compared : tuple of (str, float)
-        What was tried beside it, in words, with the criterion of each.
+        Alternatives that were fitted, with the criterion of each.
     undetermined : tuple of str
-        What the measurement cannot say, in sentences.
+        Sentences on constants and ranges that the measurement does not determine.
     cautions : tuple of str
-        What to know of the fit itself, in sentences.
+        Sentences on the quality of the fit.
     draws : tuple of Material
-        Solids that the data allow as well, drawn at random; for bands, and to see what a forecast
-        does with the uncertainty.
+        Solids sampled from the uncertainty of the fit, for bands and to propagate the uncertainty
+        to predictions.
     """
 
     material: Material
@@ -179,7 +179,7 @@ class FitReport:
 
     @property
     def residuals(self) -> Array:
-        """ln(measured/fitted), shape (P, N), a row for each part of the quantity."""
+        """ln(measured/fitted), shape (P, N), one row per part of the quantity."""
         return self.observed.residuals(self.material)
 
     @property
@@ -188,7 +188,7 @@ class FitReport:
         return float(np.median(np.abs(np.expm1(-self.residuals))))
 
     def band(self, at: npt.ArrayLike) -> tuple[Array, Array]:
-        """Return the lower and upper end of the band of the fitted quantity.
+        """Return the pointwise confidence band of the fitted quantity.
 
         Parameters
         ----------
@@ -198,11 +198,11 @@ class FitReport:
         Returns
         -------
         low, high : ndarray, shape (P, n)
-            Pointwise, at the level of the report, [Pa] or [1/Pa]. Outside the measured range they
-            only say what the model would have.
+            Limits at the level of the report, [Pa] or [1/Pa]. Outside the measured range they
+            show only the extrapolation of the model.
         """
         if not self.draws:
-            raise InputError("a band is drawn from solids; fit with draws=100, not draws=0")
+            raise InputError("a band needs sampled solids; fit with draws=100, not draws=0")
         curves = np.array([self.observed.predicted(solid, at) for solid in self.draws])
         part = (1 - self.level) / 2
         return np.quantile(curves, part, axis=0), np.quantile(curves, 1 - part, axis=0)
@@ -212,7 +212,7 @@ class FitReport:
         for found in self.intervals:
             if found.name == name:
                 return found
-        raise InputError(f"there is no {name!r}; there are {[i.name for i in self.intervals]}")
+        raise InputError(f"no interval {name!r}; available: {[i.name for i in self.intervals]}")
 
     def _scatters(self) -> str:
         """Return the root mean square residual of each part, in words."""
@@ -221,7 +221,7 @@ class FitReport:
         return ", ".join(f"{100 * value:.2g} % ({part})" for part, value in pairs)
 
     def words(self) -> str:
-        """Return the report as lines a person reads."""
+        """Format the report as lines of text."""
         low, high = self.observed.frequencies
         lines = [
             f"{self.model}: {self.constants} constants on {self.observed.values.size} numbers, "

@@ -1,4 +1,4 @@
-"""The search for the constants of a law: where to begin, how to descend, how far one may go."""
+"""Least-squares search for the constants of a law: starts, descent and profiles."""
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping
@@ -32,9 +32,9 @@ KINDS = {
     "fractional-maxwell": FractionalMaxwell,
     "fractional-kelvin-voigt": FractionalKelvinVoigt,
 }
-_FAR = np.log(1e4)  # how far from the measured moduli a plateau is looked for
+_FAR = np.log(1e4)  # search range of a plateau about the measured moduli
 _COARSE = 1e-3
-_SKETCH = 60  # points on which minima are compared
+_SKETCH = 60  # number of points used to compare minima
 _MODULI = ("rubbery_modulus", "glassy_modulus", "modulus")
 _TRIED = {
     "rubbery_modulus": (1.0,),
@@ -48,7 +48,7 @@ _UPPER_ORDERS = (0.15, 0.3, 0.5, 0.7, 0.9, 0.98)
 
 @dataclass(frozen=True, eq=False)
 class Search:
-    """The free constants of a model in logarithms, their bounds, and the data."""
+    """Free constants of a model in logarithms, their bounds, and the data."""
 
     data: Observed
     kind: Any
@@ -59,14 +59,12 @@ class Search:
 
     @classmethod
     def of(cls, data: Observed, model: str, known: Mapping[str, float]) -> "Search":
-        """Return the search for a model's constants, without those that are known."""
+        """Return the search for a model's constants, except the known ones."""
         kind = KINDS[model]
         names = tuple(name for name in cards(kind) if name != "poisson_ratio")
         for name in known:
             if name not in names:
-                raise InputError(
-                    f"{name} is no constant of the model {model}; it has {', '.join(names)}"
-                )
+                raise InputError(f"model {model} has no constant {name}; it has {', '.join(names)}")
         softest, stiffest = data.moduli
         middle = np.log(softest * stiffest) / 2
         slow, fast = data.frequencies
@@ -81,10 +79,10 @@ class Search:
         }
         free = [name for name in names if name not in known]
         if not free:
-            raise InputError("every constant is given: nothing is left to fit")
+            raise InputError("all constants are given, so nothing is left to fit; omit one")
         low, high = np.array([bounds[name] for name in free]).T
         search = cls(data, kind, names, {k: float(v) for k, v in known.items()}, low, high)
-        search.solid((low + high) / 2)  # refuses what is impossible, in the words of the material
+        search.solid((low + high) / 2)  # raises the material's error for impossible constants
         return search
 
     @property
@@ -96,7 +94,7 @@ class Search:
         """Return the solid whose free constants have the natural logarithms x."""
         values = self.known | dict(zip(self.free, np.exp(x).tolist(), strict=True))
         if "lower_order" in values:
-            # two springpots are the same two in either order
+            # springpots may be swapped: sort them
             lower, upper = sorted((values["order"], values["lower_order"]))
             values |= {"order": max(upper, 0.05), "lower_order": max(lower, upper - 0.989)}
         return self.kind(**values, poisson_ratio=self.data.poisson_ratio)
@@ -105,17 +103,17 @@ class Search:
         """Return the residuals over their noise, shape (P N,)."""
         with np.errstate(divide="ignore"):
             logs = np.log(quick(self.data, self.solid(x), self.data.at))
-        # a loss of zero, far outside: finite, so that the search can leave
+        # zero loss far outside the range: keep it finite so that the search can continue
         return np.clip(self.data.weighed(np.log(self.data.values) - logs).ravel(), -50, 50)
 
     def at_bound(self, x: Array) -> npt.NDArray[np.bool_]:
-        """Return which constants ran into the bounds of the search."""
+        """Return a mask of the constants at the bounds of the search."""
         return (x - self.low < 1e-3) | (self.high - x < 1e-3)
 
     def polished(self, x: Array, fixed: int | None = None) -> Any:
-        """Return the nearest minimum; with one constant held, that over the others."""
+        """Return the nearest local minimum; optionally with one constant fixed."""
         x = np.clip(x, self.low + 1e-9, self.high - 1e-9)
-        # what is known to 1e-6 needs a wide step for its slopes
+        # predictions accurate to 1e-6 need wide finite-difference steps
         options: Any = {} if self.data.in_frequency else {"diff_step": _COARSE}
         if fixed is None:
             return least_squares(
@@ -131,14 +129,14 @@ class Search:
             return self.misfit(whole)
 
         bounds = self.low[others], self.high[others]
-        # the profile is wanted to a few digits
+        # a few digits suffice for the profile
         return least_squares(misfit, x[others], bounds=bounds, xtol=1e-4, ftol=1e-5, **options)
 
     def minimum(self) -> Any:
-        """Return the best of the minima that the most promising places lead to."""
+        """Return the best of the local minima found from the best starts."""
         places = self.places(3)
         if self.data.at.size > 2 * _SKETCH:
-            # of many points every n-th shows which place is the best
+            # a subset of the points suffices to rank the starts
             each = -(-self.data.at.size // _SKETCH)
             few = replace(
                 self.data, at=self.data.at[::each], values=self.data.values[:, ::each], sweep=None
@@ -149,10 +147,10 @@ class Search:
         return min(found, key=lambda result: result.cost)
 
     def places(self, count: int) -> list[Array]:
-        """Return the best places of a search over spectrum, time and ratio of the moduli.
+        """Return the best starts of a coarse search over spectrum, time and modulus ratio.
 
-        The response of a reduced solid over a wide range serves all times by a shift along the
-        axis, and all moduli by one of the logarithms.
+        The response of a normalised solid is computed once over a wide range. A change of time is a
+        shift along the axis, and a change of modulus a shift of the logarithm.
         """
         data = self.data
         softest, stiffest = data.moduli
@@ -164,7 +162,7 @@ class Search:
         table_at = np.geomspace(data.at[0] * 1e-9, data.at[-1] * 1e9, 240)
         ranked = []
         for twin, known in self._twins(softest / stiffest):
-            # seen at omega tau0 or time/tau0
+            # evaluated at omega tau0 or time/tau0
             with np.errstate(divide="ignore"):
                 table = np.log(quick(data, twin, table_at))
             for shift in shifts:
@@ -181,7 +179,7 @@ class Search:
         return [np.array(place) for _, place in ranked[:count]]
 
     def _twins(self, ratio: float) -> Iterator[tuple[Any, dict[str, float]]]:
-        """Yield solids of time 1 to begin with, and the logarithms of their constants."""
+        """Yield trial solids with tau0 = 1 s, and the logarithms of their constants."""
         tried = {name: self._tried(name, ratio) for name in self.names if name != "tau0"}
         for values in itertools.product(*tried.values()):
             constants = dict(zip(tried, values, strict=True))
@@ -191,7 +189,7 @@ class Search:
             yield twin, {name: float(np.log(value)) for name, value in constants.items()}
 
     def _tried(self, name: str, ratio: float) -> tuple[float, ...]:
-        """Return the values of a constant to begin with; moduli in units of one of them."""
+        """Return the trial values of a constant; moduli relative to one of them."""
         if name in self.known and name not in _MODULI:
             return (self.known[name],)
         if name == "glassy_modulus":
@@ -201,12 +199,12 @@ class Search:
         return _TRIED[name]
 
     def profile_end(self, x: Array, i: int, side: int, deviation: float, allowed: float) -> float:
-        """Return where the profile of constant i reaches the allowed sum of squares, or inf."""
+        """Return the value of constant i at which the profile reaches its limit, or inf."""
         end = self.high[i] if side > 0 else self.low[i]
         start = x.copy()
 
         def excess(value: float) -> float:
-            """Return the sum of squares above what is allowed, with the others at their best."""
+            """Return the minimised sum of squares minus its limit."""
             nonlocal start
             moved = start.copy()
             moved[i] = value
@@ -217,7 +215,7 @@ class Search:
             return float(np.sum(self.misfit(moved) ** 2)) - allowed
 
         near, below = float(x[i]), float(np.sum(self.misfit(x) ** 2)) - allowed
-        if below >= 0:  # a fit without residuals: there is no way to go
+        if below >= 0:  # a fit without residuals: the interval has zero width
             return near
         step = float(np.clip(deviation, 1e-4, 1.0))
         while True:
@@ -238,10 +236,10 @@ def _crossing(
     above: tuple[float, float],
     within: float,
 ) -> float:
-    """Return where a profile crosses zero, by false position and halves (Illinois).
+    """Return the zero of a profile, by the Illinois variant of false position.
 
-    The profile is only as exact as the search behind each of its values: the same place may have
-    another sign when it is asked again, and no value is asked twice here.
+    The profile is only as exact as the minimisation behind each value, and a repeated evaluation
+    may change the sign. This routine never evaluates a point twice.
     """
     (near, under), (far, over) = below, above
     while abs(far - near) > within:
@@ -255,7 +253,7 @@ def _crossing(
 
 
 def _order_bounds(kind: Any) -> tuple[float, float]:
-    """Return the logarithms between which the order of a law's springpot lies, if it has one."""
+    """Return the bounds of the logarithm of a springpot's order, for laws that have one."""
     if "order" not in cards(kind):
         return (0.0, 0.0)
     card = cards(kind)["order"].card
@@ -263,16 +261,16 @@ def _order_bounds(kind: Any) -> tuple[float, float]:
 
 
 def quick(data: Observed, solid: Any, at: Array) -> Array:
-    """Return what a solid predicts; where the exact way is long, by its modes, to 1e-6.
+    """Predict measured numbers from a solid; where the exact way is slow, from its modes (1e-6).
 
-    The relaxation of the retardation form, and the creep of the relaxation form, need hundreds of
-    nodes interconverted at each step of a search; as few modes as the window needs take a
-    millisecond or a few.
+    The relaxation of the retardation form and the creep of the relaxation form interconvert
+    hundreds of modes at each step of a search. The few modes that the window needs take a few
+    milliseconds.
     """
     long = {"relaxation": RetardationPowerLaw, "creep": RelaxationPowerLaw}
     if not isinstance(solid, long.get(data.quantity, ())):
         return data.predicted(solid, at)
-    # the smallest E0 C(t) that was seen, not that of a glass far from the window
+    # the smallest measured E0 C(t), not the glassy one far outside the window
     seen = solid.rubbery_modulus / data.moduli[1]
     least = min(max(solid.modulus_ratio, 0.1 * seen), 1.0)
     modes = solid.retardation_modes(

@@ -1,6 +1,6 @@
-"""From measured moduli to a material, with what is sure and what is not.
+"""Fit a material model to measured moduli, with intervals and cautions.
 
-Every model goes through :func:`fit`; the report says how well it did.
+:func:`fit` fits every model and returns a report of the quality of the fit.
 """
 
 from collections.abc import Mapping
@@ -19,7 +19,7 @@ from .observed import Data, Observed, observed, only
 from .thinned import thinned
 
 MODELS = (*KINDS, "prony")
-# What `best` chooses from: a contact can be simulated on each.
+# Candidates of `best`: contacts can be simulated on all of them.
 SOLIDS = tuple(model for model in MODELS if model not in FITS_ONLY)
 
 
@@ -35,60 +35,62 @@ def fit(
     draws: int = 100,
     seed: int = 0,
 ) -> FitReport:
-    r"""Return a material fitted to a master curve, one sweep, or a test over time.
+    r"""Fit a material model to a master curve, one sweep, or a test over time.
 
-    Minimises the sum of squares of ln(measured/fitted) over all numbers. Storage and loss count
-    alike, unless one of them scatters more than twice as much about a smooth curve of its own:
-    then each counts by its scatter.
+    Minimises the sum of squares of ln(measured/fitted) over all numbers. Storage and loss modulus
+    have equal weights, unless the scatter of one about its own smooth curve is more than twice the
+    other's: then each is weighted by its scatter.
 
     Parameters
     ----------
     data : MasterCurve, FrequencySweeps, RelaxationTest or CreepTest
-        What was measured, at one temperature. Shear moduli become tensile ones by the Poisson
-        ratio, as every material of this package is tensile.
+        Measurement at one temperature. Shear moduli are converted to tensile ones by the Poisson
+        ratio, because all materials of this package are tensile.
     poisson_ratio : float
         Poisson ratio nu, in [0, 0.5], constant; 0.5 for rubber, about 0.35 for a glass.
     model : str
         "power-law" (:class:`RetardationPowerLaw`), "relaxation-power-law", "sls",
         "fractional-zener", "prony"; "fractional-maxwell" or "fractional-kelvin-voigt", which have
-        no plateau, so that no contact is simulated on them; or "best": all but these two are
-        fitted, and the corrected information criterion of Akaike decides.
+        no plateau, so contacts cannot be simulated on them; or "best": all except these two are
+        fitted, and the corrected Akaike criterion chooses.
     arms : int, optional
-        Relaxation times of a Prony series, on a logarithmic grid, moved to where they serve best
-        if they are at most 12; left out, as many as the criterion finds in the data. Arms that get
-        no modulus are dropped. What few arms cost is said.
+        Number of relaxation times of a Prony series, on a logarithmic grid; up to 12 times are
+        optimised. By default the criterion chooses. Arms of zero modulus are dropped. A caution
+        states the accuracy lost by few arms.
     known : mapping, optional
-        Constants that are not fitted, in SI: ``{"glassy_modulus": 3e9}``, for a plateau known from
-        elsewhere. For a power law or the standard solid.
+        Constants that are not fitted, in SI, such as ``{"glassy_modulus": 3e9}`` for a plateau
+        known from elsewhere. For all models except "prony" and "best".
     loss : bool
-        Whether the loss modulus counts; leave it out where it contradicts the storage modulus.
+        Whether to fit the loss modulus; False if it contradicts the storage modulus.
     level : float
         Confidence level of the intervals and the band.
     draws : int
-        How many solids that the data allow to draw; 0: none, and no intervals of a Prony series.
+        Number of solids to sample from the uncertainty; 0: none, and no intervals of a Prony
+        series.
     seed : int
-        Of the random numbers: the same seed, the same report.
+        Seed of the random numbers; the same seed gives the same report.
 
     Returns
     -------
     FitReport
-        The material, intervals, residuals, and what the data cannot determine.
+        Material, intervals, residuals, and cautions.
 
     Raises
     ------
     ValueError
-        If the data is unfit, a model or constant unknown, or the options contradict each other.
+        If the data are unsuitable, a model or constant is unknown, or options contradict each
+        other.
 
     Notes
     -----
-    Intervals hold if the model is right, also where noise grows towards one end, the points of a
-    sweep err together, or an instrument drifts; what points have in common widens them. Those of
-    a Prony series are of its plateaus only, over all series on a dense grid of times: its single
-    arms mean nothing.
+    Intervals assume that the model is right. They account for noise that grows towards one end, for
+    errors common to a sweep and for instrument drift; correlated errors widen them. Intervals of
+    a Prony series are given for its plateaus only, over all series on a dense grid of times,
+    because its single arms are not determined.
 
     Examples
     --------
-    Numbers of a standard solid, to three digits, are found again:
+    Fitting the rounded moduli of a standard solid recovers its constants:
 
     >>> import numpy as np
     >>> from viscotack.lab.sweeps import MasterCurve
@@ -106,18 +108,18 @@ def fit(
     if model not in (*MODELS, "best"):
         raise InputError(f"model must be one of {', '.join(MODELS)} or best, got {model!r}")
     if not 0 < level < 1:
-        raise InputError(f"level is a probability and must lie in (0, 1), got {level}")
+        raise InputError(f"level must lie between 0 and 1, got {level}")
     if arms is not None and model != "prony":
-        raise InputError(f"arms go with the model prony, not with {model}")
+        raise InputError(f"arms apply to the model prony only, got model {model}")
     if known and model in ("prony", "best"):
-        raise InputError(f"known constants go with one of {', '.join(KINDS)}, not with {model}")
+        raise InputError(f"known constants apply to {', '.join(KINDS)} only, got model {model}")
     seen = observed(data, poisson_ratio=poisson_ratio)
     if not loss:
         seen = only(seen, "storage")
     options = {"known": dict(known or {}), "arms": arms, "level": level, "seed": seed}
     with threadpool_limits(
         limits=1, user_api="blas"
-    ):  # small matrices: threads only get in the way
+    ):  # small matrices: threads only slow them down
         seen = with_noise(thinned(seen))
         if model != "best":
             return _fitted(seen, model, draws=draws, **options)
@@ -127,7 +129,7 @@ def fit(
 
 
 def _affordable(data: Observed) -> list[str]:
-    """Return the models that leave numbers to spare."""
+    """Return the models with fewer constants than numbers."""
     constants = {model: 3 if model in ("sls", "prony") else 4 for model in SOLIDS}
     found = [model for model in SOLIDS if data.values.size > constants[model] + 3]
     if not found:
@@ -162,7 +164,7 @@ def _fitted(
         if arms is not None:
             cautions = few_arms_caution(data, found)
         if draws:
-            # what few arms miss is no contradiction of the moduli
+            # a misfit of few arms is no contradiction of the moduli
             cautions += series_cautions(data, found, few=bool(cautions))
     else:
         found = fit_constants(data, model=model, known=known, level=level, draws=draws, seed=seed)

@@ -1,38 +1,40 @@
-"""Which points belong to one frequency sweep, where a file does not number them."""
+"""Assign points to frequency sweeps where a file does not number the sweeps."""
 
 import numpy as np
 import numpy.typing as npt
 
 from viscotack.arrays import Array
 
-GAP = 1.0  # K between two sweeps; a chamber holds its temperature within a few tenths
+# K least difference between two sweeps; chambers hold the temperature within a few tenths
+GAP = 1.0
 
 
 def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[np.int64], str]:
-    """Return the number of the sweep of each point, counted from 0, and how it was found.
+    """Assign each point to a frequency sweep; return the sweep numbers and a note.
 
     Parameters
     ----------
     temperature, angular_frequency : ndarray, shape (N,)
-        Of the points, in the order of the file; temperatures may be nan.
+        Of the points, in the order of the file; temperatures may be nan (unknown).
 
     Returns
     -------
     numbers : ndarray of int, shape (N,)
+        Sweep of each point, counted from 0.
     how : str
-        A note; empty where there was nothing to decide.
+        Note on the method; empty for a single sweep.
 
     Notes
     -----
-    Points of one temperature, within 1 K, are one sweep if no frequency occurs twice among them,
-    in whatever order they are written. Otherwise a sweep ends where the frequency turns back. One
-    frequency at many temperatures is one sweep.
+    Points within 1 K are one sweep if no frequency occurs twice among them, in any order.
+    Otherwise a sweep ends where the frequency reverses direction. One frequency at many
+    temperatures is one sweep.
 
     Examples
     --------
     >>> numbers, how = grouped(np.array([300.0, 290.1, 300.2, 290.0]), np.array([1.0, 1, 10, 10]))
     >>> numbers.tolist(), how
-    ([0, 1, 0, 1], '2 sweeps told apart by temperature')
+    ([0, 1, 0, 1], '2 sweeps separated by temperature')
     """
     one = np.zeros(temperature.size, dtype=np.int64)
     if np.ptp(angular_frequency) <= 1e-3 * angular_frequency[0]:
@@ -41,16 +43,16 @@ def grouped(temperature: Array, angular_frequency: Array) -> tuple[npt.NDArray[n
     if clusters is not None and _each_frequency_once(clusters, angular_frequency):
         how = "temperature"
     else:
-        clusters, how = _runs(angular_frequency), "where the frequency turns back"
+        clusters, how = _runs(angular_frequency), "frequency reversal"
     # numbered in the order of the file
     _, first, numbers = np.unique(clusters, return_index=True, return_inverse=True)
     numbers = np.argsort(np.argsort(first))[numbers]
     count = first.size
-    return numbers, f"{count} sweeps told apart by {how}" if count > 1 else ""
+    return numbers, f"{count} sweeps separated by {how}" if count > 1 else ""
 
 
 def levels(temperature: Array) -> list[npt.NDArray[np.int64]]:
-    """Return the points of each temperature, from cold to hot, as indices."""
+    """Return the indices of the points of each temperature, from cold to hot."""
     order = np.argsort(temperature, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(temperature[order]) > GAP) + 1)
 
@@ -70,7 +72,7 @@ def _each_frequency_once(clusters: npt.NDArray[np.int64], angular_frequency: Arr
 
 
 def _runs(angular_frequency: Array) -> npt.NDArray[np.int64]:
-    """Return the number of the run of rising or of falling frequencies of each point."""
+    """Return the number of the monotonic run of frequencies that each point belongs to."""
     numbers = np.zeros(angular_frequency.size, dtype=np.int64)
     direction = 0.0
     for i in range(1, numbers.size):

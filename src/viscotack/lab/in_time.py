@@ -1,8 +1,8 @@
-"""Time-temperature superposition of relaxation and creep tests: many tests as one, long.
+"""Time-temperature superposition of relaxation and creep tests into one long test.
 
-A test is a curve over time as a sweep is one over frequency: a time t at T lands at t/a_T, which
-is a frequency 1/t at omega a_T. One curve a temperature has no second modulus to tell a vertical
-shift from one in time; on a plateau of a melt that matters, and the stated uncertainty says so.
+A time t at temperature T is shifted to t/a_T, as a frequency 1/t is shifted to omega a_T. With one
+curve per temperature, there is no second modulus to separate a vertical shift from a time shift; on
+the plateau of a melt this matters, and the stated uncertainty includes it.
 """
 
 from collections.abc import Sequence
@@ -33,30 +33,38 @@ def superposed(
     vertical: str | float | None = None,
     temperature_uncertainty: float = THERMOMETER,
 ) -> tuple[Test, ShiftTable]:
-    """Return tests at several temperatures as one at one of them, and the shifts.
+    """Superpose tests at several temperatures; return one test and the shifts.
 
     Parameters
     ----------
     tests : sequence of RelaxationTest, or of CreepTest
-        One or more, each with its temperature and four or more points; one kind of modulus.
+        One or more, each with its temperature and four or more points; all of one kind of modulus.
     reference_temperature : float
-        Temperature of the answer [K].
+        Temperature of the result [K].
     shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
-        As in :func:`viscotack.lab.master_curve`; without it shifts are found from overlap.
+        As in :func:`viscotack.lab.master_curve`; without it the shifts follow from overlap.
     vertical, temperature_uncertainty
-        As in :func:`viscotack.lab.shift_factors`. With one curve a temperature "auto" rests on
-        what is usual where the curve is straight; a coefficient of expansion says more. Left out:
-        "auto", or "none" where the tests do not fix as much, which a note says.
+        As in :func:`viscotack.lab.shift_factors`. With one curve per temperature, "auto" assumes
+        typical vertical shifts where the curve is straight; a coefficient of expansion is more
+        exact. By default "auto", or "none" with a note if the tests do not determine the vertical
+        shift.
+
+    Returns
+    -------
+    test : RelaxationTest or CreepTest
+        All points at the reference temperature, ascending in time.
+    shifts : ShiftTable
+        Shift of each temperature.
 
     Raises
     ------
     ValueError
-        If the tests are of two kinds, a temperature is not known, two tests are of one
-        temperature, or overlap does not fix the shifts.
+        If the tests are of different kinds, a temperature is unknown, two tests have the same
+        temperature, or overlap does not determine the shifts.
 
     Examples
     --------
-    A solid with one relaxation time, ten times faster 10 K above:
+    A solid with one relaxation time, ten times faster at a temperature 10 K higher:
 
     >>> time = np.geomspace(0.1, 10, 20)
     >>> cold = RelaxationTest(time, 1e6 * (1 + np.exp(-time)), "G", temperature=293.15)
@@ -99,7 +107,7 @@ def _found(
     vertical: str | float | None,
     uncertainty: float,
 ) -> tuple[ShiftTable, str]:
-    """Return the shifts from overlap, and in words how they were found."""
+    """Return the shifts from overlap, and the method in words."""
     curves, refused = [_curve(test) for test in tests], None
     for way in ("auto", "none") if vertical is None else (vertical,):
         try:
@@ -115,7 +123,7 @@ def _found(
             refused = refused or error
             continue
         return table, f"shifts from the overlap of the tests, {moved_words(way)}"
-    raise refused or InputError("no shift was found")
+    raise refused or InputError("overlap does not determine the shifts")
 
 
 def _checked(tests: Sequence[Test]) -> list[Test]:
@@ -125,27 +133,28 @@ def _checked(tests: Sequence[Test]) -> list[Test]:
     kinds = {(type(test).__name__, test.kind) for test in tests}
     if len(kinds) > 1:
         words = " and ".join(sorted(f"{name} ({kind})" for name, kind in kinds))
-        raise InputError(f"tests of one kind superpose, got {words}")
+        raise InputError(f"only tests of one kind can be superposed, got {words}")
     unknown = [test.source.path or "a test" for test in tests if test.temperature is None]
     if unknown:
-        raise InputError(f"the temperature of {unknown[0]} is not known; say it, --temperature")
+        raise InputError(f"the temperature of {unknown[0]} is unknown; set --temperature")
     ordered = sorted(tests, key=lambda test: test.temperature or 0.0)
     temperature = np.array([test.temperature for test in ordered], dtype=float)
     near = np.flatnonzero(np.diff(temperature) <= GAP)
     if near.size:
         raise InputError(
-            f"two tests are of one temperature, {temperature[near[0]]:.2f} K; superpose one of them"
+            f"two tests have the same temperature, {temperature[near[0]]:.2f} K; superpose only "
+            "one of them"
         )
     return ordered
 
 
 def _curve(test: RelaxationTest | CreepTest) -> Curve:
-    """Return a test as a curve over minus log10 of time: its modulus, or inverse compliance."""
+    """Return the modulus, or the inverse compliance, of a test as a curve over -log10(time)."""
     x = -np.log10(test.time[::-1])
     if x.size < FEWEST or np.ptp(x) < 0.1:
         raise InputError(
             f"{x.size} points at {test.temperature:.2f} K are too few to find a shift from "
-            "overlap; give a law of shift (--wlf, --shift-file) or leave them out (--leave-out)"
+            "overlap; give a shift law (--wlf, --shift-file) or omit this test (--leave-out)"
         )
     if isinstance(test, RelaxationTest):
         return thinned(Curve(x, (np.log10(test.modulus[::-1]),)))

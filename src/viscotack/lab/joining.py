@@ -1,4 +1,4 @@
-"""Several files as the sweeps of one material, and temperatures that stand in their names."""
+"""Join several files into the sweeps of one material; read temperatures from file names."""
 
 import hashlib
 import re
@@ -21,29 +21,29 @@ _HYPHEN = re.compile(r"[A-Za-z0-9](-[0-9.]+ ?(?:degC|°C|C|K))(?![A-Za-z0-9])")
 
 
 def joined(parts: Sequence[FrequencySweeps]) -> FrequencySweeps:
-    """Return the sweeps of several files as one set, numbered on from file to file.
+    """Join the sweeps of several files into one set, with consecutive sweep numbers.
 
     Raises
     ------
     ValueError
-        If some are tensile and others shear, or two files are the same.
+        If some files are tensile and others shear, or two files are identical.
 
     Notes
     -----
-    The source names all files; its hash is that of their hashes in this order, each of which is
-    noted.
+    The source names all files; its hash is the hash of the files' hashes in this order, and each
+    of these is noted.
     """
     if len(parts) == 1:
         return parts[0]
     if len({part.kind for part in parts}) > 1:
         raise InputError(
-            "some files are tensile (E), others shear (G); read them apart, or say --kind"
+            "some files are tensile (E), others shear (G); read them separately, or set --kind"
         )
     return numbered_on(parts, joined_source([part.source for part in parts]))
 
 
 def numbered_on(parts: Sequence[FrequencySweeps], source: Source) -> FrequencySweeps:
-    """Return sweeps of one kind as one set, their numbers going on from part to part."""
+    """Join sweeps of one kind into one set, with consecutive sweep numbers."""
     numbers, count = [], 0
     for part in parts:
         own, renumbered = np.unique(part.sweep, return_inverse=True)
@@ -59,13 +59,13 @@ def numbered_on(parts: Sequence[FrequencySweeps], source: Source) -> FrequencySw
 
 
 def joined_source(sources: Sequence[Source]) -> Source:
-    """Return several files as one source of one material, with the notes of each."""
+    """Join several files into one source of one material, with the notes of each."""
     hashes = [source.sha256 for source in sources]
     for i, digest in enumerate(hashes):
         if digest and digest in hashes[:i]:
             twin = sources[hashes.index(digest)].path
-            raise InputError(f"{sources[i].path} is the same file as {twin}; leave one out")
-    notes = [f"{len(sources)} files as one material"]
+            raise InputError(f"{sources[i].path} is the same file as {twin}; omit one of them")
+    notes = [f"{len(sources)} files joined as one material"]
     notes += [f"{source.path}: sha256 {source.sha256}" for source in sources]
     notes += [f"{source.path}: {note}" for source in sources for note in source.notes]
     return Source(
@@ -77,7 +77,7 @@ def joined_source(sources: Sequence[Source]) -> Source:
 
 
 def kelvin_in_name(file: LabFile) -> float:
-    """Return the one temperature in the name of a file [K].
+    """Return the single temperature in the name of a file [K].
 
     Examples
     --------
@@ -87,12 +87,13 @@ def kelvin_in_name(file: LabFile) -> float:
     stem = PurePath(file.path).stem
     if match := _HYPHEN.search(stem):
         raise file.error(
-            f"{match[1]!r} in its name may be below zero or behind a hyphen; name it with '_'"
+            f"{match[1]!r} in the file name is ambiguous (minus sign or hyphen?); use '_' in "
+            "place of the hyphen"
         )
     found = {in_kelvin(float(m["number"]), m["unit"]) for m in _IN_NAME.finditer(stem)}
     if len(found) != 1 or min(found) <= 0:
         raise file.error(
-            f"its name has {len(found)} temperatures such as '25C'; --temperature-in-name needs "
-            "exactly one, above absolute zero"
+            f"the file name contains {len(found)} temperatures such as '25C'; "
+            "--temperature-in-name needs exactly one, above absolute zero"
         )
     return found.pop()

@@ -1,7 +1,7 @@
-"""Do sweeps superpose, and do their moduli belong together? Asked before anything counts by less.
+"""Tests of superposition and of causality that weight all points equally.
 
-A shift can always be found; whether the shifted sweeps are one curve is another question. Here
-every point counts alike: no outlier is set aside, no modulus weighs less than the other.
+A best shift always exists; whether the shifted sweeps form one curve is a separate question. No
+outlier is down-weighted here, and both moduli have equal weights.
 """
 
 from dataclasses import dataclass
@@ -20,29 +20,29 @@ from .shifting import BEST, FEWEST, curve, steps_between, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
 
 _NAMES = ("storage", "loss")
-_APART = 0.1  # decades and more: shifts that contradict each other
+_APART = 0.1  # decades; larger differences contradict each other
 _SIGMAS = 3.0
-_POINTS = 3  # of each sweep in the overlap, from which on they can be compared
+_POINTS = 3  # smallest number of points of each sweep in the overlap for a comparison
 
 
 @dataclass(frozen=True)
 class Neighbours:
-    """Two sweeps next to each other in temperature, as they were shifted.
+    """Two sweeps neighbouring in temperature, after shifting.
 
     Attributes
     ----------
     temperatures : (float, float)
         [K], colder first.
     deviation : tuple of float
-        Root mean square of ln(modulus) about one smooth curve through both, where they overlap:
-        of storage and of loss, each point counting alike; nan where too few points overlap.
+        Root mean square of ln(modulus) about one smooth curve through both sweeps in the overlap,
+        of storage and of loss modulus, with equal weights; nan where too few points overlap.
     own : tuple of float
-        The same about a smooth curve for each sweep.
+        The same about a separate smooth curve for each sweep.
     shift, asked : float
-        log10 a_T from the hotter to the colder as used, and as both moduli ask for it; nan where
-        they do not fix it.
+        log10 a_T from the hotter to the colder sweep: as used, and as fitted to both moduli; nan
+        where they do not determine it.
     doubt : float
-        Standard deviation of the latter.
+        Standard deviation of `asked`.
     """
 
     temperatures: tuple[float, float]
@@ -55,14 +55,14 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class Superposition:
-    """Whether shifted sweeps are one curve.
+    """Result of the test whether shifted sweeps form one curve, see :func:`superposition`.
 
     Attributes
     ----------
     neighbours : tuple of Neighbours
-        Each two sweeps next to each other in temperature.
+        Every pair of sweeps neighbouring in temperature.
     tolerance : float
-        Relative deviation beyond which two sweeps are no one curve.
+        Relative deviation above which two sweeps do not superpose.
     """
 
     neighbours: tuple[Neighbours, ...]
@@ -74,7 +74,7 @@ class Superposition:
         return not self.words()
 
     def words(self) -> tuple[str, ...]:
-        """Return what contradicts superposition, in sentences; none where nothing does."""
+        """Return the contradictions to superposition as sentences; empty if there are none."""
         return (*self._misfits(), *self._contradictions())
 
     def _misfits(self) -> list[str]:
@@ -83,7 +83,7 @@ class Superposition:
             off = [
                 (each.deviation[i], each)
                 for each in self.neighbours
-                # two rough sweeps may lie on one curve
+                # two noisy sweeps may still superpose
                 if each.deviation[i] > max(np.log1p(self.tolerance), 2 * each.own[i])
             ]
             if not off:
@@ -91,9 +91,10 @@ class Superposition:
             worst, where = max(off, key=lambda pair: pair[0])
             found.append(
                 f"sweeps do not superpose in {name}: {_between(where)} differ by "
-                f"{100 * np.expm1(worst):.2g} % where they overlap"
-                f"{f', and so do {len(off) - 1} more pairs' * (len(off) > 1)}. No shift makes them "
-                "one curve: a glass, two processes or a sweep that is off (--leave-out)"
+                f"{100 * np.expm1(worst):.2g} % where they "
+                f"overlap{f', as do {len(off) - 1} more pairs' * (len(off) > 1)}. No shift makes "
+                "them one curve. Possible causes: a glass, two processes or a faulty sweep "
+                "(--leave-out)"
             )
         return found
 
@@ -107,31 +108,49 @@ class Superposition:
             return []
         worst = max(off, key=lambda each: abs(each.shift - each.asked))
         return [
-            f"storage and loss together ask for other shifts: {_between(worst)} are shifted by "
-            f"{worst.shift:.2f} decades, and both moduli ask for {worst.asked:.2f} "
-            f"+- {worst.doubt:.2f}{f'; so do {len(off) - 1} more steps' * (len(off) > 1)}"
+            f"storage and loss modulus give other shifts than those used: {_between(worst)} are "
+            f"shifted by {worst.shift:.2f} decades, but both moduli give {worst.asked:.2f} +- "
+            f"{worst.doubt:.2f}{f'; so do {len(off) - 1} more steps' * (len(off) > 1)}"
         ]
 
 
 def superposition(
     sweeps: FrequencySweeps, shifts: ShiftTable, *, tolerance: float = 0.1
 ) -> Superposition:
-    """Compare sweeps where they overlap, once shifted.
+    """Compare shifted sweeps where they overlap.
 
     Parameters
     ----------
     sweeps : FrequencySweeps
-        As measured, at two or more temperatures.
+        Measured sweeps, at two or more temperatures.
     shifts : ShiftTable
-        The shifts that were used, in whatever way they were found; between its rows they are
-        interpolated.
+        Shifts to test, from any method; interpolated between the rows of the table.
     tolerance : float
-        Relative deviation from one curve beyond which they do not superpose, in (0, 1).
+        Relative deviation from one curve above which sweeps do not superpose, in (0, 1).
+
+    Returns
+    -------
+    Superposition
+        Deviations of all neighbouring sweeps, and contradictions in words.
 
     Raises
     ------
     ValueError
-        If the table does not reach all temperatures of the sweeps.
+        If the table does not cover all temperatures of the sweeps.
+
+    Examples
+    --------
+    >>> omega = np.geomspace(1, 100, 10)
+    >>> sweeps = FrequencySweeps(
+    ...     np.repeat([293.15, 303.15], 10),
+    ...     np.tile(omega, 2),
+    ...     np.concatenate([1e6 * omega**0.5, 1e6 * (omega / 10) ** 0.5]),
+    ...     np.concatenate([1e6 * omega**0.5, 1e6 * (omega / 10) ** 0.5]),
+    ...     "E",
+    ...     np.repeat([0, 1], 10),
+    ... )
+    >>> superposition(sweeps, ShiftTable([293.15, 303.15], [0.0, -1.0], None)).holds
+    True
     """
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance must lie between 0 and 1, got {tolerance!r}")
@@ -154,22 +173,44 @@ def superposition(
 
 
 def contradiction(master: MasterCurve, *, tolerance: float = 0.1) -> str:
-    """Return in a sentence that storage and loss belong to no causal solid; empty if they do.
+    """Describe how storage and loss modulus violate causality; empty if they do not.
 
-    Both moduli of every point count alike in the nearest pair that obeys Kramers and Kronig.
+    The nearest pair that obeys the Kramers-Kronig relation is fitted with equal weights of all
+    points.
+
+    Parameters
+    ----------
+    master : MasterCurve
+        Storage and loss modulus.
+    tolerance : float
+        Relative deviation from the nearest causal pair that is accepted.
+
+    Returns
+    -------
+    str
+        A sentence, or an empty string.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e9, tau0=1.0, poisson_ratio=0.5)
+    >>> omega = np.geomspace(1e-2, 1e6, 40)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> contradiction(MasterCurve(293.15, omega, modulus.real, modulus.imag, "E"))
+    ''
     """
     off = causal_misfit(master)
     if off is None or max(off) <= tolerance:
         return ""
     return (
-        "storage and loss modulus contradict each other (Kramers-Kronig): with all points counting "
-        f"alike the nearest causal solid is {100 * np.expm1(off[0]):.2g} % off in storage and "
-        f"{100 * np.expm1(off[1]):.2g} % in loss. A shift, a sweep or a calibration is wrong"
+        "storage and loss modulus contradict each other (Kramers-Kronig): with equal weights of "
+        f"all points, the nearest causal solid is {100 * np.expm1(off[0]):.2g} % off in storage "
+        f"and {100 * np.expm1(off[1]):.2g} % in loss. A shift, a sweep or a calibration is wrong"
     )
 
 
 def _asked(temperature: Array, curves: list[Curve]) -> list[tuple[float, float]]:
-    """Return the step that both moduli ask for and its standard deviation, of each two curves."""
+    """Return the shift fitted to both moduli and its standard deviation, for each pair."""
     try:
         steps = steps_between(temperature, curves, *BEST)
     except ValueError:
@@ -178,7 +219,7 @@ def _asked(temperature: Array, curves: list[Curve]) -> list[tuple[float, float]]
 
 
 def _deviations(a: Curve, b: Curve) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return the root mean square of ln about a common curve and about two, of each modulus."""
+    """Return the scatter of each modulus about a common curve and about separate curves."""
     low, high = max(a.x[0], b.x[0]) - 1e-9, min(a.x[-1], b.x[-1]) + 1e-9
     one, other = (c.chosen((c.x >= low) & (c.x <= high)) for c in (a, b))
     if min(one.x.size, other.x.size) < _POINTS:
@@ -192,9 +233,9 @@ def _deviations(a: Curve, b: Curve) -> tuple[tuple[float, ...], tuple[float, ...
 
 
 def _scatter(x: Array, y: Array) -> float:
-    """Return the scatter of ln about the polynomial that leaves least of it."""
+    """Return the scatter of ln(y) about the polynomial with the smallest one."""
     left = []
-    # a chamber that is measured twice repeats its frequencies
+    # a temperature measured twice repeats its frequencies
     for degree in range(max(min(5, np.unique(np.round(x, 3)).size - 2), 0) + 1):
         residual = y - Chebyshev.fit(x, y, degree)(x)
         left.append(float(np.sum(residual**2)) / (x.size - degree - 1))

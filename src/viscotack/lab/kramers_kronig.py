@@ -1,9 +1,9 @@
-r"""Do storage and loss modulus belong to one causal solid? The relation of Kramers and Kronig.
+r"""Kramers-Kronig test: whether storage and loss modulus belong to one causal solid.
 
 .. math:: E''(\omega) = -\frac{2\omega}{\pi} \int_0^\infty \frac{E'(u)}{\omega^2 - u^2}\,du
 
-(Eq. 4.26 of Maghami, PhD thesis (2025); principal value). A master curve that obeys it need not be
-right, but one that does not has a wrong shift, a wrong sweep or a loss modulus from the machine.
+(Eq. 4.26 of Maghami, PhD thesis (2025); principal value). A master curve that obeys it may still be
+wrong, but one that violates it has a wrong shift, a faulty sweep or a compliance error of the rig.
 """
 
 from dataclasses import dataclass
@@ -18,28 +18,28 @@ from viscotack.errors import InputError
 from .nonnegative import nonnegative
 from .sweeps import MasterCurve
 
-_PER_DECADE = 5.0  # relaxation times: a single one off the grid costs 3 % of loss
-_TRUST = 0.1  # weight of loss: it decides only what storage leaves open
-_BEYOND = 1.5  # decades beyond the data, for what happens there
+_PER_DECADE = 5.0  # relaxation times; a time between grid points causes a 3 % error of loss
+_TRUST = 0.1  # weight of loss: it determines only what storage leaves undetermined
+_BEYOND = 1.5  # decades beyond the data, for relaxation outside the range
 _FREEDOM = 4.0  # degrees of freedom of Student's t
-_FINEST = 1e-3  # relative scatter below which there is nothing to judge
+_FINEST = 1e-3  # relative scatter below which points are not tested
 _ROUNDS = 8
 
 
 @dataclass(frozen=True, eq=False)
 class Consistency:
-    """How far a master curve is from obeying the relation of Kramers and Kronig.
+    """Deviation of a master curve from the Kramers-Kronig relation, see :func:`consistency`.
 
     Parameters
     ----------
     storage_residual, loss_residual : ndarray, shape (N,)
-        Measured over consistent modulus, less one; positive where too much was measured.
+        Measured over consistent modulus, minus one; positive where the measured one is larger.
     suspect : ndarray of bool, shape (N,)
         Points where one of the two exceeds the tolerance.
     flagged : tuple of int
-        Sweeps of which more than half the points are suspect; empty without numbers of sweeps.
+        Sweeps with more than half of their points suspect; empty if sweeps are not numbered.
     tolerance : float
-        As given, relative.
+        Relative tolerance used.
     """
 
     storage_residual: Array
@@ -50,7 +50,7 @@ class Consistency:
 
     @property
     def typical(self) -> tuple[float, float]:
-        """Median size of the residual of storage and of loss."""
+        """Median size of the residuals of storage and of loss modulus."""
         return (
             float(np.median(np.abs(self.storage_residual))),
             float(np.median(np.abs(self.loss_residual))),
@@ -62,23 +62,23 @@ class Consistency:
         sweeps = ", ".join(map(str, self.flagged)) or "none"
         return (
             f"Kramers-Kronig: storage within {100 * storage:.2g} %, loss within {100 * loss:.2g} % "
-            f"of a consistent pair in the median; {part:.3g} % of the points off by more than "
+            f"of a consistent pair (median); {part:.3g} % of the points deviate by more than "
             f"{100 * self.tolerance:g} %; flagged sweeps: {sweeps}"
         )
 
 
 def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = False) -> Consistency:
-    r"""Compare a master curve with the nearest pair of moduli that obey Kramers and Kronig.
+    r"""Compare a master curve with the nearest pair of moduli that obeys Kramers-Kronig.
 
     Parameters
     ----------
     master : MasterCurve
-        Four or more points over half a decade or more.
+        Four or more points over at least half a decade.
     tolerance : float
-        Relative difference beyond which a point is suspect, in (0, 1).
+        Relative difference above which a point is suspect, in (0, 1).
     alike : bool
-        Whether all points and both moduli count alike. That says whether the pair is causal as a
-        whole; without it, which points are not.
+        True: equal weights of all points and both moduli, to test whether the pair as a whole is
+        causal. False: robust weights, to find the suspect points.
 
     Returns
     -------
@@ -87,15 +87,15 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = Fa
     Raises
     ------
     ValueError
-        If there are too few points to say anything.
+        If there are too few points.
 
     Notes
     -----
     Each relaxation mode obeys Eq. 4.26 exactly, and so does every sum of modes with positive
-    weights. The nearest such sum to the storage modulus is found by non-negative least squares of
-    relative residuals, five modes per decade, with a weight that falls for outliers, so that a bad
-    sweep is seen and not followed. The loss modulus counts a tenth: it decides what storage leaves
-    open, which is what happens beyond the data and where storage hardly rises.
+    weights. Non-negative least squares of relative residuals gives the nearest such sum to the
+    storage modulus, with five modes per decade and reduced weights of outliers, so that a faulty
+    sweep is detected and not fitted. The loss modulus has a weight of 0.1: it determines only what
+    storage leaves undetermined: relaxation beyond the data and where storage hardly rises.
 
     Examples
     --------
@@ -118,12 +118,13 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = Fa
     decades = float(np.log10(omega[-1] / omega[0]))
     if omega.size < 4 or decades < 0.5:
         raise InputError(
-            f"{omega.size} points over {decades:.2g} decades of frequency are too few to check"
+            f"{omega.size} points over {decades:.2g} decades of frequency are too few for a "
+            "Kramers-Kronig test (at least 4 over 0.5 decades)"
         )
     count = int(_PER_DECADE * (decades + 2 * _BEYOND)) + 1
     times = np.geomspace(10**-_BEYOND / omega[-1], 10**_BEYOND / omega[0], count)
     ratio = omega[:, None] * times
-    # the first column is the rubbery modulus
+    # first column: rubbery modulus
     storage = np.hstack((np.ones((omega.size, 1)), ratio**2 / (1 + ratio**2)))
     loss = np.hstack((np.zeros((omega.size, 1)), ratio / (1 + ratio**2)))
     columns = np.vstack((storage / master.storage[:, None], loss / master.loss[:, None]))
@@ -132,7 +133,7 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = Fa
     trust = np.repeat([1.0, 1.0 if alike else _TRUST], omega.size)
     tail = np.ones(2 * omega.size)
     for _ in range(1 if alike else _ROUNDS):
-        # the triangle of all rows says the same as the rows, which may be thousands
+        # QR: the triangular factor replaces thousands of rows
         weighted = sides * (trust * np.sqrt(tail))[:, None]
         triangle = np.asarray(np.linalg.qr(weighted, mode="r"))
         part = nonnegative(triangle[:, :-1], triangle[:, -1])
@@ -155,9 +156,9 @@ def consistency(master: MasterCurve, *, tolerance: float = 0.1, alike: bool = Fa
 
 
 def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
-    """Return the root mean square of ln(measured/causal) of storage and of loss.
+    """Return the root mean square of ln(measured/causal) of storage and of loss modulus.
 
-    Every point and both moduli count alike. None where there are too few points to say anything.
+    All points and both moduli have equal weights. None if there are too few points.
     """
     try:
         found = consistency(master, alike=True)
@@ -171,31 +172,31 @@ def causal_misfit(master: MasterCurve) -> tuple[float, float] | None:
 
 
 def loss_from_storage(angular_frequency: npt.ArrayLike, storage: npt.ArrayLike) -> Array:
-    r"""Return the loss modulus that belongs to a storage modulus (Eq. 4.26).
+    r"""Compute the loss modulus that belongs to a storage modulus (Eq. 4.26).
 
     .. math:: E''(\omega) = \frac{1}{\pi} \int_{-\infty}^{\infty}
         \frac{dE'}{d\ln u} \ln\coth\left|\tfrac12 \ln\frac{u}{\omega}\right|\,d\ln u
 
-    which is Eq. 4.26 integrated by parts, exactly for a storage modulus that is straight in ln u
+    This is Eq. 4.26 integrated by parts, exact for a storage modulus that is linear in ln u
     between the points and constant beyond them.
 
     Parameters
     ----------
     angular_frequency : array_like, shape (N,)
-        Ascending [rad/s], each once, positive.
+        Strictly ascending angular frequencies [rad/s], positive.
     storage : array_like, shape (N,)
-        Storage modulus [Pa], smooth: noise between close points becomes large in the loss.
+        Storage modulus [Pa], smooth: noise between close points is amplified in the loss.
 
     Returns
     -------
     ndarray, shape (N,)
-        Loss modulus [Pa]. It lacks what the storage modulus does beyond the ends, which is felt
+        Loss modulus [Pa]. The contribution of storage beyond the ends is missing, which matters
         within about a decade of them.
 
     Raises
     ------
     ValueError
-        If the frequencies do not ascend.
+        If the frequencies do not ascend, or the shapes differ.
 
     Examples
     --------
@@ -218,7 +219,7 @@ def loss_from_storage(angular_frequency: npt.ArrayLike, storage: npt.ArrayLike) 
 
 
 def _integral(y: Array) -> Array:
-    """Return the integral of ln coth|t/2| from 0 to y, an odd function: pi^2/4 at infinity."""
+    """Return the integral of ln coth|t/2| from 0 to y, an odd function with limit pi^2/4."""
     z = np.exp(-np.abs(y))
     # Legendre's chi function is half the difference of two dilogarithms
     return np.sign(y) * (np.pi**2 / 4 - (spence(1 - z) - spence(1 + z)))

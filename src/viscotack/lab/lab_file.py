@@ -1,4 +1,4 @@
-"""A laboratory file as bytes, as text and as lines, with its hash and what was noticed about it."""
+"""Content of a laboratory file: bytes, text, lines, hash and notes."""
 
 import hashlib
 import re
@@ -12,18 +12,18 @@ from zipfile import ZipFile
 from viscotack.errors import InputError
 from viscotack.files.bounded import read_bytes
 
-LARGEST = 50_000_000  # bytes; a sweep is thousands of times smaller
+LARGEST = 50_000_000  # bytes; sweeps are thousands of times smaller
 
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
-# `str.splitlines` would also break lines at a dozen characters that no export uses.
+# `str.splitlines` would also split at a dozen characters that exports do not use as line ends.
 _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
 @dataclass(frozen=True)
 class LabFile:
-    """The content of one file; `lines` is empty for a workbook.
+    """Content of one file; `lines` is empty for a workbook.
 
-    `rest` is what follows the last line end, which no line may rely on.
+    `rest` is the text after the last line end. It may be truncated and is not read.
     """
 
     path: str
@@ -49,43 +49,43 @@ class LabFile:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What a reader of lines notes about a last line without an end."""
+        """Note on a last line without a line end."""
         if not self.rest:
             return ()
         return (
-            f"line {len(self.lines) + 1}, the last, has no line end and may be cut in the middle "
-            f"of a number: left out ({self.rest.strip()[:40]!r}); end the file with a new line to "
-            "keep it",
+            f"line {len(self.lines) + 1}, the last, has no line end and may be truncated in the "
+            f"middle of a number: ignored ({self.rest.strip()[:40]!r}); end the file with a line "
+            "end to keep it",
         )
 
     def error(self, what: str, line: int | None = None) -> InputError:
-        """Return an error that names the file and, where there is one, the line or row."""
+        """Return an error that names the file and, if given, the line or row."""
         rows = self.is_workbook or self.is_record
         place = "" if line is None else f", {'row' if rows else 'line'} {line}"
         return InputError(f"{self.path}{place}: {what}")
 
 
 def load(path: str | PathLike[str], *, raw: tuple[bytes, ...] = ()) -> LabFile:
-    """Return a file's bytes and lines.
+    """Read the bytes and lines of a file.
 
     Parameters
     ----------
     path : path-like
-        The file.
+        Path of the file.
     raw : tuple of bytes
-        How files begin whose bytes are no text although they are no workbook: without lines.
+        First bytes of binary formats other than workbooks; such files are not split into lines.
 
     Raises
     ------
     ValueError
         If the file is empty, larger than 50 MB, or neither text nor a workbook.
     OSError
-        If it cannot be opened.
+        If the file cannot be opened.
 
     Notes
     -----
-    A last line without a line end may have been cut in the middle of a number, which nothing in
-    it would show. It is left out, and a note says so.
+    A last line without a line end may be truncated in the middle of a number, which cannot be
+    detected. It is ignored, and a note states so.
     """
     name = fspath(path)
     content = read_bytes(path, LARGEST)
@@ -107,19 +107,20 @@ def _decoded(file: LabFile) -> tuple[str, str]:
     content = file.content
     encoding = next((name for mark, name in _MARKS if content.startswith(mark)), None)
     if encoding is None and b"\0" in content[:200]:
-        # text in two bytes per character, without its mark: Latin letters leave every other byte 0
+        # UTF-16 without byte order mark: every other byte of Latin text is 0
         encoding = "utf-16-le" if content[1:2] == b"\0" else "utf-16-be"
     if encoding and encoding.startswith("utf-16") and len(content) % 2:
-        # half a character at the end: what stands before it is whole
+        # an incomplete character at the end: the text before it is complete
         content = content[:-1]
     try:
         return content.decode(encoding or "utf-8"), encoding or "utf-8"
     except UnicodeDecodeError as error:
         if encoding is None:
-            # old exports write the degree sign in one byte
+            # old exports encode the degree sign in one byte
             return content.decode("latin-1"), "latin-1"
         raise file.error(
-            f"the bytes after {error.start} are not {encoding} text: the file is cut or damaged"
+            f"the bytes after {error.start} are not {encoding} text; the file is truncated or "
+            "damaged"
         ) from None
 
 
@@ -131,15 +132,15 @@ def huge(archive: ZipFile) -> bool:
 def format_of(
     file: LabFile, formats: Mapping[str, ModuleType], said: str | None, otherwise: str
 ) -> str:
-    """Return the name of the format that was said, or that of the first layout that knows a file.
+    """Return the format given by the caller, or the first layout that recognises the file.
 
-    `otherwise` is the one whose reader says what it expected.
+    `otherwise` is the format whose reader raises the error for unrecognised files.
     """
     found = (layout.name(file) for layout in dict.fromkeys(formats.values()))
     return said or next(filter(None, found), otherwise)
 
 
 def refuse_unknown(format: str | None, formats: Mapping[str, ModuleType]) -> None:
-    """Refuse a format that no layout has."""
+    """Raise an error for an unknown format."""
     if format is not None and format not in formats:
         raise InputError(f"--format must be one of {', '.join(formats)}, got {format!r}")

@@ -1,4 +1,4 @@
-"""Time-temperature superposition: sweeps at many temperatures as one curve at one of them."""
+"""Master curves: time-temperature superposition of sweeps at many temperatures."""
 
 from dataclasses import replace
 
@@ -13,10 +13,10 @@ from .kramers_kronig import causal_misfit
 from .shifting import BEST, shift_factors, temperature_levels
 from .sweeps import FrequencySweeps, MasterCurve, ShiftTable
 
-# what uses most of the data comes first
+# methods that use most of the data come first
 _WAYS = (BEST, ("both", "none"), ("storage", "none"))
-_CAUSAL = 0.03  # a pair of moduli as causal as rheometers make it
-_CLEARLY = 0.8  # of the misfit
+_CAUSAL = 0.03  # Kramers-Kronig misfit within the accuracy of rheometers
+_CLEARLY = 0.8  # ratio of misfits that counts as clearly better
 _PARTS = {
     "both": "storage and loss",
     "storage": "storage alone",
@@ -33,40 +33,40 @@ def master_curve(
     by: str | None = None,
     vertical: str | float | None = None,
 ) -> MasterCurve:
-    r"""Return all sweeps shifted to one temperature, ascending in frequency.
+    r"""Shift all sweeps to one temperature, ascending in frequency.
 
-    A point measured at omega and T lands at omega a_T. With a law of shift a temperature ramp at
-    one frequency becomes a master curve as well (Sec. 4.6.1 of the thesis).
+    A point at omega and T is shifted to omega a_T. With a shift law, a temperature ramp at
+    one frequency also gives a master curve (Sec. 4.6.1 of Maghami, PhD thesis (2025)).
 
     Parameters
     ----------
     sweeps : FrequencySweeps
-        Points to be shifted.
+        Measured points.
     reference_temperature : float or None
-        Temperature of the curve [K]. None only for sweeps of one temperature, which the file may
-        not even say: then nothing is shifted.
+        Temperature of the curve [K]. None only for sweeps at one temperature, known or
+        unknown, which are not shifted.
     shift : WLF, Arrhenius, TabulatedShift or ShiftTable, optional
-        A law is seen from the reference temperature and shifts every point by its own
-        temperature. The row of a table shifts the points within 1 K of it, a vertical shift
-        included; between rows it is interpolated. Without it the shifts are found from the
+        A law is taken relative to the reference temperature and shifts every point by its own
+        temperature. A row of a table shifts the points within 1 K of it, vertically as well;
+        between rows it is interpolated. By default the shifts follow from the
         overlap of neighbouring sweeps, see :func:`shift_factors`.
     by : {"both", "storage", "loss", "tan"}, optional
-        What must superpose, where shifts are found from overlap. Left out with `vertical`: the
-        most that the data carry, see :func:`most_carried`.
+        Which moduli must superpose, for shifts from overlap. If both `by` and `vertical` are None,
+        :func:`most_carried` chooses.
     vertical : {"auto", "none", "free"} or float, optional
-        How far moduli may move as well, where shifts are found from overlap, see
-        :func:`shift_factors`; "auto" where `by` alone is given.
+        Allowed vertical shift, for shifts from overlap, see
+        :func:`shift_factors`; "auto" if only `by` is given.
 
     Returns
     -------
     MasterCurve
-        With the shift of each temperature and, where it was found, its uncertainty.
+        Includes the shift of each temperature and, for shifts from overlap, its uncertainty.
 
     Raises
     ------
     ValueError
-        If temperatures are unknown, a law has no value for one of them, or overlap does not fix
-        the shifts.
+        If temperatures are unknown, a law is undefined at one of them, or overlap does not
+        determine the shifts.
 
     References
     ----------
@@ -74,7 +74,7 @@ def master_curve(
 
     Examples
     --------
-    A temperature ramp at 1 Hz, seen from 20 C:
+    A temperature ramp at 1 Hz, shifted to 20 C:
 
     >>> ramp = FrequencySweeps(
     ...     [173.15, 293.15], [6.283, 6.283], [1.2e8, 2e6], [6e7, 1e5], "E", [0, 0]
@@ -87,9 +87,9 @@ def master_curve(
     if reference_temperature is None:
         return _unshifted(sweeps, shift)
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is not known; say it, --temperature")
+        raise InputError("the temperature of some points is unknown; set --temperature")
     if shift is not None and (by is not None or vertical is not None):
-        raise InputError("by and vertical are for shifts found from overlap; leave shift= out")
+        raise InputError("by and vertical apply to shifts from overlap only; omit shift=")
     reference_temperature = float(reference_temperature)
     if shift is None:
         if np.ptp(sweeps.temperature) <= GAP and _near(sweeps.temperature, reference_temperature):
@@ -120,16 +120,17 @@ def master_curve(
 
 
 def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> MasterCurve:
-    """Return the master curve by the shifts that use most of what sweeps at many temperatures say.
+    """Return the master curve of the shift method that uses most of the data.
 
-    Both moduli, moved as far as the data fix it. Where they do not fix the shifts, or where
-    shifts by both moduli at rest, or by storage alone, make the moduli a clearly better causal
-    pair (Kramers and Kronig, all points counting alike): those, and a note says so.
+    The first choice superposes both moduli and lets them move vertically as far as the data allow.
+    If this does not determine the shifts, or if shifts of both moduli without vertical motion, or
+    of storage alone, give a clearly more causal pair (Kramers-Kronig, equal weights), they are used
+    instead, and a note states so.
 
     Raises
     ------
     ValueError
-        As :func:`shift_factors`, if no way fixes the shifts.
+        As :func:`shift_factors`, if no method determines the shifts.
     """
     best, misfit, first = None, np.inf, None
     for by, vertical in _WAYS:
@@ -145,25 +146,25 @@ def most_carried(sweeps: FrequencySweeps, *, reference_temperature: float) -> Ma
         if best is None or total < _CLEARLY * misfit:
             best, misfit = curve, total
         if misfit < _CAUSAL:
-            break  # nothing to be gained
+            break  # no improvement possible
     if best is None:
-        raise first or InputError("no shift was found")
+        raise first or InputError("overlap does not determine the shifts")
     if first is None:
         return best
-    note = f"storage and loss together, free to move, do not fix the shifts: {first}"
+    note = f"storage and loss with vertical shifts do not determine the shifts: {first}"
     return replace(best, source=best.source.noted(note))
 
 
 def moved_words(vertical: str | float) -> str:
-    """Return in a few words how far moduli may move."""
+    """Describe the allowed vertical shift in a few words."""
     words = {
-        "auto": "moduli moved as far as the data fix it",
-        "none": "moduli not moved",
-        "free": "moduli moved freely",
+        "auto": "moduli shifted vertically as the data determine",
+        "none": "moduli not shifted vertically",
+        "free": "moduli shifted vertically without restriction",
     }
     if isinstance(vertical, str):
         return words[vertical]
-    return f"moduli moved by density and temperature, expansion {vertical:g} 1/K"
+    return f"moduli shifted vertically by density and temperature, expansion {vertical:g} 1/K"
 
 
 def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> MasterCurve:
@@ -185,7 +186,7 @@ def _unshifted(sweeps: FrequencySweeps, shift: Shift | ShiftTable | None) -> Mas
 def shifted_by(
     shift: Shift | ShiftTable, temperature: Array, levels: Array, reference: float
 ) -> tuple[Array, Array, ShiftTable]:
-    """Return the horizontal and the vertical shift of each point, and the table of the levels."""
+    """Return the horizontal and vertical shift of each point, and the table at the levels."""
     if isinstance(shift, ShiftTable):
         return *_by_table(temperature, shift, reference), shift
     law = shift.at_reference(reference)
@@ -204,21 +205,21 @@ def _by_table(temperature: Array, table: ShiftTable, reference: float) -> tuple[
 
 
 def _interpolated(temperature: Array, rows: Array, values: Array, reference: float) -> Array:
-    """Return a column of a table at each temperature, less its value at the reference.
+    """Interpolate a column of a table at each temperature, minus its value at the reference.
 
-    A point within 1 K of a row belongs to that row: the chamber is never quite at its set point.
+    A point within 1 K of a row uses that row, because chambers never reach their set point exactly.
     """
     asked = np.append(temperature, reference)
     nearest = np.argmin(np.abs(asked[:, None] - rows), axis=1)
     found = values[nearest].astype(float)
     beside = np.abs(asked - rows[nearest]) > GAP
-    # the reference itself is interpolated, not rounded to a row
+    # the reference is interpolated, not rounded to a row
     beside[-1] = rows[0] < reference < rows[-1]
     if beside.any():
         if rows.size < 2:
             raise InputError(
                 f"the table of shifts has one row, at {rows[0]:.2f} K; "
-                f"asked at {asked[beside][0]:.2f} K"
+                f"a shift at {asked[beside][0]:.2f} K is needed"
             )
         curve = TabulatedShift(float(rows[0]), tuple(rows), tuple(values))
         found[beside] = values[0] + np.asarray(curve.log10_shift(asked[beside]))
@@ -229,7 +230,7 @@ def _refuse_ramp(sweeps: FrequencySweeps) -> None:
     omega = sweeps.angular_frequency
     if np.ptp(omega) <= 1e-3 * omega[0] and np.ptp(sweeps.temperature) > GAP:
         raise InputError(
-            "a temperature ramp at one frequency has no overlap to find shifts from; give "
+            "a temperature ramp at one frequency has no overlap; give "
             "shift=WLF.from_glass_transition(...) or another law"
         )
 
@@ -239,5 +240,5 @@ def _near(temperature: Array, reference: float) -> bool:
 
 
 def shift_words(shift: Shift | ShiftTable) -> str:
-    """Return in a few words how points are shifted."""
+    """Describe the applied shift in a few words."""
     return f"shifted by {shift.words() if isinstance(shift, WLF | Arrhenius) else 'a table'}"

@@ -1,7 +1,7 @@
-"""What a fit compares: the logarithms of measured numbers beside those of a material.
+"""Measured numbers prepared for a fit: tensile, in logarithms, with weights.
 
-A frequency sweep gives two numbers a point (storage and loss), a relaxation or creep test one.
-In logarithms an error of 2 % weighs the same on the glassy and on the rubbery side.
+A frequency sweep has two numbers per point (storage and loss), a relaxation or creep test has one.
+In logarithms an error of 2 % has the same weight at the glassy and the rubbery end.
 """
 
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from .sweeps import CreepTest, FrequencySweeps, MasterCurve, RelaxationTest, Sou
 
 Data = MasterCurve | FrequencySweeps | RelaxationTest | CreepTest
 
-# Quantity -> the names of its parts, in the order in which they stand.
+# Quantity -> names of its parts, in the order of the rows.
 PARTS = {
     "complex modulus": ("storage", "loss"),
     "storage modulus": ("storage",),
@@ -28,14 +28,14 @@ PARTS = {
 }
 
 
-# Decades of one modulus: the best rheometers and DMA together, from 1 mPa to the modulus of diamond
-# are 15. What an equation wrote down may run out below the smallest floating-point number.
+# Largest range of one modulus: the best rheometers and DMA together cover 15 decades, from 1 mPa
+# to the modulus of diamond. Computed values may underflow the smallest floating-point number.
 _MOST_DECADES = 20
 
 
 @dataclass(frozen=True, eq=False)
 class Observed:
-    """Measured numbers in tension, ready to be compared.
+    """Measured numbers, converted to tension, for comparison with a material.
 
     Attributes
     ----------
@@ -44,23 +44,23 @@ class Observed:
     at : ndarray, shape (N,)
         Angular frequencies [rad/s], or times [s], ascending.
     values : ndarray, shape (P, N)
-        One row a part of the quantity: moduli [Pa] or a compliance [1/Pa]; positive.
+        One row per part of the quantity: moduli [Pa] or a compliance [1/Pa]; positive.
     noise : ndarray, shape (P,)
-        Scatter of each part beside that of the best one, at least 1: residuals are divided by it.
+        Scatter of each part relative to the best one, at least 1; divides the residuals.
     poisson_ratio : float
-        Taken to be constant.
+        Constant Poisson ratio.
     kind : str
-        "E" or "G": what was measured, before it was turned into tension.
+        "E" or "G": measured kind of modulus, before conversion to tension.
     temperature : float or None
-        Temperature at which the numbers hold [K].
+        Temperature of the curve [K].
     temperatures : (float, float) or None
-        Lowest and highest temperature at which they were measured [K].
+        Lowest and highest measured temperature [K].
     source : Source
-        Where they come from.
+        Origin of the numbers.
     sweep : ndarray of int, shape (N,), or None
-        Number of the sweep that each point was measured in, where that is known.
+        Sweep in which each point was measured, if known.
     points : int
-        How many points were measured, where `at` are means of them; else 0.
+        Number of measured points if `at` contains means of them, else 0.
     """
 
     quantity: str
@@ -82,7 +82,7 @@ class Observed:
 
     @property
     def in_frequency(self) -> bool:
-        """Whether `at` are frequencies; times otherwise."""
+        """Whether `at` contains frequencies; otherwise times."""
         return self.quantity.endswith(" modulus")
 
     @property
@@ -92,18 +92,18 @@ class Observed:
 
     @property
     def frequencies(self) -> tuple[float, float]:
-        """Lowest and highest angular frequency [rad/s]; of a test over time, 1/time."""
+        """Lowest and highest angular frequency [rad/s]; for a test over time, 1/time."""
         low, high = float(self.at[0]), float(self.at[-1])
         return (low, high) if self.in_frequency else (1 / high, 1 / low)
 
     @property
     def moduli(self) -> tuple[float, float]:
-        """Smallest and largest modulus seen [Pa]: storage, relaxation or inverse creep."""
+        """Smallest and largest measured modulus [Pa]: storage, relaxation or inverse creep."""
         first = self.values[0] if self.quantity != "creep" else 1 / self.values[0]
         return float(np.min(first)), float(np.max(first))
 
     def predicted(self, material: Material, at: npt.ArrayLike | None = None) -> Array:
-        """Return what a material says in place of `values`, or at other places, shape (P, N)."""
+        """Predict `values` from a material, at `at` or other places, shape (P, N)."""
         x = self.at if at is None else np.asarray(at, dtype=float)
         if self.in_frequency:
             modulus = np.asarray(material.complex_modulus(x))
@@ -114,7 +114,7 @@ class Observed:
 
     def residuals(self, material: Material) -> Array:
         """Return ln(measured) - ln(material), shape (P, N)."""
-        with np.errstate(divide="ignore"):  # a loss that underflows: infinitely bad, not an error
+        with np.errstate(divide="ignore"):  # a loss that underflows gives an infinite residual
             return np.log(self.values) - np.log(self.predicted(material))
 
     def weighed(self, residuals: Array) -> Array:
@@ -123,27 +123,28 @@ class Observed:
 
 
 def only(data: Observed, part: str) -> Observed:
-    """Return the measured numbers of one part of the complex modulus, "storage" or "loss"."""
+    """Select one part of the complex modulus, "storage" or "loss"."""
     if not data.in_frequency:
-        raise InputError(f"there is no loss modulus to leave out of a test of {data.quantity}")
+        raise InputError(f"a test of {data.quantity} has no loss modulus to omit")
     row = data.values[[data.parts.index(part)]]
     return replace(data, quantity=f"{part} modulus", values=row, noise=np.ones(1))
 
 
 def observed(data: Any, *, poisson_ratio: float) -> Observed:
-    """Return a master curve, one sweep, or a test over time as what a fit compares.
+    """Prepare a master curve, one sweep, or a test over time for a fit.
 
     Parameters
     ----------
     data : MasterCurve, FrequencySweeps, RelaxationTest or CreepTest
-        Sweeps at more than one temperature are refused: make a master curve of them first.
+        Sweeps at several temperatures are rejected; make a master curve first.
     poisson_ratio : float
-        Poisson ratio, in [0, 0.5]; needed even of a tensile test, as the material states it.
+        Poisson ratio, in [0, 0.5]; also required for a tensile test, because the material stores
+        it.
 
     Raises
     ------
     ValueError
-        If the data is of another kind, has several temperatures or too few points, or falls over
+        If the data are of another type, have several temperatures or fewer than 3 points, or span
         more than 20 decades.
 
     Examples
@@ -192,20 +193,20 @@ def _refuse_unmeasurable(part: str, values: Array) -> None:
     if decades > _MOST_DECADES:
         unit = "1/Pa" if part == "creep" else "Pa"
         raise InputError(
-            f"the numbers of {part} run over {decades:.0f} decades, from {low:.2g} to {high:.2g} "
-            f"{unit}, and no instrument tells more than {_MOST_DECADES}; leave out those below its "
+            f"the numbers of {part} span {decades:.0f} decades, from {low:.2g} to {high:.2g} "
+            f"{unit}, but no instrument resolves more than {_MOST_DECADES}; remove those below its "
             "limit"
         )
 
 
 def _temperatures(data: Data) -> tuple[float | None, tuple[float, float] | None]:
-    """Return the temperature at which the numbers hold, and the range they were measured in."""
+    """Return the temperature of the curve, and the range of measured temperatures."""
     if isinstance(data, MasterCurve):
         seen = data.shifts.temperature if data.shifts is not None else data.temperature
         reference = data.reference_temperature
     elif isinstance(data, FrequencySweeps):
         seen = data.temperature[np.isfinite(data.temperature)]
-        # a chamber holds its temperature to about a kelvin
+        # chambers hold the temperature within about 1 K
         if seen.size and np.ptp(seen) > 3:
             raise InputError(
                 f"the sweeps are from {seen.min():.1f} K to {seen.max():.1f} K; "

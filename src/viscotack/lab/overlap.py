@@ -1,18 +1,18 @@
-r"""How far one curve must move to continue its neighbour in temperature.
+r"""Shift factors from overlap: displacement between curves at neighbouring temperatures.
 
-Two neighbours are two noisy pieces of one smooth curve, displaced along the logarithm of
-frequency, and perhaps along that of the modulus:
+Two neighbours are noisy pieces of one smooth curve, displaced along the logarithm of
+frequency, and possibly along that of the modulus:
 
 .. math:: y_a = p(x_a) + \epsilon, \quad y_b + v = p(x_b + s) + \epsilon
 
 for y = log10 of a modulus and x = log10 of frequency. The polynomial p, the shift s and the
-vertical shift v are fitted together. The scatter has heavy tails (Student's t), because the first
-point of a sweep often lags behind its temperature; with two moduli each has a scatter of its own,
-so that the one that superposes better counts more.
+vertical shift v are fitted together. The scatter is heavy-tailed (Student's t), because the first
+point of a sweep is often measured before the temperature is uniform. With two moduli, each has a
+scatter of its own, so that the one that superposes better has a larger weight.
 
-What is known of v before enters as one more observation of it, :class:`Hold`. Where the curves
-are straight, v and s can replace each other, and this observation is all there is; where loss and
-storage bend, it does not matter.
+Prior knowledge of v is one more observation of it, :class:`Hold`. Where the curves are straight, v
+and s are interchangeable, and v depends on this observation alone; where the moduli are curved, it
+hardly matters.
 """
 
 from dataclasses import dataclass
@@ -29,25 +29,25 @@ _DEGREES = range(1, 7)
 _FREEDOM = 4.0  # degrees of freedom of Student's t
 _FINEST = 1e-4  # decades: scatter below which two curves are the same
 _ROUNDS = 8  # of reweighting
-_FEW = 4  # while shifts are compared roughly
-_COARSE = 0.1  # decades between the shifts that are tried first
-_FINE = (0.025, 0.005, 0.001)  # and then, about the best
-_ROUGH = (0.03, 0.008)  # where only a difference is asked for
-_BLOCKS = 4  # stretches of the overlap that are left out in turn
+_FEW = 4  # during the coarse search
+_COARSE = 0.1  # decades between shifts of the coarse search
+_FINE = (0.025, 0.005, 0.001)  # decades, of successive refinements
+_ROUGH = (0.03, 0.008)  # decades, of refinements for a difference
+_BLOCKS = 4  # jackknife blocks of the overlap
 
 
 @dataclass(frozen=True)
 class Hold:
-    """What is known of a vertical shift before: log10 of the factor on the hotter modulus.
+    """Prior knowledge of a vertical shift: log10 of the factor on the hotter modulus.
 
     Attributes
     ----------
     expected : float
-        Its value [decades].
+        Expected value [decades].
     spread : float
-        Standard deviation [decades]: 0 where it is given, inf where nothing is known.
+        Standard deviation [decades]: 0 if given, inf if unknown.
     moves : bool
-        Whether the fit may move it. If not, its spread still widens the uncertainty of the shift.
+        Whether the fit may adjust it. If not, its spread still widens the uncertainty of the shift.
     """
 
     expected: float = 0.0
@@ -57,51 +57,51 @@ class Hold:
 
 @dataclass(frozen=True)
 class Step:
-    """How far one curve must move to continue its neighbour, in decades, and how sure that is."""
+    """Displacement between two neighbouring curves, in decades, with its uncertainty."""
 
     shift: float
     vertical: float
-    variance: float  # of the shift, apart from what is common
-    common: float  # part of its standard deviation that every step may have with the same sign
+    variance: float  # of the shift, without the common part
+    common: float  # part of the standard deviation that may have the same sign in all steps
 
 
 @dataclass(frozen=True)
 class Curve:
-    """One temperature: log10 of frequency, ascending, and log10 of one or two moduli."""
+    """Data of one temperature: log10 of frequency, ascending, and log10 of one or two moduli."""
 
     x: Array
     y: tuple[Array, ...]
 
     def chosen(self, points: npt.NDArray[np.bool_]) -> "Curve":
-        """Return some of the points."""
+        """Select points."""
         return Curve(self.x[points], tuple(y[points] for y in self.y))
 
 
 def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
-    """Return how far the hotter curve must move along log10 of frequency to continue the colder.
+    """Fit the displacement of the hotter curve along log10 of frequency to its colder neighbour.
 
-    The variance is the larger one of the scatter's (Fisher) and of a jackknife that leaves out
-    stretches of the overlap, which sees neighbouring points that err alike; to it comes how far
-    the next richer polynomial moves the shift. What a vertical shift within its spread could do
-    is told apart, as far as the data do not fix it: such shifts have causes that run on with
-    temperature, so that they add up from step to step.
+    The variance is the larger of the Fisher variance of the scatter and of a jackknife over blocks
+    of the overlap, which detects correlated errors of neighbouring points; the change of the shift
+    with a polynomial of the next degree is added. The effect of an undetermined vertical shift
+    within its spread is returned separately, because its causes continue with temperature, so that
+    it adds up from step to step.
 
     Raises
     ------
     ValueError
-        If the curves fit best end to end, so that the data do not fix the shift.
+        If the curves fit best end to end, so that the data do not determine the shift.
     """
     hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
     free = hold.moves and hold.spread > 0
     found, degree = _found(colder, hotter, hold)
     pair = _pair(colder, hotter, np.array([found]), hold, hold.spread > 0, degree)
     variance, _, both = _variances(pair)
-    # a vertical shift that the data leave open may run the same way in all steps
+    # an undetermined vertical shift may have the same sign in all steps
     leaning = (both / hold.spread) ** 2 if hold.spread > 0 else 0.0
     richer = _refined(colder, hotter, found, hold, degree + 1)
     others = _without_blocks(colder, hotter, found, hold, degree)
     jackknife = (_BLOCKS - 1) / _BLOCKS * float(np.sum((others - np.mean(others)) ** 2))
-    # where it may move, the pair has it as its last unknown
+    # a movable vertical shift is the last unknown of the pair
     vertical = float(_solved(pair)[0][0, -1, 0]) if free else 0.0
     return Step(
         found,
@@ -112,7 +112,7 @@ def step_between(colder: Curve, hotter: Curve, hold: Hold) -> Step:
 
 
 def free_vertical(colder: Curve, hotter: Curve) -> tuple[float, float]:
-    """Return the vertical shift that the curves alone ask for, and its variance.
+    """Return the vertical shift fitted without prior knowledge, and its variance.
 
     Raises
     ------
@@ -134,12 +134,12 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
     for row, degree in enumerate(_DEGREES):
         costs[row] = _costs(_pair(colder, hotter, tried, hold, free, degree), _FEW)
         if row > 2 and np.min(costs[row]) > np.min(costs[row - 1]) > np.min(costs[row - 2]):
-            break  # richer polynomials pay no longer
+            break  # higher degrees do not improve the criterion
     degree, best = np.unravel_index(int(np.argmin(costs)), costs.shape)
     if best in (0, tried.size - 1):
         raise InputError(
-            "the curves fit best end to end, so the data do not fix the shift; measure closer "
-            "temperatures, superpose by another modulus (--shift-by), or give a law of shift "
+            "the curves fit best end to end, so the data do not determine the shift; measure "
+            "closer temperatures, superpose another modulus (--shift-by), or give a shift law "
             "(--glass-transition, --wlf, --shift-file)"
         )
     degree = _DEGREES[int(degree)]
@@ -147,7 +147,7 @@ def _found(colder: Curve, hotter: Curve, hold: Hold) -> tuple[float, int]:
 
 
 def vertical_at(colder: Curve, hotter: Curve, shift: float, hold: Hold) -> float:
-    """Return the vertical shift that goes best with a shift that is known."""
+    """Return the best vertical shift at a known horizontal shift."""
     if not (hold.moves and hold.spread > 0):
         return hold.expected
     hotter = Curve(hotter.x, tuple(y + hold.expected for y in hotter.y))
@@ -165,19 +165,19 @@ def _refined(
     degree: int,
     spacings: tuple[float, ...] = _FINE,
 ) -> float:
-    """Return the best shift near one that was found roughly."""
+    """Refine a shift found by the coarse search."""
     free = hold.moves and hold.spread > 0
     for spacing in spacings:
         tried = found + spacing * np.arange(-5.0, 6.0)
         costs = _costs(_pair(a, b, tried, hold, free, degree), _ROUNDS)
-        # too few points for the degree say nothing
+        # too few points for this degree: not usable
         if np.isfinite(costs).any():
             found = _lowest(tried, costs)
     return found
 
 
 def _lowest(tried: Array, costs: Array) -> float:
-    """Return where a parabola through the lowest of evenly spaced costs has its bottom."""
+    """Return the minimum of a parabola through the lowest of evenly spaced costs."""
     i = int(np.argmin(costs))
     if not 0 < i < tried.size - 1:
         return float(tried[i])
@@ -189,21 +189,21 @@ def _lowest(tried: Array, costs: Array) -> float:
 
 
 def _without_blocks(a: Curve, b: Curve, found: float, hold: Hold, degree: int) -> Array:
-    """Return the shift without each stretch of the overlap in turn."""
+    """Return the jackknife estimates of the shift, each without one block of the overlap."""
     low = max(a.x[0], b.x[0] + found) - 1e-9
     high = min(a.x[-1], b.x[-1] + found) + 1e-9
     edges = np.linspace(low, high, _BLOCKS + 1)
     shifts = []
     for start, end in pairwise(edges):
         one, other = (c.chosen((x < start) | (x >= end)) for c, x in ((a, a.x), (b, b.x + found)))
-        # a curve that lies in one stretch cannot spare it
+        # keep a block that contains a whole curve
         enough = min(one.x.size, other.x.size) >= 2
         shifts.append(_refined(one, other, found, hold, degree, _ROUGH) if enough else found)
     return np.array(shifts)
 
 
 def _range(a: Curve, b: Curve) -> tuple[float, float]:
-    """Return the shifts at which two points, and a fifth of the shorter curve, overlap."""
+    """Return the range of shifts at which two points, and a fifth of the shorter curve, overlap."""
     length = min(np.ptp(a.x), np.ptp(b.x))
     least = length * max(0.2, 1 / (min(a.x.size, b.x.size) - 1)) + 1e-9
     return a.x[0] + least - b.x[-1], a.x[-1] - least - b.x[0]
@@ -211,17 +211,17 @@ def _range(a: Curve, b: Curve) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class _Pair:
-    """Two curves at many shifts as one linear problem; see :func:`_pair`."""
+    """Linear least-squares problems of two curves at many shifts; see :func:`_pair`."""
 
     design: Array  # (shifts, moduli * points, unknowns)
     y: Array  # (moduli * points,)
     slope: Array  # (shifts, moduli * points, unknowns): of the moved points, per decade
     moduli: int
-    precision: float  # of the vertical shift, the last unknown, about zero; 0 where it is free
+    precision: float  # inverse variance of the vertical shift (last unknown); 0 if free
 
 
 def _pair(a: Curve, b: Curve, shifts: Array, hold: Hold, free: bool, degree: int) -> _Pair:
-    """Return polynomials side by side, one for each modulus, then the vertical shift of all."""
+    """Set up the problem: one polynomial per modulus, then their common vertical shift."""
     moduli, n, tries = len(a.y), a.x.size + b.x.size, shifts.size
     x = np.concatenate((np.broadcast_to(a.x, (tries, a.x.size)), b.x + shifts[:, None]), axis=1)
     half = np.ptp(x, axis=1)[:, None, None] / 2
@@ -241,14 +241,14 @@ def _pair(a: Curve, b: Curve, shifts: Array, hold: Hold, free: bool, degree: int
 
 
 def _solved(pair: _Pair, rounds: int = _ROUNDS) -> tuple[Array, Array, Array]:
-    """Return unknowns, residuals and squared scatter at each shift, by reweighting."""
+    """Return unknowns, residuals and squared scatter at each shift, by iterative reweighting."""
     design, points = pair.design, pair.y.size // pair.moduli
     weight = tail = np.ones(design.shape[:2])
     found = residual = scatter = np.zeros(0)
     for _ in range(rounds):
         weighted = np.swapaxes(design * weight[..., None], 1, 2)
         normal = weighted @ design
-        # a vertical shift that the data do not fix must not stop the rest
+        # a singular vertical shift must not stop the iteration
         normal += 1e-12 * np.trace(normal, axis1=1, axis2=2)[:, None, None] * np.eye(len(normal[0]))
         normal[:, -1, -1] += pair.precision
         found = np.linalg.solve(normal, weighted @ pair.y[:, None])
@@ -261,7 +261,7 @@ def _solved(pair: _Pair, rounds: int = _ROUNDS) -> tuple[Array, Array, Array]:
 
 
 def _costs(pair: _Pair, rounds: int) -> Array:
-    """Return minus twice the log likelihood at each shift, with Schwarz's penalty."""
+    """Return minus twice the log-likelihood at each shift, plus Schwarz's penalty (BIC)."""
     if pair.design.shape[2] > pair.y.size - 3 * pair.moduli:
         return np.full(len(pair.design), np.inf)  # too few points for the degree
     found, residual, scatter = _solved(pair, rounds)
@@ -271,11 +271,11 @@ def _costs(pair: _Pair, rounds: int) -> Array:
 
 
 def _variances(pair: _Pair) -> tuple[float, float, float]:
-    """Return the variances of shift and vertical shift, the last unknown, and their covariance.
+    """Return variances and covariance of the horizontal and the vertical shift, at one shift.
 
-    One shift is tried. The inverse of Fisher's information on all unknowns and the shift. A
-    vertical shift that is held still, and need not be so, is an unknown as well: what it could
-    make up for is not known.
+    They follow from the inverse of the Fisher information of all unknowns and the shift. A
+    vertical shift held fixed by the fit counts as unknown here if it may differ from its expected
+    value.
     """
     found, _, scatter = _solved(pair)
     tangent = (pair.slope[0] @ found[0])[:, 0]

@@ -1,7 +1,7 @@
-"""Layout of plain tables: headings, units beside or below them, rows.
+"""Layout of plain tables: headings, units beside or below them, rows of cells.
 
-Separated by commas, semicolons, tabs or spaces. The two-row tables of pyvisco (``f, E_stor,
-E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) are of this kind.
+Cells are separated by commas, semicolons, tabs or spaces. The two-row tables of pyvisco
+(``f, E_stor, E_loss, T, Set`` above ``Hz, MPa, MPa, C, -``) have this layout.
 """
 
 import csv
@@ -13,7 +13,7 @@ from .columns import Table, first_headings, stated_temperature, tabulated
 from .lab_file import LabFile
 from .quantities import recognise
 
-_LOOKED = 200  # lines in which the headings are looked for
+_LOOKED = 200  # lines searched for the headings
 _SEPARATORS = ("\t", ";", ",", None)
 _PYVISCO = {"E_stor", "E_loss", "G_stor", "G_loss", "E_relax", "G_relax", "log_aT"}
 
@@ -27,12 +27,12 @@ def name(file: LabFile) -> str | None:
 
 
 def tables(file: LabFile) -> list[Table]:
-    """Return the table of a file, or one for each line that repeats the headings.
+    """Return the table of a file, or one table for each line that repeats the headings.
 
     Raises
     ------
     ValueError
-        If no line looks like headings, or a row does not have a cell for each of them.
+        If no line looks like headings, or a row has not one cell per heading.
     """
     at = _headings(file)
     if at is None:
@@ -43,7 +43,7 @@ def tables(file: LabFile) -> list[Table]:
         row = [cell for cell in cells(file, first, 1, separators(first)[0]) if cell.strip()]
         if row and all(map(is_number, row)):
             raise file.error(
-                "the file begins with numbers and does not say what they are; write headings with "
+                "the file begins with numbers without headings; write headings with "
                 "units above them, such as 'time [s], J [1/Pa]' or \"f [Hz], G' [Pa], G'' [Pa]\""
             )
         raise file.error(
@@ -63,7 +63,7 @@ def tables(file: LabFile) -> list[Table]:
 
 
 def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[str]:
-    """Return the cells of one line; quoted cells may hold the separator."""
+    """Split a line into cells; quoted cells may contain the separator."""
     if separator is None:
         return text.split() or [""]
     if separator == "\t" or '"' not in text:
@@ -72,7 +72,7 @@ def cells(file: LabFile, text: str, number: int, separator: str | None) -> list[
         row = next(csv.reader([text], delimiter=separator, strict=True, skipinitialspace=True))
         return row or [""]
     except (csv.Error, StopIteration):
-        raise file.error("a quotation mark is not closed", number) from None
+        raise file.error("a quotation mark is not closed; add the closing one", number) from None
 
 
 def first_line(
@@ -82,21 +82,21 @@ def first_line(
     known: Callable[[str], Any],
     sure: bool = False,
 ) -> tuple[int, str | None, list[str]] | None:
-    """Return number, separator and cells of the first line of headings.
+    """Return line number, separator and cells of the first line of headings.
 
     Parameters
     ----------
     file : LabFile
-        The text.
+        Content of the file.
     looked : int
-        Lines in which they are looked for.
+        Number of lines to search.
     heads : callable
-        Cells -> whether they are headings.
+        Predicate: whether cells are headings.
     known : callable
-        Cell -> what it means, None for nothing: of words with spaces between them most must mean
-        something, or the line is a sentence.
+        Meaning of a cell, or None. In a line split at spaces, most cells must have a meaning;
+        otherwise it is a sentence.
     sure : bool
-        Whether `heads` knows that without.
+        Whether `heads` is sufficient without this check.
     """
     for count, text in enumerate(file.lines[:looked], start=1):
         for separator in separators(text):
@@ -112,7 +112,7 @@ def first_line(
 
 
 def repeats(file: LabFile, line: int) -> list[range]:
-    """Return the lines, from 0, below each line that repeats the headings of one of them."""
+    """Return the ranges of lines (from 0) below each repetition of the headings."""
     # an instrument repeats the headings above each of its intervals
     same = file.lines[line - 1].strip()
     starts = [i for i, text in enumerate(file.lines, start=1) if text.strip() == same]
@@ -123,14 +123,14 @@ def repeats(file: LabFile, line: int) -> list[range]:
 def below(
     file: LabFile, lines: range, separator: str | None
 ) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
-    """Return the units, where a row has them, and the rows of numbered lines, from 0."""
+    """Return the units, if a row contains them, and the numbered rows (from 0)."""
     rows = [
         (i + 1, cells(file, file.lines[i], i + 1, separator))
         for i in lines
         if file.lines[i].strip() and not is_comment(file.lines[i])
     ]
     if lines.stop < len(file.lines):
-        # what stands above the next headings: "Result: ...", "Interval: 2"
+        # text above the next headings: "Result: ...", "Interval: 2"
         while rows and rows[-1][1][0].rstrip().endswith(":"):
             rows.pop()
     units = None
@@ -149,12 +149,12 @@ def _speaks_of_geometry(text: str) -> bool:
 
 
 def separators(text: str) -> list[str | None]:
-    """Return what may stand between the cells of a line; None for spaces."""
+    """Return the possible separators of a line; None for spaces."""
     return [mark for mark in _SEPARATORS if mark is None or mark in text]
 
 
 def is_comment(text: str) -> bool:
-    """Return whether a line is a remark."""
+    """Return whether a line is a comment."""
     return text.lstrip().startswith(("#", "%"))
 
 

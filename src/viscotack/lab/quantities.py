@@ -1,7 +1,7 @@
-"""Headings and units of laboratory tables, in the words and languages that instruments write.
+"""Headings and units of laboratory tables, in the words and languages of instruments.
 
-A heading is recognised or it is not; a unit is read from the file or asked for. Two traps are
-told apart on purpose: hertz from radians per second, and tensile (E) from shear (G) moduli.
+An unknown heading is ignored; a missing unit must be given by the caller. Hertz and radians per
+second, and tensile (E) and shear (G) moduli, are never confused silently.
 """
 
 import math
@@ -13,7 +13,7 @@ from functools import lru_cache
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-# quantity -> words; a word in capitals and small letters alike, without spaces, marks and accents
+# quantity -> words; case-insensitive, without spaces, marks and accents
 _WORDS = {
     "frequency": "freq frequency frequenz frequence frecuencia frequenza",
     "angular_frequency": "ω omega angularfrequency angfrequency angfreq kreisfrequenz "
@@ -38,12 +38,12 @@ _WORDS = {
     "log10_shift": "logat log(at) logshift logshiftfactor",
     "shift": "at shiftfactor",
     "vertical_shift": "bt verticalshiftfactor",
-    # read by nobody here: they tell a flow curve or a start-up from a test of a solid
+    # not read, but they identify flow curves and start-up tests
     "shear_rate": "shearrate strainrate scherrate scherrate rate gammadot γ̇",
     "viscosity": "viscosity shearviscosity viskosität eta η apparentviscosity",
 }
 _BY_WORD = {word: name for name, words in _WORDS.items() for word in words.split()}
-# where one letter stands for a quantity, its case tells which: T is a temperature, t a time
+# single letters are case-sensitive: T is a temperature, t a time
 _BY_LETTER = {
     "f": "frequency",
     "w": "angular_frequency",
@@ -52,7 +52,7 @@ _BY_LETTER = {
     "J": "compliance",
 }
 _GREEK = "ωδη"
-# symbols that also say tension or shear
+# symbols that also state tension or shear
 _BY_SYMBOL = {
     f"{letter}{mark}": (name, kind)
     for kind, letter in (("E", "e"), ("G", "g"))
@@ -71,13 +71,13 @@ _BY_SYMBOL = {
     "d(t)": ("compliance", "E"),
     "dcreep": ("compliance", "E"),
 }
-# permittivities are written so: a modulus of tension has a capital letter
+# lower-case symbols denote permittivities; a tensile modulus has a capital E
 _DIELECTRIC = {"e'", "e''", "ep", "epp"}
 _KIND_WORDS = {
     "E": ("tensile", "tension", "extensional", "youngs", "zug", "traction", "flexural", "axial"),
     "G": ("shear", "schub", "scher", "cisaillement", "cizalla"),
 }
-# what a line about the geometry of the test, or a column beside the moduli, tells about them
+# kind of modulus implied by a line on the geometry or by a neighbouring column
 _GEOMETRIES = {
     "E": ("tension", "tensile", "zug", "cantilever", "bending", "biegung", "compression", "druck"),
     "G": (
@@ -89,11 +89,11 @@ _QUOTES = str.maketrans({"’": "'", "‘": "'", "´": "'", "`": "'", "′": "'"
 BRACKET = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]")
 _SLASH = re.compile(r"(.*\S)\s*/\s*(\S+)")
 _WORD = re.compile(r"[^\W\d_]+")
-# what stands in a bracket behind a quantity and makes another quantity of it, no unit
+# qualifiers in brackets that define another quantity, not a unit
 _SORTS = {"cmd", "raw", "set", "std", "avg", "max", "min", "step"}
-_LONGEST_UNIT = 3  # letters; a longer word in a bracket that is no unit describes
+_LONGEST_UNIT = 3  # letters; a longer bracketed word that is not a unit is a description
 
-POSSIBLE = 0.0, 3000.0  # K: temperatures of a test lie between
+POSSIBLE = 0.0, 3000.0  # K: possible temperatures of a test
 _CELSIUS = {"°C", "ºC", "˚C", "oC", "C", "degC", "deg C", "Celsius", "℃"}
 _FAHRENHEIT = {"°F", "F", "degF", "Fahrenheit"}
 _NO_UNIT = {"", "-", "[-]", "1", "–"}
@@ -103,7 +103,7 @@ _PER_SECOND = {"1/s", "s^-1", "s-1", "s⁻¹", "/s"}
 
 @dataclass(frozen=True)
 class Heading:
-    """What a heading means: the quantity, the kind of modulus if it says so, and its unit."""
+    """Meaning of a heading: quantity, kind of modulus if stated, and unit."""
 
     quantity: str
     kind: str | None
@@ -111,7 +111,7 @@ class Heading:
 
 
 def recognise(text: str) -> Heading | None:
-    """Return what a heading means, or None for a column that is not needed.
+    """Return the meaning of a heading, or None for an unknown one.
 
     Examples
     --------
@@ -133,7 +133,7 @@ def recognise(text: str) -> Heading | None:
             name, rest = _named(match[1]), _named(match[2])
             if name is None:
                 continue
-            # "Storage modulus (E')": the bracket holds the symbol, not a unit
+            # "Storage modulus (E')": the bracket contains the symbol, not a unit
             if rest is not None and rest[0] == name[0]:
                 return Heading(name[0], name[1] or rest[1], "")
             # "Stress (step)" and "G*/sin(delta)" are other quantities
@@ -142,7 +142,7 @@ def recognise(text: str) -> Heading | None:
 
 
 def _with_suffix(text: str) -> Heading | None:
-    """Return what a heading such as ``time_s`` or ``omega_rad_s`` means."""
+    """Return the meaning of a heading with a unit suffix, such as ``time_s`` or ``omega_rad_s``."""
     for place in re.finditer("_", text):
         name, unit = _named(text[: place.start()]), text[place.end() :].replace("_", "/")
         if name is not None and unit and is_unit(unit):
@@ -151,7 +151,7 @@ def _with_suffix(text: str) -> Heading | None:
 
 
 def _may_be_unit(text: str) -> bool:
-    """Return whether text is a unit or looks like one that was misspelt."""
+    """Return whether text is a unit or resembles a misspelt one."""
     text = text.strip()
     if is_unit(text):
         return True
@@ -162,7 +162,7 @@ def _may_be_unit(text: str) -> bool:
 
 @lru_cache(maxsize=1000)
 def is_unit(text: str) -> bool:
-    """Return whether text is a unit that some column of a rheometer can have.
+    """Return whether text is a unit of some rheometer column.
 
     Examples
     --------
@@ -182,7 +182,7 @@ def is_unit(text: str) -> bool:
 
 
 def kind_of_geometry(text: str) -> str | None:
-    """Return "E" or "G" where words speak of tension or of shear, None for neither or both.
+    """Return "E" for words on tension, "G" for words on shear, None for neither or both.
 
     Examples
     --------
@@ -217,18 +217,18 @@ def _named(text: str) -> tuple[str, str | None] | None:
 
 
 def plain(text: str) -> str:
-    """Return a heading in small letters without spaces, underscores, hyphens, dots and accents."""
+    """Normalise a heading: lower case without spaces, underscores, hyphens, dots and accents."""
     text = unicodedata.normalize("NFKD", text.translate(_QUOTES)).casefold()
     return "".join(c for c in text if not unicodedata.combining(c) and c not in " \t_-.:\u00a0")
 
 
 def no_unit(unit: str) -> bool:
-    """Return whether a cell of the units row says that there is none."""
+    """Return whether a cell of the units row denotes a missing unit."""
     return bare(unit) in _NO_UNIT
 
 
 def bare(unit: str) -> str:
-    """Return a unit without spaces and brackets around it."""
+    """Remove spaces and brackets around a unit."""
     unit = unit.strip()
     if len(unit) > 1 and unit[0] + unit[-1] in ("[]", "()"):
         unit = unit[1:-1].strip()
@@ -236,7 +236,7 @@ def bare(unit: str) -> str:
 
 
 def scale(unit: str, target: str) -> float:
-    """Return the factor that takes numbers in a unit to the target unit in SI.
+    """Return the conversion factor from a unit to a target unit in SI.
 
     Examples
     --------
@@ -254,7 +254,7 @@ def scale(unit: str, target: str) -> float:
 
 
 def kelvin(unit: str) -> tuple[float, float]:
-    """Return the factor and the offset that take a temperature to kelvin."""
+    """Return the factor and the offset that convert a temperature to kelvin."""
     unit = bare(unit)
     if unit in _CELSIUS:
         return 1.0, 273.15
@@ -266,21 +266,21 @@ def kelvin(unit: str) -> tuple[float, float]:
 
 
 def in_kelvin(number: float, unit: str) -> float:
-    """Return a temperature in a unit as kelvin."""
+    """Convert a temperature to kelvin."""
     factor, offset = kelvin(unit)
     return number * factor + offset
 
 
 def radians_per_second(unit: str, *, angular: bool) -> float:
-    """Return the factor that takes a frequency to rad/s.
+    """Return the conversion factor from a frequency to rad/s.
 
     Parameters
     ----------
     unit : str
         Such as ``"Hz"`` or ``"rad/s"``.
     angular : bool
-        Whether the heading speaks of an angular frequency. A frequency in 1/s may be either, so
-        it is refused; an angular frequency in hertz contradicts itself.
+        Whether the heading denotes an angular frequency. A frequency in 1/s is ambiguous and is
+        rejected; an angular frequency in hertz is contradictory and is rejected too.
 
     Examples
     --------
@@ -294,13 +294,13 @@ def radians_per_second(unit: str, *, angular: bool) -> float:
         if angular:
             return 1.0
         raise InputError(
-            "a frequency in 1/s may be in Hz or in rad/s; say --frequency-unit Hz or rad/s"
+            "a frequency in 1/s may be in Hz or in rad/s; set --frequency-unit Hz or rad/s"
         )
-    # to the unit library hertz and radians per second are the same: tell them apart by name
+    # the unit library equates hertz and radians per second: compare names
     if unit.endswith("Hz"):
         if angular:
             raise InputError(
-                "the heading says angular frequency, the unit says Hz; correct one of them"
+                "the heading states an angular frequency but the unit is Hz; correct one of them"
             )
         return 2 * math.pi * scale(unit, "Hz")
     if unit in ("rpm", "1/min", "min^-1"):

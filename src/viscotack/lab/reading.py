@@ -1,7 +1,7 @@
-"""Read a laboratory's file: find out its format, say so, and return numbers in SI.
+"""Read laboratory files: detect the format, note it, and return numbers in SI.
 
-What a file does not say is asked for by the name of the flag of ``viscotack material fit``; the
-parameters here have the same names, ``--modulus-unit`` is `modulus_unit`.
+If a file lacks information, the error names the option of ``viscotack material fit`` that supplies
+it; the parameters here have the same names, for example ``--modulus-unit`` and `modulus_unit`.
 """
 
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ from .sweeps import CreepTest, FrequencySweeps, RelaxationTest, ShiftTable
 Path = str | PathLike[str]
 Test = FrequencySweeps | RelaxationTest | CreepTest
 
-# format -> the module that knows its layout, in the order in which they are tried
+# format -> module that reads its layout, in order of detection
 FORMATS: dict[str, ModuleType] = {
     "eplexor": workbook_layout,
     "workbook": workbook_layout,
@@ -61,16 +61,50 @@ def read(
     temperature_in_name: bool = False,
     decimal: str | None = None,
 ) -> Test | tuple[RelaxationTest, ...] | tuple[CreepTest, ...]:
-    """Return the test that a file holds: sweeps, stress relaxation or creep.
+    r"""Read the test in a file: frequency sweeps, stress relaxation or creep.
 
-    Parameters are those of :func:`read_dma`. Which test it is its columns say; where stress and
-    strain are both there, the one that is held. Sweeps go before steps of other kinds. Steps at
-    several temperatures are a tuple of tests, from cold to hot.
+    The columns identify the test; if both stress and strain are present, the one held constant
+    does. Sweeps take precedence over step tests. Step tests at several temperatures are returned
+    as a tuple, from cold to hot.
+
+    Parameters
+    ----------
+    path : path-like, or sequence of them
+        Text files or workbooks of one material, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if the file does not state it or has both.
+    temperature : float, optional
+        Temperature of all points [K], if the file does not state it.
+    frequency_unit, modulus_unit, time_unit, temperature_unit : str, optional
+        Units that the file does not state.
+    temperature_in_name : bool
+        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    FrequencySweeps, RelaxationTest, CreepTest, or tuple of tests
+        In SI; ``source.notes`` lists all decisions.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if it holds none of them, or steps of both kinds.
+        As :func:`read_dma`; also if the file contains none of these tests, or both step tests.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "t,G(t)\ns,MPa\n1,4\n10,2\n100,1\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "film.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read(file)
+    >>> type(found).__name__, found.kind
+    ('RelaxationTest', 'G')
     """
     units = Units(frequency_unit, modulus_unit, time_unit, temperature_unit, decimal)
     opened = _opened(path, format, kind, temperature, units, temperature_in_name)
@@ -85,9 +119,9 @@ def read(
     if {"relaxation", "creep"} <= tests:
         file = opened[0].file
         if len(opened) > 1:
-            raise InputError("some files are relaxation, others creep tests; read them apart")
+            raise InputError("some files are relaxation, others creep tests; read them separately")
         raise file.error(
-            "it holds a relaxation and a creep test; say --test relaxation or --test creep"
+            "the file contains a relaxation and a creep test; set --test relaxation or --test creep"
         )
     if "relaxation" in tests:
         found = _each(RelaxationTest, opened)
@@ -109,55 +143,56 @@ def read_dma(
     temperature_in_name: bool = False,
     decimal: str | None = None,
 ) -> FrequencySweeps:
-    r"""Return the frequency sweeps of a dynamic mechanical analysis or of a rheometer.
+    r"""Read the frequency sweeps of a dynamic mechanical analyser or a rheometer.
 
     Parameters
     ----------
     path : path-like, or sequence of them
         A text file (plain table, wide table, TA TRIOS, Anton Paar RheoCompass, RepTate, pyvisco)
-        or a workbook (Netzsch Gabo Eplexor, or one like it; extra ``lab``). Several files are
+        or a workbook (Netzsch Gabo Eplexor or similar; extra ``lab``). Several files are
         sweeps of one material.
     format : str, optional
-        One of :data:`FORMATS`; otherwise it is found out from the content and noted.
+        One of :data:`FORMATS`; by default it is detected from the content and noted.
     kind : {"E", "G"}, optional
-        Tensile or shear modulus, where neither the headings nor the words around them say it, or
-        which one to take where the file has both.
+        Tensile or shear modulus, if neither the headings nor the text around them state it, or
+        to select one if the file has both.
     temperature : float, optional
-        Temperature of all points [K], where the file does not say.
+        Temperature of all points [K], if the file does not state it.
     frequency_unit : str, optional
-        ``"Hz"`` or ``"rad/s"``, where the file does not say or says 1/s. An angular frequency
-        without a unit is taken in rad/s, with a note.
+        ``"Hz"`` or ``"rad/s"``, if the file states no unit or 1/s. An angular frequency
+        without a unit is assumed to be in rad/s, with a note.
     modulus_unit : str, optional
-        Such as ``"MPa"``, where the file does not say.
+        Such as ``"MPa"``, if the file states no unit.
     time_unit : str, optional
-        Such as ``"s"``, where the file does not say.
+        Such as ``"s"``, if the file states no unit.
     temperature_unit : str, optional
-        ``"degC"``, ``"K"`` or ``"degF"``, where a column or a number above columns has none.
+        ``"degC"``, ``"K"`` or ``"degF"``, if a column or a number above columns has no unit.
     temperature_in_name : bool
-        Whether the temperature stands in the name of the file, as in ``foam_-25C.csv``.
+        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
     decimal : {".", ","}, optional
-        Decimal mark, where numbers such as ``1,234`` leave it open.
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
 
     Returns
     -------
     FrequencySweeps
-        In SI; ``source.notes`` says everything that was decided.
+        In SI; ``source.notes`` lists all decisions.
 
     Raises
     ------
     ValueError
-        If the file cannot be understood: it names the file, the line and what was expected.
+        If the file cannot be interpreted; the message names the file, the line and what was
+        expected.
     OSError
         If the file cannot be opened.
 
     Notes
     -----
-    What is found out about a damaged file: a missing or added cell, a number that is none, a
-    count of points that is not met, tan(delta) or \|E*\| that contradict the moduli by more than
-    2 %, hertz and rad/s that contradict each other, impossible values. A last line without a line
-    end is left out, because a number cut short looks like another number. What cannot be found
-    out: one digit changed in a number that the file holds once, and whole rows lost from a file
-    that does not count them.
+    Detected damage: a missing or extra cell, a malformed number, a wrong
+    count of points, tan(delta) or \|E*\| that contradict the moduli by more than
+    2 %, contradictory hertz and rad/s, impossible values. A last line without a line
+    end is ignored, because a truncated number looks like another number. Undetectable damage:
+    a changed digit in a number that occurs once, and whole rows missing from a file
+    without a count of points.
 
     Examples
     --------
@@ -187,15 +222,47 @@ def read_relaxation(
     temperature_unit: str | None = None,
     decimal: str | None = None,
 ) -> RelaxationTest:
-    """Return a stress relaxation test: time and modulus, or stress over strain.
+    r"""Read a stress relaxation test: time and modulus, or stress over strain.
 
-    Parameters are those of :func:`read_dma`. A time of the step is taken before a time of the
-    whole test; rows at time zero are left out, with a note.
+    A time since the step takes precedence over a time
+    of the whole test; rows at time zero are ignored, with a note.
+
+    Parameters
+    ----------
+    path : path-like
+        Text file or workbook, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if the file does not state it or has both.
+    temperature : float, optional
+        Temperature of all points [K], if the file does not state it.
+    modulus_unit, time_unit, temperature_unit : str, optional
+        Units that the file does not state; `modulus_unit` is that of a stress as well.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    RelaxationTest
+        In SI.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if there is not exactly one table of this kind.
+        As :func:`read_dma`; also unless the file has exactly one table of this kind.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "t,G(t)\ns,MPa\n1,4\n10,2\n100,1\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "film.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read_relaxation(file)
+    >>> found.kind, found.modulus.tolist()
+    ('G', [4000000.0, 2000000.0, 1000000.0])
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
     (opened,) = _opened([path], format, kind, temperature, units, False)
@@ -213,14 +280,44 @@ def read_creep(
     temperature_unit: str | None = None,
     decimal: str | None = None,
 ) -> CreepTest:
-    """Return a creep test: time and compliance, or strain over stress.
+    r"""Read a creep test: time and compliance, or strain over stress.
 
-    Parameters are those of :func:`read_dma`; `modulus_unit` is that of the stress.
+    Parameters
+    ----------
+    path : path-like
+        Text file or workbook, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if the file does not state it or has both.
+    temperature : float, optional
+        Temperature of all points [K], if the file does not state it.
+    modulus_unit, time_unit, temperature_unit : str, optional
+        Units that the file does not state; `modulus_unit` is that of a stress as well.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    CreepTest
+        In SI.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if there is not exactly one table of this kind.
+        As :func:`read_dma`; also unless the file has exactly one table of this kind.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "t,J\ns,1/Pa\n1,1e-6\n10,2e-6\n100,4e-6\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "film.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read_creep(file, kind="G")
+    >>> found.kind, found.compliance.tolist()
+    ('G', [1e-06, 2e-06, 4e-06])
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
     (opened,) = _opened([path], format, kind, temperature, units, False)
@@ -239,15 +336,49 @@ def read_relaxations(
     temperature_in_name: bool = False,
     decimal: str | None = None,
 ) -> tuple[RelaxationTest, ...]:
-    """Return the relaxation tests of a file or several, one for each temperature, cold to hot.
+    r"""Read the relaxation tests of one or more files, one per temperature, from cold to hot.
 
-    Parameters are those of :func:`read_dma`. Points within 1 K are one temperature. Rows whose
-    time never begins again are one test, as :func:`read_relaxation` reads it.
+    Points within 1 K have one temperature. Rows with
+    monotonic time are one test, as in :func:`read_relaxation`.
+
+    Parameters
+    ----------
+    path : path-like, or sequence of them
+        Text files or workbooks of one material, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if the file does not state it or has both.
+    temperature : float, optional
+        Temperature of all points [K], if the file does not state it.
+    modulus_unit, time_unit, temperature_unit : str, optional
+        Units that the file does not state; `modulus_unit` is that of a stress as well.
+    temperature_in_name : bool
+        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    tuple of RelaxationTest
+        In SI, from cold to hot.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if a file has not exactly one table of this kind.
+        As :func:`read_dma`; also unless each file has exactly one table of this kind.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "T,t,G(t)\nC,s,MPa\n20,1,4\n20,10,2\n0,1,8\n0,10,4\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "film.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read_relaxations(file)
+    >>> [round(test.temperature, 2) for test in found]
+    [273.15, 293.15]
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
     opened = _opened(path, format, kind, temperature, units, temperature_in_name)
@@ -266,15 +397,49 @@ def read_creeps(
     temperature_in_name: bool = False,
     decimal: str | None = None,
 ) -> tuple[CreepTest, ...]:
-    """Return the creep tests of a file or several, one for each temperature, cold to hot.
+    r"""Read the creep tests of one or more files, one per temperature, from cold to hot.
 
-    Parameters are those of :func:`read_dma`. Points within 1 K are one temperature. Rows whose
-    time never begins again are one test, as :func:`read_creep` reads it.
+    Points within 1 K have one temperature. Rows with
+    monotonic time are one test, as in :func:`read_creep`.
+
+    Parameters
+    ----------
+    path : path-like, or sequence of them
+        Text files or workbooks of one material, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    kind : {"E", "G"}, optional
+        Tensile or shear modulus, if the file does not state it or has both.
+    temperature : float, optional
+        Temperature of all points [K], if the file does not state it.
+    modulus_unit, time_unit, temperature_unit : str, optional
+        Units that the file does not state; `modulus_unit` is that of a stress as well.
+    temperature_in_name : bool
+        Whether to read the temperature from the file name, as in ``foam_-25C.csv``.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    tuple of CreepTest
+        In SI, from cold to hot.
 
     Raises
     ------
     ValueError
-        As :func:`read_dma`; also if a file has not exactly one table of this kind.
+        As :func:`read_dma`; also unless each file has exactly one table of this kind.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "T,t,J\nC,s,1/Pa\n20,1,1e-6\n20,10,2e-6\n0,1,5e-7\n0,10,1e-6\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "film.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read_creeps(file, kind="G")
+    >>> [round(test.temperature, 2) for test in found]
+    [273.15, 293.15]
     """
     units = Units(None, modulus_unit, time_unit, temperature_unit, decimal)
     opened = _opened(path, format, kind, temperature, units, temperature_in_name)
@@ -288,16 +453,44 @@ def read_shifts(
     temperature_unit: str | None = None,
     decimal: str | None = None,
 ) -> ShiftTable:
-    """Return a table of shift factors: temperature and log_aT, or aT and perhaps bT.
+    r"""Read a table of shift factors: temperature and log_aT, or aT and optionally bT.
 
-    A shift is positive in the logarithm where the solid is slower than at the reference
-    temperature, as pyvisco and RepTate write it. One that rises with temperature is refused: it
-    is 1/a_T.
+    log10 a_T is positive where the solid is slower than at the reference
+    temperature, as in pyvisco and RepTate. A shift that rises with temperature is rejected, because
+    it is 1/a_T.
+
+    Parameters
+    ----------
+    path : path-like
+        Text file or workbook, see :func:`read_dma`.
+    format : str, optional
+        One of :data:`FORMATS`; by default it is detected from the content.
+    temperature_unit : str, optional
+        ``"degC"``, ``"K"`` or ``"degF"``, if the file does not state it.
+    decimal : {".", ","}, optional
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
+
+    Returns
+    -------
+    ShiftTable
+        log10 a_T, and log10 b_T if the file has it.
 
     Raises
     ------
     ValueError
         As :func:`read_dma`.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> table = "T,log_aT\nC,-\n20,0\n0,2.1\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "shifts.csv")
+    ...     _ = file.write_text(table)
+    ...     found = read_shifts(file)
+    >>> found.log10_shift.tolist()
+    [2.1, 0.0]
     """
     file, _, tables = _tables(path, format)
     units = Units(temperature=temperature_unit, decimal=decimal)
@@ -305,7 +498,7 @@ def read_shifts(
 
 
 class _Opened(NamedTuple):
-    """A file in tables, and what is said about it: what every reader of a test takes."""
+    """Tables of a file and the caller's options, the input of every reader of tests."""
 
     file: LabFile
     format: str
@@ -321,13 +514,13 @@ def _opened(
     units: Units,
     temperature_in_name: bool,
 ) -> list[_Opened]:
-    """Return one file or several, each with the temperature that is said of it."""
+    """Open one or more files, each with the temperature given by the caller."""
     _given(kind, temperature, units)
     paths = [path] if isinstance(path, str | PathLike) else list(path)
     if not paths:
-        raise InputError("there is no file to read")
+        raise InputError("no file to read; give one or more paths")
     if temperature is not None and temperature_in_name:
-        raise InputError("--temperature and --temperature-in-name: say one of them")
+        raise InputError("give either --temperature or --temperature-in-name, not both")
     opened = []
     for one in paths:
         file, found, tables = _tables(one, format)
@@ -346,13 +539,13 @@ def _tables(path: Path, format: str | None) -> tuple[LabFile, str, list[Table]]:
     file = load(path)
     found = format_of(file, FORMATS, format, "csv")
     tables = FORMATS[found].tables(file)
-    said = () if format is not None else (f"format found out: {found}",)
+    said = () if format is not None else (f"detected format: {found}",)
     cut = () if found == "trios-json" else file.left_out
     return replace(file, notes=(*said, *file.notes, *cut)), found, tables
 
 
 def _given(kind: str | None, temperature: float | None, units: Units) -> assembly.Given:
-    """Refuse what a caller says wrongly before the file is blamed for it."""
+    """Check the caller's options before the file."""
     if kind is not None and kind not in KINDS:
         raise InputError(f"--kind must be E (tensile) or G (shear), got {kind!r}")
     if units.decimal not in (None, ".", ","):

@@ -1,9 +1,9 @@
 """Layout of RepTate's text files: parameters in the first line, then columns.
 
-The end of the name says what the first columns are, and only they count: ``.tts`` and ``.osc``
-hold omega, G' and G'', ``.gt`` holds t and the stress after a step of strain ``gamma``, ``.creep``
-holds t and the strain under ``stress``, ``.ttsf`` holds T, aT and bT. The format fixes the units:
-rad/s, Pa, s and C. What follows the first columns may be anything, of any width.
+The file extension defines the first columns; further columns are ignored: ``.tts`` and ``.osc``
+contain omega, G' and G'', ``.gt`` contains t and the stress after a step of strain ``gamma``,
+``.creep`` contains t and the strain under ``stress``, ``.ttsf`` contains T, aT and bT. The units
+are fixed: rad/s, Pa, s and C.
 """
 
 import re
@@ -12,9 +12,9 @@ from pathlib import PurePath
 import numpy as np
 
 from .columns import Table, tabulated
-from .doubts import doubtful_temperature
 from .lab_file import LabFile
 from .quantities import bare, recognise
+from .unit_checks import doubtful_temperature
 
 _PARAMETERS = re.compile(r"\s*([\w()\[\],]+\s*=[^;=]*;\s*)+([\w()\[\],]+\s*=[^;=]*)?;?\s*")
 _ONE = re.compile(r"\s*\w+\s*=[^;=\s]*\s*;?\s*")
@@ -27,7 +27,7 @@ _COLUMNS = {
     ".creep": (("t", "s"), ("shear strain", "-")),
     ".ttsf": (("T", "C"), ("aT", "-"), ("bT", "-")),
 }
-# files of the same layout that hold no linear viscoelastic test
+# files of the same layout without a linear viscoelastic test
 _OTHERS = {
     ".shear": "the start-up of shear flow",
     ".uext": "the start-up of extensional flow",
@@ -41,11 +41,11 @@ _OTHERS = {
     ".sans": "a scattering experiment",
     ".rouse": "the correlations of a simulated chain",
 }
-_OFF = 5.0  # K between the temperature of the file and that of its points
+_OFF = 5.0  # K largest difference between the temperatures of the file and of its points
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if neither name nor first line is of its kind."""
+    """Return the name of the format, or None if neither extension nor first line matches it."""
     ends = _ending(file)
     if ends in _OTHERS:
         return "reptate"
@@ -55,15 +55,15 @@ def name(file: LabFile) -> str | None:
 
 
 def tables(file: LabFile) -> list[Table]:
-    """Return the one table of a file.
+    """Return the table of a file.
 
     Raises
     ------
     ValueError
-        If the first line has no parameters, or a row does not have enough numbers.
+        If the first line has no parameters, or a row has too few numbers.
     """
     if what := _OTHERS.get(_ending(file)):
-        raise file.error(f"a {_ending(file)} file of RepTate holds {what}, no modulus")
+        raise file.error(f"a {_ending(file)} file of RepTate contains {what}, not a modulus")
     if name(file) is None:
         raise file.error("expected parameters such as 'Mw=94.9;T=0;chem=PI;'", 1)
     pairs = (part.partition("=") for part in file.lines[0].split(";"))
@@ -92,19 +92,19 @@ def _table(
     kelvin = _kelvin(file, parameters.get("T"))
     _check_headings(file, above, fixed)
     if _ending(file) == ".creep" and _number(parameters.get("rec", "0")):
-        raise file.error("rec=1: the recovery after creep, which is no creep compliance", 1)
+        raise file.error("rec=1: recovery after creep, not a creep compliance", 1)
     whole = len(above[0]) if above else count
     for line, cells in rows:
         if len(cells) < min(whole, count + 1):
             raise file.error(
-                f"{len(cells)} numbers where the headings have {whole}; a number is missing, or "
-                "the file is cut",
+                f"{len(cells)} numbers under {whole} headings; a number is missing, or "
+                "the file is truncated",
                 line,
             )
     if above and kelvin is not None:
         _check_temperatures(file, above[0], rows, kelvin, count)
     levels = {}
-    notes = [f"the first {count} columns are read, in the units of the format: {_words(fixed)}"]
+    notes = [f"used the first {count} columns, in the units of the format: {_words(fixed)}"]
     if _ending(file) == ".gt":
         levels["strain"] = _level(file, parameters, "gamma", 1.0)
     if _ending(file) == ".creep":
@@ -126,14 +126,14 @@ def _words(fixed: tuple[tuple[str, str], ...]) -> str:
 
 
 def _by_headings(file: LabFile, above: list[list[str]]) -> tuple[tuple[str, str], ...]:
-    """Return the columns of a file with another ending, if its headings are those of a format."""
+    """Identify the columns of a file with another extension from its headings."""
     quantities = [_quantity(heading) for heading in above[0]] if above else []
     for fixed in _COLUMNS.values():
         if [_quantity(name) for name, _ in fixed] == quantities[: len(fixed)]:
             return fixed
     raise file.error(
-        "the file begins like one of RepTate; name it .tts or .osc (omega, G', G''), .gt (t, G), "
-        ".creep (t, strain) or .ttsf (T, aT, bT), so that its columns are known",
+        "the file looks like a RepTate file; name it .tts or .osc (omega, G', G''), .gt (t, G), "
+        ".creep (t, strain) or .ttsf (T, aT, bT) to define its columns",
         1,
     )
 
@@ -148,16 +148,16 @@ def _quantity(heading: str) -> str | None:
 def _check_headings(
     file: LabFile, above: list[list[str]], fixed: tuple[tuple[str, str], ...]
 ) -> None:
-    """Refuse headings or units that name something else than the format has there."""
+    """Raise an error if headings or units contradict those of the format."""
     for i, (name, unit) in enumerate(fixed):
         heading = above[0][i] if above and i < len(above[0]) else ""
         given, expected = _quantity(heading), _quantity(name)
-        # "sxy", "gamma" and other words are left to the format; a modulus is a stress of strain 1
+        # other words ("sxy", "gamma") are not checked; a modulus is a stress at unit strain
         if given not in (None, expected) and (given, expected) != ("modulus", "stress"):
-            raise file.error(f"column {i + 1} is headed {heading!r}; the format has {name!r} there")
+            raise file.error(f"column {i + 1} has the heading {heading!r}; expected {name!r}")
         below = above[1][i] if len(above) > 1 and i < len(above[1]) else ""
         if below and not _same_unit(below, unit):
-            raise file.error(f"column {i + 1} is in {below!r}; the format has {unit!r} there")
+            raise file.error(f"column {i + 1} has the unit {below!r}; expected {unit!r}")
 
 
 def _same_unit(given: str, fixed: str) -> bool:
@@ -174,27 +174,27 @@ def _check_temperatures(
     kelvin: float,
     count: int,
 ) -> None:
-    """Refuse a row whose own temperature, behind the first columns, is not that of the file."""
+    """Raise an error if the temperature column contradicts the temperature of the file."""
     if len(headings) <= count or _quantity(headings[count]) != "temperature":
         return
     for line, cells in rows:
         own = _number(cells[count]) if len(cells) > count else None
         if own is not None and abs(own + 273.15 - kelvin) > _OFF:
             raise file.error(
-                f'"{headings[count]}" is {own:g} where the file says T={kelvin - 273.15:g} C: a '
-                "number is missing, or the file is of another test",
+                f'"{headings[count]}" is {own:g} but the file states T={kelvin - 273.15:g} C: a '
+                "number is missing, or the file belongs to another test",
                 line,
             )
 
 
 def _level(file: LabFile, parameters: dict[str, str], key: str, default: float | None) -> float:
-    """Return the step that a test was made with; RepTate takes a strain of zero as 1."""
+    """Return the step of a test; RepTate interprets a strain of zero as 1."""
     text = parameters.get(key, "0")
     level = _number(text)
     if level is None or level < 0:
         raise file.error(f"expected a positive number after '{key}=', got {text!r}", 1)
     if level == 0 and default is None:
-        raise file.error(f"the first line must say the step of the test, such as '{key}=100;'", 1)
+        raise file.error(f"the first line must state the step of the test, such as '{key}=100;'", 1)
     return level or default or 1.0
 
 

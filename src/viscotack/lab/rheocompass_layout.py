@@ -1,10 +1,10 @@
 """Layout of Anton Paar RheoCompass exports: intervals, each with its number of points.
 
-In any language of the instrument an interval begins with a line of a label and two whole
-numbers, its own number and that of its points. Below come the headings after a second label, a
-line that may be empty, the units in square brackets, and the rows. The first column is empty; some
-exports leave it out in the rows. A line such as ``Temperature: 25.0 °C`` may stand above all or
-above the headings of one interval.
+In every language of the instrument, an interval begins with a line of a label and two integers,
+its number and its count of points. The headings follow after a second label, then an optional
+empty line, the units in square brackets, and the rows. The first column is empty; some
+exports omit it in the rows. A line such as ``Temperature: 25.0 °C`` may precede all intervals or
+the headings of one interval.
 """
 
 import re
@@ -20,7 +20,7 @@ Row = tuple[int, list[str]]
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if there is no interval."""
+    """Return the name of the format, or None if the file has no interval."""
     separator = _separator(file)
     return "rheocompass" if separator is not None else None
 
@@ -31,8 +31,8 @@ def tables(file: LabFile) -> list[Table]:
     Raises
     ------
     ValueError
-        If there is no interval, an interval has no headings or units, a row does not have a cell
-        for each heading, or an interval has not as many rows as it says.
+        If there is no interval, an interval has no headings or units, a row has not one cell
+        per heading, or the number of rows differs from the stated count.
     """
     separator = _separator(file)
     if separator is None:
@@ -70,9 +70,11 @@ def _interval(file: LabFile, rows: list[Row], words: str, stated: float | None) 
         data.append((number, row))
     if len(data) != count:
         raise file.error(
-            f"the interval says {count} points and has {len(data)}: the file is cut or edited", line
+            f"the interval states {count} points but has {len(data)}; the file is truncated or "
+            "edited",
+            line,
         )
-    # the label in front of the headings is no heading
+    # skip the label in front of the headings
     headings, unit_cells = ["", *rows[at][1][1:]], rows[units][1]
     if all(len(row) == len(headings) - 1 and row[0].strip() for _, row in data):
         headings, unit_cells = headings[1:], unit_cells[1:]

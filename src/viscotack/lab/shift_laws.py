@@ -1,4 +1,4 @@
-"""Laws of time-temperature shift that fit a table of shift factors."""
+"""Fit laws of time-temperature shift (WLF, Arrhenius) to tables of shift factors."""
 
 import math
 
@@ -11,30 +11,30 @@ from viscotack.materials.shift import WLF, Arrhenius, FittedShift, wlf_decades
 
 from .sweeps import ShiftTable
 
-_MISSED = 0.1  # decades from a row that a law may miss however sure the row is
-_UNCERTAIN = 0.01  # decades: scatter of a shift beside what its table says
+_MISSED = 0.1  # decades: deviation from a row that is always tolerated
+_UNCERTAIN = 0.01  # decades: scatter of a shift in addition to its stated uncertainty
 
 
 def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
-    """Return the WLF law nearest to a table of shifts, by weighted least squares.
+    """Fit the WLF law to a table of shifts by weighted least squares.
 
     Parameters
     ----------
     table : ShiftTable
-        Three or more temperatures, shifts relative to any one temperature.
+        Three or more temperatures; shifts relative to any temperature.
     reference_temperature : float
-        T0 of the law [K]. It need not be a row; c1 and c2 belong to it.
+        T0 of the law [K], not necessarily a row; c1 and c2 refer to it.
 
     Returns
     -------
     FittedShift
-        Standard errors from the curvature and the larger of the stated and the found scatter.
+        Standard errors from the curvature and the larger of the stated and the fitted scatter.
 
     Raises
     ------
     ValueError
-        If there are fewer than three rows, or the shifts do not bend as the law does: then
-        Arrhenius, or a part of the table, may serve.
+        If there are fewer than three rows, or the shifts have the wrong curvature; then fit
+        Arrhenius, or a part of the table.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
         return wlf_decades(above, c1, c2), c1, c2
 
     def residual(q: Array) -> Array:
-        # the table's own zero is free: its reference need not be that of the law
+        # fit the zero as well: the table may have another reference temperature
         return weight * (q[2] + shape(q)[0] - table.log10_shift)
 
     offset = float(np.interp(reference_temperature, table.temperature, table.log10_shift))
@@ -67,8 +67,8 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
     values, c1, c2 = shape(best.x)
     if c2 > 1e4 or c1 > 5e3 or c1 < 0.06:
         raise InputError(
-            "the shifts do not bend as a WLF law does; fit Arrhenius, or the part of the table "
-            "above the glass transition"
+            "the curvature of the shifts contradicts a WLF law; fit Arrhenius, or the part of the "
+            "table above the glass transition"
         )
     # chain rule from ln c1 and ln(c2 + coldest)
     scale = np.array([c1, c2 + coldest])
@@ -78,14 +78,19 @@ def fit_wlf(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
 
 
 def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedShift:
-    """Return the Arrhenius law nearest to a table of shifts, by weighted least squares.
+    """Fit the Arrhenius law to a table of shifts by weighted least squares.
 
     Parameters
     ----------
     table : ShiftTable
-        Two or more temperatures, shifts relative to any one temperature.
+        Two or more temperatures; shifts relative to any temperature.
     reference_temperature : float
         T0 of the law [K]; the activation energy does not depend on it.
+
+    Returns
+    -------
+    FittedShift
+        Law, standard errors and misfit.
 
     Raises
     ------
@@ -108,7 +113,7 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
     if found[0] <= 0:
         raise InputError(
             f"the shift rises with temperature (activation energy {found[0]:.3g} J/mol); "
-            "log10 a_T is positive where the solid is slower, that is in the cold"
+            "log10 a_T must be positive where the solid is slower, at low temperature"
         )
     difference = table.log10_shift - columns @ found
     covariance = _covariance(columns * weight[:, None], difference * weight)
@@ -117,11 +122,16 @@ def fit_arrhenius(table: ShiftTable, *, reference_temperature: float) -> FittedS
 
 
 def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShift | None:
-    """Return the WLF or Arrhenius law that is nearer to a table; None where neither fits.
+    """Return the WLF or Arrhenius law that fits a table better; None if neither fits.
 
-    Three constants of WLF (its zero is one) must earn their keep against the two of Arrhenius, by
-    Schwarz's criterion. A law that misses a row by more than three of its standard deviations and
-    a tenth of a decade is none.
+    Schwarz's criterion decides between the three constants of WLF (including the zero) and the two
+    of Arrhenius. A law is rejected if it deviates from a row by more than three standard deviations
+    and by more than 0.1 decades.
+
+    Returns
+    -------
+    FittedShift or None
+        Law, standard errors and misfit.
 
     Examples
     --------
@@ -135,7 +145,7 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
         try:
             found = kind(table, reference_temperature=reference_temperature)
         except ValueError:
-            continue  # its reason is no news: the other law may fit
+            continue  # try the other law
         off = _off(table, found.law) / _deviation(table)
         if np.all(np.abs(off) < 3) or abs(found.worst[1]) < _MISSED:
             fits.append((float(off @ off) + constants * math.log(len(table)), found))
@@ -143,7 +153,7 @@ def nearest_law(table: ShiftTable, *, reference_temperature: float) -> FittedShi
 
 
 def _off(table: ShiftTable, law: WLF | Arrhenius) -> Array:
-    """Return log10 a_T of the table less that of the law, its own zero taken off."""
+    """Return log10 a_T of the table minus the law, with the fitted zero subtracted."""
     difference = table.log10_shift - np.asarray(law.log10_shift(table.temperature))
     weight = _deviation(table) ** -2.0
     return difference - float(weight @ difference / np.sum(weight))
@@ -156,7 +166,7 @@ def _deviation(table: ShiftTable) -> Array:
 
 
 def _covariance(jacobian: Array, residual: Array) -> Array:
-    """Return the covariance, widened where the scatter is larger than what the table says."""
+    """Return the covariance, scaled up if the scatter exceeds the stated uncertainty."""
     freedom = residual.size - jacobian.shape[1]
     excess = max(1.0, float(residual @ residual) / freedom) if freedom > 0 else 1.0
     return np.asarray(excess * np.linalg.pinv(jacobian.T @ jacobian), dtype=float)

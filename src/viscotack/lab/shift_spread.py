@@ -1,4 +1,4 @@
-"""What uncertain shifts do to a fit: the same fit to curves that the shifts allow as well."""
+"""Propagate the uncertainty of shift factors to a fit by refitting shifted curves."""
 
 from dataclasses import replace
 from statistics import NormalDist
@@ -15,28 +15,46 @@ from .observed import observed, only
 from .sweeps import MasterCurve, ShiftTable
 
 _DRAWS = 12
-_WORTH = 1.05  # of a half-width: less is not worth a sentence
+_WORTH = 1.05  # ratio of half-widths above which a caution is added
 
 
 def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0) -> FitReport:
-    """Return a report whose intervals hold the uncertainty of the shifts as well.
+    """Widen the intervals of a report by the uncertainty of the shifts.
 
     Parameters
     ----------
     report : FitReport
         A fit to `data`.
     data : MasterCurve or another measurement
-        What was fitted; a test over time stays as it is.
+        Fitted data; tests over time leave the report unchanged.
     shifts : ShiftTable or a law
-        Its uncertainty is what counts; without one the report stays as it is.
+        Shifts with their uncertainty; without one the report is unchanged.
     seed : int
-        Of the shifts that are drawn.
+        Seed of the random shifts.
+
+    Returns
+    -------
+    FitReport
+        With wider intervals, and a caution if they are much wider.
 
     Notes
     -----
-    Twelve tables are drawn, whose steps from row to row err apart, the master curve is shifted
-    anew by each and the same law fitted. The spread of ln(constant) is added in quadrature to the
-    half-width of its interval. The band of the report does not know of it.
+    Twelve tables with independent errors of the steps between rows are sampled. Each shifts the
+    master curve, and the same law is fitted again. The spread of ln(constant) is added in
+    quadrature to the half-width of its interval. The band of the report is not widened.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from viscotack.lab import MasterCurve, fit
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1e6, glassy_modulus=1e7, tau0=0.1, poisson_ratio=0.5)
+    >>> omega = np.geomspace(0.1, 1e4, 16)
+    >>> modulus = solid.complex_modulus(omega)
+    >>> curve = MasterCurve(293.15, omega, modulus.real, modulus.imag, "E")
+    >>> report = fit(curve, poisson_ratio=0.5, model="sls")
+    >>> allow_for_shifts(report, curve, shifts=None) is report
+    True
     """
     if not isinstance(data, MasterCurve) or not isinstance(shifts, ShiftTable):
         return report
@@ -57,23 +75,24 @@ def allow_for_shifts(report: FitReport, data: Any, shifts: Any, *, seed: int = 0
         worst = int(np.argmax(shifts.uncertainty))
         cautions = (
             *cautions,
-            f"the shifts are known to {shifts.uncertainty[worst]:.2g} decades at "
-            f"{shifts.temperature[worst] - 273.15:.4g} C: intervals are up to {more:.2g} times as "
-            "wide as the scatter of the points alone makes them; the band is not",
+            f"the uncertainty of the shifts is {shifts.uncertainty[worst]:.2g} decades at "
+            f"{shifts.temperature[worst] - 273.15:.4g} C: it widens intervals by up to a factor "
+            f"of {more:.2g} compared with the scatter of the points alone; the band does not "
+            "include it",
         )
     return replace(report, intervals=tuple(intervals), cautions=cautions)
 
 
 def _moved(curve: MasterCurve, shifts: ShiftTable, rng: np.random.Generator) -> MasterCurve:
-    """Return the curve as other shifts within their uncertainty would make it."""
-    assert shifts.uncertainty is not None and curve.temperature is not None, "checked before"
+    """Return the curve with random shifts within their uncertainty."""
+    assert shifts.uncertainty is not None and curve.temperature is not None, "checked by the caller"
     variance = shifts.uncertainty**2
     zero = int(np.argmin(variance))
     error = np.zeros(variance.size)
     for side in (range(zero + 1, variance.size), range(zero - 1, -1, -1)):
         before = zero
         for i in side:
-            # a row surer than the one before it errs on its own
+            # a smaller uncertainty than in the previous row counts as independent
             step = np.sqrt(max(variance[i] - variance[before], 0.0))
             kept = min(1.0, np.sqrt(variance[i] / variance[before])) if variance[before] else 0.0
             error[i] = kept * error[before] + step * rng.standard_normal()
@@ -100,7 +119,7 @@ def _width(each: Interval) -> float:
 
 
 def _wider(each: Interval, wider: float) -> Interval:
-    """Return an interval with another error in quadrature; an open end stays open."""
+    """Add another error to an interval in quadrature; an unbounded side stays unbounded."""
     if each.known:
         return each
     low, high = each.low, each.high

@@ -15,11 +15,11 @@ from .grouping import GAP, levels
 from .overlap import Curve, Hold, Step, step_between, vertical_at
 from .sweeps import FrequencySweeps, ShiftTable
 
-FEWEST = 4  # points of one temperature; fewer carry no shape
-MOST = 200  # more are averaged: a shift takes no longer, and is no less sure
+FEWEST = 4  # smallest number of points per temperature
+MOST = 200  # largest number of points per temperature; more are averaged without loss of accuracy
 BY = ("both", "storage", "loss", "tan")
-BEST = ("both", "auto")  # by, vertical: the most that the data carry
-THERMOMETER = 0.2  # K: how well the temperature of a chamber is known
+BEST = ("both", "auto")  # by, vertical: uses most of the data
+THERMOMETER = 0.2  # K: standard uncertainty of a chamber's temperature
 
 
 def shift_factors(
@@ -30,46 +30,62 @@ def shift_factors(
     vertical: str | float = "auto",
     temperature_uncertainty: float = THERMOMETER,
 ) -> ShiftTable:
-    """Return the shift of each temperature, found from the overlap of its neighbours.
+    """Compute the shift of each temperature from the overlap of neighbouring sweeps.
 
     Parameters
     ----------
     sweeps : FrequencySweeps
         Two or more temperatures, each with four or more frequencies.
     reference_temperature : float
-        T0 [K], within the temperatures of the sweeps. Between two of them the shift is
-        interpolated, and the table has no row with a shift of zero.
+        T0 [K], within the temperatures of the sweeps. Between two sweeps the shift is
+        interpolated, and the table has no row at zero shift.
     by : {"both", "storage", "loss", "tan"}
-        What must superpose. Both moduli say the most: storage alone is flat on a plateau, where
-        an error of a few per cent looks like a shift by decades. The loss tangent does not know
-        of any vertical shift; that is found afterwards.
+        Which moduli must superpose. Both moduli carry most information: storage alone is flat on a
+        plateau, where an error of a few per cent appears as a shift by decades. The loss tangent is
+        independent of vertical shifts, which are then fitted afterwards.
     vertical : {"auto", "none", "free"} or float
-        How far the moduli may move as well, by one factor for storage and loss: "auto", as far as
-        the data fix it, held by a size that all steps have in common; "none"; "free", each step
-        on its own; or by density and temperature, as rubber elasticity has it, with this
-        coefficient of volume expansion [1/K].
+        Allowed vertical shift, one factor for storage and loss: "auto", as far as
+        the data determine it, with a common size of all steps as prior; "none"; "free", each step
+        independently; or a coefficient of volume expansion [1/K], which gives the shift by density
+        and temperature of rubber elasticity.
     temperature_uncertainty : float
-        Standard deviation with which the temperature of each sweep is known [K].
+        Standard uncertainty of the temperature of each sweep [K].
 
     Returns
     -------
     ShiftTable
-        With the standard deviation of each shift relative to the reference: from the scatter of
-        the points and of stretches of them about the common curve, from vertical shifts of the
-        size that the data have, also where none was allowed, and from the thermometer; by less
-        than both moduli, also from what both would say. It does not know of a solid that does not
-        superpose; see :func:`viscotack.lab.superposition`.
+        With the standard deviation of each shift relative to the reference. It includes the scatter
+        of points and of blocks of points about the common curve, vertical shifts of the size seen
+        in the data, even where none was allowed, and the thermometer; if fewer than both moduli are
+        used, also the difference to the shifts by both. It does not include the error for a solid
+        that does not superpose; see :func:`viscotack.lab.superposition`.
 
     Raises
     ------
     ValueError
         If there are fewer than two temperatures, one of them has too few points, two neighbours
-        do not overlap, or the reference lies outside.
+        do not overlap, or the reference is outside the measured range.
 
     Notes
     -----
-    Points within 1 K are one temperature, their mean. More than 200 points of one temperature are
-    averaged over equal stretches of the logarithm of frequency.
+    Points within 1 K have one temperature, their mean. More than 200 points of one temperature are
+    averaged over equal intervals of the logarithm of frequency.
+
+    Examples
+    --------
+    >>> omega = np.geomspace(1, 100, 10)
+    >>> hot = omega / 10
+    >>> sweeps = FrequencySweeps(
+    ...     np.repeat([293.15, 303.15], 10),
+    ...     np.tile(omega, 2),
+    ...     np.concatenate([1e6 * (1 + omega**0.5), 1e6 * (1 + hot**0.5)]),
+    ...     np.concatenate([4e5 * omega**0.5, 4e5 * hot**0.5]),
+    ...     "E",
+    ...     np.repeat([0, 1], 10),
+    ... )
+    >>> shifts = shift_factors(sweeps, reference_temperature=293.15, vertical="none")
+    >>> shifts.log10_shift.round(2).tolist()
+    [0.0, -1.0]
     """
     each = temperature_levels(sweeps)
     return shifts_between(
@@ -91,32 +107,32 @@ def shifts_between(
     vertical: str | float,
     temperature_uncertainty: float,
 ) -> ShiftTable:
-    """Return the shift of each curve, as :func:`shift_factors` does, in frequency or in time.
+    """Compute the shift of each curve, in frequency or in time; see :func:`shift_factors`.
 
     Parameters
     ----------
     temperature : ndarray, shape (M,)
         [K], ascending.
     curves : sequence of Curve, M
-        All that was measured, over log10 of frequency or minus log10 of time.
+        All measured moduli, over log10 of frequency or minus log10 of time.
     """
     vertical = moving.checked(vertical)
     if by not in BY:
         raise InputError(f"by must be 'both', 'storage', 'loss' or 'tan', got {by!r}")
     if not 0 <= temperature_uncertainty < 50:
         raise InputError(
-            "temperature_uncertainty must lie between 0 and 50 K, "
-            f"got {temperature_uncertainty:g} K"
+            "temperature_uncertainty must lie between 0 and 50 K, got "
+            f"{temperature_uncertainty:g} K"
         )
     if len(curves) < 2:
         raise InputError(
-            "a shift needs sweeps at two or more temperatures, got one; give a law of shift "
+            "a shift needs sweeps at two or more temperatures, got one; give a shift law "
             "(--glass-transition, --wlf, --shift-file)"
         )
     if not temperature[0] - GAP <= reference_temperature <= temperature[-1] + GAP:
         raise InputError(
             f"--reference-temperature must lie between {temperature[0]:.2f} and "
-            f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give a law of shift to go "
+            f"{temperature[-1]:.2f} K, got {reference_temperature:g} K; give a shift law to go "
             "beyond (--glass-transition, --wlf, --shift-file)"
         )
     steps = steps_between(temperature, curves, by, vertical)
@@ -124,7 +140,7 @@ def shifts_between(
     kelvin = _per_kelvin(temperature, shift, reference_temperature)
     uncertainty = np.hypot(deviation, temperature_uncertainty * kelvin)
     if (by, vertical) != BEST and len(curves[0].y) > 1:
-        # whoever asks for less than the data carry is no surer than what the rest says
+        # the uncertainty includes the difference to the shifts from all moduli
         try:
             most = steps_between(temperature, curves, *BEST)
         except ValueError:
@@ -137,7 +153,7 @@ def shifts_between(
 def steps_between(
     temperature: Array, curves: Sequence[Curve], by: str, vertical: str | float
 ) -> list[Step]:
-    """Return how far each curve must move to continue its colder neighbour."""
+    """Fit the displacement of each curve relative to its colder neighbour."""
     holds = moving.holds(vertical, temperature, list(pairwise(curves)))
     steps = []
     for i, (colder, hotter) in enumerate(pairwise(curves)):
@@ -158,7 +174,7 @@ def _step(colder: Curve, hotter: Curve, by: str, hold: Hold) -> Step:
 
 
 def part(curve: Curve, by: str) -> Curve:
-    """Return what must superpose of a curve."""
+    """Return the part of a curve that must superpose."""
     if by == "both":
         return curve
     storage, loss = curve.y
@@ -166,7 +182,7 @@ def part(curve: Curve, by: str) -> Curve:
 
 
 def _per_kelvin(temperature: Array, shift: Array, reference: float) -> Array:
-    """Return the change of each shift with an error of 1 K of its and of the reference's sweep."""
+    """Return the change of each shift for an error of 1 K in its or the reference temperature."""
     slope = np.gradient(shift, temperature)
     inside = float(np.clip(reference, temperature[0], temperature[-1]))
     both = np.hypot(slope, np.interp(inside, temperature, slope))
@@ -190,31 +206,32 @@ def _summed(
         np.abs(column - np.interp(inside, temperature, column)) for column in sums[:, 2:].T
     )
     deviation = np.sqrt(variance + common**2)
-    return shift, up, np.where(deviation < 1e-6, 0.0, deviation)  # the reference, and round-off
+    # the reference itself, apart from round-off
+    return shift, up, np.where(deviation < 1e-6, 0.0, deviation)
 
 
 def temperature_levels(sweeps: FrequencySweeps) -> list[FrequencySweeps]:
     """Return the points of each temperature, from cold to hot."""
     if np.any(np.isnan(sweeps.temperature)):
-        raise InputError("the temperature of some points is not known; say it, --temperature")
+        raise InputError("the temperature of some points is unknown; set --temperature")
     return [sweeps.chosen(points) for points in levels(sweeps.temperature)]
 
 
 def curve(level: FrequencySweeps) -> Curve:
-    """Return one temperature as a curve in decades: storage and loss."""
+    """Return the points of one temperature as a curve in decades: storage and loss."""
     order = np.argsort(level.angular_frequency, kind="stable")
     x = np.log10(level.angular_frequency[order])
     if x.size < FEWEST or np.ptp(x) < 0.1:
         raise InputError(
             f"{x.size} points at {np.mean(level.temperature):.2f} K, over "
-            f"{np.ptp(x):.1g} decades of frequency: too few to find a shift from overlap; "
-            "give a law of shift (--wlf, --shift-file) or leave them out (--leave-out)"
+            f"{np.ptp(x):.1g} decades of frequency are too few to find a shift from overlap; "
+            "give a shift law (--wlf, --shift-file) or omit this temperature (--leave-out)"
         )
     return thinned(Curve(x, (np.log10(level.storage[order]), np.log10(level.loss[order]))))
 
 
 def thinned(curve: Curve) -> Curve:
-    """Return a curve of at most MOST points: means over equal stretches, where it has more."""
+    """Average the points of a curve to at most MOST."""
     if curve.x.size <= MOST:
         return curve
     stretch = (MOST * (curve.x - curve.x[0]) / (np.ptp(curve.x) * (1 + 1e-12))).astype(int)

@@ -1,4 +1,4 @@
-"""From the tables of a file to tests in time and to shift factors, in SI."""
+"""Assemble relaxation tests, creep tests and shift factors in SI from the tables of a file."""
 
 import math
 from collections.abc import Sequence
@@ -22,13 +22,13 @@ from .assembly import (
 )
 from .columns import Columns, Table
 from .diagnosis import test_of
-from .doubts import doubtful_modulus
 from .grouping import levels
 from .lab_file import LabFile
 from .sweeps import CreepTest, RelaxationTest, ShiftTable
+from .unit_checks import doubtful_modulus
 
 Test = TypeVar("Test", RelaxationTest, CreepTest)
-# test -> what it measures, what is divided by what where that is not a column, and its name
+# test -> measured quantity, numerator and denominator if it is not a column, and its name
 _MEASURED: dict[type, tuple[str, str, str, str]] = {
     RelaxationTest: ("modulus", "stress", "strain", "relaxation"),
     CreepTest: ("compliance", "strain", "stress", "creep"),
@@ -38,7 +38,7 @@ _MEASURED: dict[type, tuple[str, str, str, str]] = {
 def one(
     kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
 ) -> Test:
-    """Return the one test of a kind that a file holds."""
+    """Return the single test of a kind in a file."""
     rows = _rows(file, tables, given, kind)
     return _test(kind, file, format, replace(rows, temperature=_one_temperature(rows)))
 
@@ -46,14 +46,14 @@ def one(
 def each(
     kind: type[Test], file: LabFile, format: str, tables: Sequence[Table], given: Given
 ) -> list[Test]:
-    """Return the tests of a kind in a file, one for each temperature."""
+    """Return the tests of a kind in a file, one per temperature."""
     rows = _by_temperature(_rows(file, tables, given, kind))
     return [_test(kind, file, format, part) for part in rows]
 
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """Rows of a step test that are used: time, modulus or compliance, temperature."""
+    """Usable rows of a step test: time, modulus or compliance, temperature."""
 
     time: Array
     values: Array
@@ -77,19 +77,20 @@ def _test(kind: type[Test], file: LabFile, format: str, rows: _Rows) -> Test:
 
 
 def _one_temperature(rows: _Rows) -> Array:
-    """Return the temperatures of a test, which are one."""
+    """Return the temperatures of a test; raise an error if there is more than one."""
     known = rows.temperature[~np.isnan(rows.temperature)]
     if known.size and np.ptp(known) > 5:
         raise rows.columns.error(
-            f"the temperature runs over {np.ptp(known):.3g} K; a step test has one temperature"
+            f"the temperature varies by {np.ptp(known):.3g} K; a step test must have one "
+            "temperature"
         )
     return rows.temperature
 
 
 def _by_temperature(rows: _Rows) -> list[_Rows]:
-    """Return the rows of each temperature, from cold to hot; all where none is known.
+    """Return the rows of each temperature, from cold to hot; all rows if it is unknown.
 
-    Where the time never begins again it is one test, whose temperature may drift.
+    Rows with monotonic time are one test, whose temperature may drift.
     """
     steps = np.diff(rows.time)
     if np.any(np.isnan(rows.temperature)) or np.all(steps > 0) or np.all(steps < 0):
@@ -124,7 +125,7 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
     vertical = _log10(columns, "vertical_shift") if "vertical_shift" in columns else None
     keep = columns.keep
     if not keep.any():
-        raise columns.error("no row has all the numbers that are needed")
+        raise columns.error("no row has all required numbers")
     try:
         table = ShiftTable(
             temperature[keep],
@@ -139,16 +140,16 @@ def shifts(file: LabFile, tables: Sequence[Table], given: Given) -> ShiftTable:
 
 
 def _refuse_inverse(columns: Columns, table: ShiftTable) -> None:
-    """Refuse shifts that rise with temperature: they are those of another convention."""
+    """Raise an error if shifts rise with temperature, because they are 1/a_T."""
     if len(table) > 1 and np.all(np.diff(table.log10_shift) > 0):
         raise columns.error(
-            "the shift factors rise with temperature; here a_T is above 1 where the solid is "
-            "slower, below the reference temperature: give 1/a_T"
+            "the shift factors rise with temperature, but a_T must exceed 1 where the solid is "
+            "slower, below the reference temperature; give 1/a_T"
         )
 
 
 def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: type) -> _Rows:
-    """Return time, modulus or compliance, and temperature of the one table that has them."""
+    """Return time, modulus or compliance, and temperature of the single matching table."""
     wanted, over, under, test = _MEASURED[kind_of_test]
     found = []
     for table in tables:
@@ -159,12 +160,12 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
             found.append(columns)
     if not found:
         raise no_such_test(file, tables, given, test)
-    # of creep and recovery, or of several steps, the one in which the stress or strain is held
+    # of several steps, select the one with constant stress or strain
     found = [columns for columns in found if test_of(columns) == test] or found
     if len(found) > 1:
         raise file.error(f"{len(found)} tables have a {test} test; export one step")
     (columns,) = found
-    # the time of the whole test runs on from step to step; the step has its own
+    # prefer the time since the step to the time of the whole test
     timed = "step_time" if "step_time" in columns else "time"
     needed = (wanted,) if wanted in columns else (over, under)
     refuse_what_is_lacking(
@@ -178,7 +179,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
         values = _ratio(columns, over, under)
         columns.notes.append(f"{wanted} from {over} over {under}")
     if "strain" in needed and "strain" in columns and not columns.has_unit("strain"):
-        columns.notes.append(f'"{columns.name("strain")}" has no unit and is taken as a fraction')
+        columns.notes.append(f'"{columns.name("strain")}" has no unit; a fraction is assumed')
     _leave_out_what_is_not_held(columns, under, test)
     temperature = temperatures(columns, given)
     if wanted == "modulus":
@@ -189,7 +190,7 @@ def _rows(file: LabFile, tables: Sequence[Table], given: Given, kind_of_test: ty
 
 
 def _ratio(columns: Columns, over: str, under: str) -> Array:
-    """Return stress over strain or strain over stress, whose level the file may say once."""
+    """Return stress over strain or its inverse; the step may be stated once in the file."""
     numerator = columns.si(over)
     if under not in columns:
         return numerator / columns.table.levels[under]
@@ -199,25 +200,25 @@ def _ratio(columns: Columns, over: str, under: str) -> Array:
 
 
 def _leave_out_what_is_not_held(columns: Columns, quantity: str, test: str) -> None:
-    """Leave out the way to the step and what follows it; refuse where there is no step."""
+    """Remove the ramp and what follows the step; raise an error if there is no step."""
     if quantity not in columns:
         return
     held = columns.held(quantity)
     left = int(np.count_nonzero(columns.keep & ~held))
     if 2 * left > np.count_nonzero(columns.keep):
         raise columns.error(
-            f'"{columns.name(quantity)}" is not held: {left} of {held.size} points are more than '
-            f"5 % off its level; a {test} test holds its {quantity}"
+            f'"{columns.name(quantity)}" is not constant: {left} of {held.size} points deviate by '
+            f"more than 5 % from its level; a {test} test needs a constant {quantity}"
         )
     if left:
         columns.notes.append(
-            f"left out because the {quantity} is more than 5 % off its level: {left} points"
+            f"rejected {left} points: the {quantity} is more than 5 % off its level"
         )
     columns.keep &= held
 
 
 def _level(columns: Columns, quantity: str) -> float | None:
-    """Return the middle of a column that the instrument held constant, in SI."""
+    """Return the median of a column held constant by the instrument, in SI."""
     if quantity not in columns:
         return columns.table.levels.get(quantity)
     values = columns.factor(quantity) * columns.numbers(quantity, needed=False)
@@ -230,7 +231,7 @@ def _log10(columns: Columns, quantity: str) -> Array:
     for row in np.flatnonzero(values <= 0):
         raise columns.error(
             f"a shift factor must be positive, got {values[row]:g} in column "
-            f'"{columns.name(quantity)}"; is it a logarithm?',
+            f'"{columns.name(quantity)}"; check whether it is a logarithm',
             int(row),
         )
     return np.log10(values)

@@ -1,12 +1,12 @@
-r"""What laboratories measure: frequency sweeps, master curves, relaxation and creep tests.
+r"""Laboratory data: frequency sweeps, master curves, relaxation and creep tests.
 
-Every array is in SI, finite and read-only. `kind` says which modulus it is: ``"E"`` from tension,
-compression or bending, ``"G"`` from shear or torsion. Nothing here changes one into the other
-without being told the Poisson ratio.
+Every array is in SI, finite and read-only. `kind` is the kind of modulus: ``"E"`` from tension,
+compression or bending, ``"G"`` from shear or torsion. Conversion between them always needs a
+Poisson ratio.
 
-Shift factors follow one rule: log10 a_T is positive where the solid is slower than at the
-reference temperature, that is below it. A point measured at omega and T lands on the master curve
-at omega a_T; its moduli, multiplied by 10^log10_vertical, are those of the reference temperature.
+Convention of shift factors: log10 a_T is positive where the solid is slower than at the
+reference temperature, that is below it. A point at omega and T is shifted to omega a_T; its moduli
+are multiplied by 10^log10_vertical to give those at the reference temperature.
 """
 
 from dataclasses import dataclass, replace
@@ -26,19 +26,19 @@ Complex = npt.NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Source:
-    """Where numbers come from.
+    """Origin of numbers.
 
     Parameters
     ----------
     path : str
-        The file as it was named by who read it; empty for numbers made in memory.
+        File name as given by the caller; empty for numbers created in memory.
     sha256 : str
         Hash of the file's bytes, in hexadecimal.
     format : str
         Format of the file, one of the names in ``viscotack.lab.FORMATS``; ``"memory"``
-        for numbers made in memory.
+        for numbers created in memory.
     notes : tuple of str
-        What was decided while reading: units found, points left out, order changed.
+        Decisions while reading: detected units, rejected points, changed order.
 
     Examples
     --------
@@ -52,18 +52,18 @@ class Source:
     notes: tuple[str, ...] = ()
 
     def noted(self, *notes: str) -> "Source":
-        """Return the same source with more notes."""
+        """Return the source with additional notes."""
         return replace(self, notes=(*self.notes, *notes))
 
 
 @dataclass(frozen=True, eq=False)
 class FrequencySweeps:
-    """Storage and loss modulus over frequency, at one temperature or at many.
+    """Storage and loss modulus over frequency, at one or more temperatures.
 
     Parameters
     ----------
     temperature : array_like, shape (N,)
-        Temperature of each point [K], positive; nan where the file does not say.
+        Temperature of each point [K], positive; nan if unknown.
     angular_frequency : array_like, shape (N,)
         2 pi f [rad/s], positive.
     storage, loss : array_like, shape (N,)
@@ -71,14 +71,14 @@ class FrequencySweeps:
     kind : {"E", "G"}
         Tensile or shear modulus.
     sweep : array_like of int, shape (N,)
-        Number of the sweep that each point belongs to.
+        Sweep number of each point.
     source : Source
-        Where the points come from.
+        Origin of the points.
 
     Raises
     ------
     ValueError
-        If lengths differ, there are no points, or a number is impossible.
+        If lengths differ, there are no points, or a number is not positive and finite.
 
     Examples
     --------
@@ -111,7 +111,7 @@ class FrequencySweeps:
 
     @property
     def ids(self) -> tuple[int, ...]:
-        """The numbers of the sweeps, ascending."""
+        """Sweep numbers, ascending."""
         return tuple(int(number) for number in np.unique(self.sweep))
 
     @property
@@ -123,27 +123,27 @@ class FrequencySweeps:
         """Return one sweep, in ascending order of frequency."""
         found = np.flatnonzero(self.sweep == sweep)
         if not found.size:
-            raise InputError(f"there is no sweep {sweep}; there are {list(self.ids)}")
+            raise InputError(f"no sweep {sweep}; available: {list(self.ids)}")
         return self.chosen(found[np.argsort(self.angular_frequency[found], kind="stable")])
 
     def without(self, *sweeps: int) -> "FrequencySweeps":
-        """Return the sweeps without some of them, for example those that were flagged."""
+        """Return a copy without some sweeps, for example without flagged ones."""
         unknown = set(sweeps) - set(self.ids)
         if unknown:
-            raise InputError(f"there is no sweep {min(unknown)}; there are {list(self.ids)}")
+            raise InputError(f"no sweep {min(unknown)}; available: {list(self.ids)}")
         return self.chosen(np.flatnonzero(~np.isin(self.sweep, sweeps)))
 
     def chosen(self, points: npt.ArrayLike) -> "FrequencySweeps":
-        """Return some of the points, by their indices or by a mask of shape (N,)."""
+        """Select points, by indices or by a mask of shape (N,)."""
         return arrays.chosen(self, points)
 
     def in_tension(self, poisson_ratio: float) -> "FrequencySweeps":
-        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is.
+        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged.
 
         Parameters
         ----------
         poisson_ratio : float
-            nu, in [0, 0.5], taken to be the same at every frequency.
+            nu, in [0, 0.5], the same at every frequency.
         """
         return arrays.in_tension(self, poisson_ratio, "storage", "loss")
 
@@ -155,13 +155,13 @@ class ShiftTable:
     Parameters
     ----------
     temperature : array_like, shape (M,)
-        Temperatures [K], positive, ascending once made.
+        Temperatures [K], positive; sorted in ascending order.
     log10_shift : array_like, shape (M,)
-        log10 a_T, positive where the solid is slower than at the reference; zero there.
+        log10 a_T, positive where the solid is slower than at the reference, where it is zero.
     uncertainty : array_like, shape (M,), or None
-        Standard deviation of log10_shift, not negative; None where nobody says.
+        Standard deviation of log10_shift, not negative; None if unknown.
     log10_vertical : array_like, shape (M,), or None
-        log10 of the factor that takes a modulus to the reference temperature; None for 1.
+        log10 of the factor that converts a modulus to the reference temperature; None for 1.
 
     Examples
     --------
@@ -183,7 +183,10 @@ class ShiftTable:
             )
         order = np.argsort(temperature, kind="stable")
         if np.any(np.diff(temperature[order]) == 0):
-            raise InputError("a table of shift factors has one row per temperature, got two")
+            raise InputError(
+                "a table of shift factors must have one row per temperature; remove repeated "
+                "temperatures"
+            )
         for name in ("temperature", "log10_shift", "uncertainty", "log10_vertical"):
             values = getattr(self, name)
             if values is None:
@@ -199,7 +202,7 @@ class ShiftTable:
         return self.temperature.size
 
     def at_reference(self, temperature: float) -> TabulatedShift:
-        """Return the table as a law that is zero at a temperature [K], for two rows or more."""
+        """Return a tabulated law with zero shift at a temperature [K]; needs two or more rows."""
         columns = (self.temperature, self.log10_shift, self.uncertainty, self.log10_vertical)
         return TabulatedShift(
             temperature, *(() if values is None else tuple(values.tolist()) for values in columns)
@@ -208,12 +211,12 @@ class ShiftTable:
 
 @dataclass(frozen=True, eq=False)
 class MasterCurve:
-    """Storage and loss modulus at one temperature, over more decades than a sweep has.
+    """Storage and loss modulus at one temperature, from shifted sweeps.
 
     Parameters
     ----------
     reference_temperature : float or None
-        Temperature of the curve [K]; None where the file does not say.
+        Temperature of the curve [K]; None if unknown.
     angular_frequency : array_like, shape (N,)
         Shifted angular frequency omega a_T [rad/s], positive.
     storage, loss : array_like, shape (N,)
@@ -221,13 +224,13 @@ class MasterCurve:
     kind : {"E", "G"}
         Tensile or shear modulus.
     shifts : ShiftTable or None
-        The shift factors that were used.
+        Shift factors used.
     source : Source
-        Where the points come from.
+        Origin of the points.
     temperature : array_like, shape (N,), or None
         Temperature at which each point was measured [K].
     sweep : array_like of int, shape (N,), or None
-        Number of the sweep that each point was measured in.
+        Sweep in which each point was measured.
 
     Examples
     --------
@@ -267,11 +270,11 @@ class MasterCurve:
         return self.storage + 1j * self.loss
 
     def chosen(self, points: npt.ArrayLike) -> "MasterCurve":
-        """Return some of the points, by their indices or by a mask of shape (N,)."""
+        """Select points, by indices or by a mask of shape (N,)."""
         return arrays.chosen(self, points)
 
     def in_tension(self, poisson_ratio: float) -> "MasterCurve":
-        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is."""
+        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
         return arrays.in_tension(self, poisson_ratio, "storage", "loss")
 
 
@@ -282,17 +285,17 @@ class RelaxationTest:
     Parameters
     ----------
     time : array_like, shape (N,)
-        Time since the step [s], positive, ascending once made.
+        Time since the step [s], positive; sorted in ascending order.
     modulus : array_like, shape (N,)
         Stress over strain [Pa], positive.
     kind : {"E", "G"}
         Tensile or shear modulus.
     strain : float or None
-        The step [-].
+        Height of the step [-].
     temperature : float or None
         Temperature of the test, or of a master curve [K].
     source : Source
-        Where the points come from.
+        Origin of the points.
 
     Examples
     --------
@@ -317,7 +320,7 @@ class RelaxationTest:
         return self.time.size
 
     def in_tension(self, poisson_ratio: float) -> "RelaxationTest":
-        """Return the tensile modulus E = 2 (1 + nu) G; a tensile modulus stays as it is."""
+        """Convert to the tensile modulus E = 2 (1 + nu) G; a tensile modulus is unchanged."""
         return arrays.in_tension(self, poisson_ratio, "modulus")
 
 
@@ -328,17 +331,17 @@ class CreepTest:
     Parameters
     ----------
     time : array_like, shape (N,)
-        Time since the step [s], positive, ascending once made.
+        Time since the step [s], positive; sorted in ascending order.
     compliance : array_like, shape (N,)
         Strain over stress [1/Pa], positive.
     kind : {"E", "G"}
-        Tensile compliance (often D) for ``"E"``, shear compliance (J) for ``"G"``.
+        Tensile compliance (often called D) for ``"E"``, shear compliance (J) for ``"G"``.
     stress : float or None
-        The step [Pa].
+        Height of the step [Pa].
     temperature : float or None
         Temperature of the test, or of a master curve [K].
     source : Source
-        Where the points come from.
+        Origin of the points.
 
     Examples
     --------
@@ -363,5 +366,5 @@ class CreepTest:
         return self.time.size
 
     def in_tension(self, poisson_ratio: float) -> "CreepTest":
-        """Return the tensile compliance J / (2 (1 + nu)); a tensile one stays as it is."""
+        """Convert to the tensile compliance J / (2 (1 + nu)); a tensile one is unchanged."""
         return arrays.in_tension(self, poisson_ratio, "compliance", power=-1)

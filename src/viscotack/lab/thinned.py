@@ -1,4 +1,4 @@
-"""Many points as few: means over short pieces of a logarithmic axis, and the words that say so."""
+"""Reduce many points to means over short intervals of a logarithmic axis."""
 
 from dataclasses import replace
 
@@ -9,19 +9,19 @@ from viscotack.arrays import Array
 
 from .observed import Observed
 
-MOST = 500  # points that are fitted as they are
-_FINEST = 40  # pieces a decade
+MOST = 500  # largest number of points fitted without averaging
+_FINEST = 40  # intervals per decade
 
 
 def thinned(data: Observed) -> Observed:
-    """Return measured numbers as at most about 500 means, with a note; few stay as they are.
+    """Reduce measured numbers to at most about 500 means, with a note; fewer are unchanged.
 
-    Of points that lie in one piece of the logarithmic axis (and in one sweep) the logarithms are
-    averaged: place and numbers both, so that on a straight piece of a double-logarithmic curve the
-    mean lies on the curve. Pieces are a fortieth of a decade, or so long that 500 are enough; the
-    curvature of a standard solid is missed by less than 1e-4 in a fortieth of a decade. Each mean
-    counts once, however many points are in it: a recorder that writes ten points a second has most
-    of its points in the last decade, and would see nothing else.
+    Points in one interval of the logarithmic axis (and in one sweep) are averaged in logarithms,
+    both place and number, so that the mean of a straight piece of a double-logarithmic curve lies
+    on the curve. Intervals have 1/40 decade, or the length that gives 500 of them; the curvature of
+    a standard solid causes an error below 1e-4 in 1/40 decade. All means have equal weights,
+    because a recorder with constant sampling rate has most of its points in the last decade, which
+    would otherwise dominate.
     """
     if data.at.size <= MOST:
         return data
@@ -42,8 +42,8 @@ def thinned(data: Observed) -> Observed:
     ascending = np.argsort(at, kind="stable")
     first = sweep[order][np.concatenate(([0], np.flatnonzero(np.diff(groups)) + 1))]
     note = (
-        f"{data.at.size} points were averaged to {at.size}, over {finest} pieces a decade; each "
-        "mean counts once"
+        f"{data.at.size} points were averaged to {at.size}, in {finest} intervals per decade, with "
+        "equal weights"
     )
     return replace(
         data,
@@ -56,7 +56,7 @@ def thinned(data: Observed) -> Observed:
 
 
 def _groups(at: Array, sweep: npt.NDArray[np.int64], finest: int) -> npt.NDArray[np.int64]:
-    """Return the number of the piece of each point, in ascending order of sweep and place."""
+    """Return the interval of each point, in ascending order of sweep and place."""
     order = np.lexsort((at, sweep))
     piece = np.floor(finest * np.log10(at[order]))
     fresh = (np.diff(piece) != 0) | (np.diff(sweep[order]) != 0)

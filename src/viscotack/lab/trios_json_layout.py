@@ -1,8 +1,8 @@
 """Layout of TA Instruments TRIOS exports as JSON.
 
-Results are rows of cells by name, under headers that give each column its words and unit
-(``Results / Original / ColumnHeaders, Rows``), or tables of a list of columns and a list of rows
-(``Experiment / Results / DataSet / Data``). Rows of one step make one table.
+Results are either rows of named cells, with headers that give each column its words and unit
+(``Results / Original / ColumnHeaders, Rows``), or tables with a list of columns and a list of rows
+(``Experiment / Results / DataSet / Data``). The rows of one step form one table.
 """
 
 import json
@@ -15,7 +15,7 @@ from .columns import Table, tabulated
 from .lab_file import LabFile
 
 _STEPS = ("Results Step Id", "Procedure Step Id")
-_DEEPEST = 50  # levels of brackets; an export has ten
+_DEEPEST = 50  # levels of nesting; exports have ten
 
 
 def name(file: LabFile) -> str | None:
@@ -29,27 +29,29 @@ def tables(file: LabFile) -> list[Table]:
     Raises
     ------
     ValueError
-        If the text is no JSON, or nothing in it is a table of a TRIOS export.
+        If the text is not JSON, or contains no table of a TRIOS export.
     """
     record = _parsed(file)
     try:
         return list(_tables(file, record))
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise file.error(
-            f"expected tables of a TRIOS export, Results with ColumnHeaders and Rows: {error!r} is "
-            "missing or no such thing"
+            f"expected tables of a TRIOS export, Results with ColumnHeaders and Rows; {error!r} is "
+            "missing or has another type"
         ) from None
 
 
 def _parsed(file: LabFile) -> dict[str, Any]:
-    # numbers stay as they are written: a digit too many is then seen as in any other text
+    # keep numbers as written, so that damaged ones are detected as in text files
     text = "\n".join(file.lines) + file.rest
     try:
         record = json.loads(text, parse_float=str, parse_int=str)
     except (ValueError, RecursionError) as error:
-        raise file.error(f"the JSON cannot be read, it may be cut or damaged: {error}") from None
+        raise file.error(
+            f"the JSON cannot be read; it may be truncated or damaged: {error}"
+        ) from None
     if not isinstance(record, dict):
-        raise file.error("expected a record in braces, as TRIOS exports it")
+        raise file.error("expected a JSON object, as in TRIOS exports")
     return record
 
 
@@ -58,13 +60,13 @@ def _tables(file: LabFile, record: dict[str, Any]) -> Iterator[Table]:
     record = record.get("Experiment", record)
     results = record.get("Results")
     if not results:
-        raise file.error("no Results in it: expected a TRIOS export as JSON")
+        raise file.error("the file has no Results; expected a TRIOS export as JSON")
     if isinstance(results, list):
         for result in results:
             for data in result["DataSet"]:
                 yield _of_lists(file, data["Data"], words)
         return
-    # what was processed by the user is preferred neither by TRIOS nor here
+    # prefer original to user-processed results, as TRIOS does
     section = results.get("Original") or results.get("Processed") or results
     yield from _of_rows(file, section["ColumnHeaders"], section["Rows"], words)
 
@@ -94,7 +96,7 @@ def _of_rows(
         step = next((str(row[key]) for key in _STEPS if key in row), "")
         steps.setdefault(step, []).append((number, [_text(row.get(key)) for key in keys]))
     for step in steps.values():
-        # a column that the step did not measure is not one of its own
+        # drop columns that the step did not measure
         own = [i for i in range(len(keys)) if any(cells[i] for _, cells in step)]
         yield tabulated(
             file,
@@ -107,12 +109,12 @@ def _of_rows(
 
 def _text(cell: Any) -> str:
     if isinstance(cell, dict | list):
-        raise InputError("expected a number or a word in each cell")
+        raise InputError("each cell must be a number or a text")
     return "" if cell is None else str(cell)
 
 
 def _geometry(record: Any, depth: int = 0) -> str:
-    """Return the words about the geometry, wherever in the configuration they stand."""
+    """Return the words on the geometry, from anywhere in the configuration."""
     found = []
     if depth < _DEEPEST and isinstance(record, dict):
         for key, value in record.items():

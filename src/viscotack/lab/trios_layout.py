@@ -1,9 +1,9 @@
 """Layout of TA Instruments TRIOS exports as text and csv: a header, then steps with a table each.
 
-A step begins with a line ``[step]``. Its name, its number of points and its table follow, the
-table either named row by row (``Variables``, ``data point 1``) or plain: headings, units, rows. An
-export of one step may do without ``[step]``; it begins with ``Filename`` and has ``Variables``.
-Exported with all variables a table has eighty columns; those that are not needed are passed over.
+A step begins with a line ``[step]``. Its name, its number of points and its table follow. The
+table is either labelled row by row (``Variables``, ``data point 1``) or plain: headings, units,
+rows. An export of one step may lack ``[step]``; it begins with ``Filename`` and has ``Variables``.
+Exports of all variables have eighty columns; unknown ones are ignored.
 """
 
 from .columns import Table, first_headings, stated_temperature, tabulated
@@ -11,13 +11,13 @@ from .lab_file import LabFile
 from .plain_layout import cells
 
 _STEP = "[step]"
-_LOOKED = 500  # lines in which the table of an export of one step begins
+_LOOKED = 500  # lines searched for the table of an export of one step
 _COUNTED = "number of points"
 Row = tuple[int, list[str]]
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if there is no step."""
+    """Return the name of the format, or None if the file has no step."""
     return "trios" if _starts(file) else None
 
 
@@ -27,8 +27,8 @@ def tables(file: LabFile) -> list[Table]:
     Raises
     ------
     ValueError
-        If there is no step, a row does not have a cell for each heading, or a step has not as
-        many rows as it says.
+        If there is no step, a row has not one cell per heading, or the number of rows of a step
+        differs from the stated count.
     """
     starts = _starts(file)
     if not starts:
@@ -49,12 +49,12 @@ def tables(file: LabFile) -> list[Table]:
 
 
 def _table(file: LabFile, rows: list[Row], words: str, temperature: float | None) -> Table | None:
-    """Return the table of one step; a step that measured nothing has none."""
+    """Return the table of one step, or None for a step without data."""
     counted = None
     for number, row in rows:
         if row[0].strip().casefold() == _COUNTED and len(row) > 1:
             if not row[1].strip().isdecimal():
-                raise file.error(f"expected a number of points, got {row[1]!r}", number)
+                raise file.error(f"expected the number of points, got {row[1]!r}", number)
             counted = int(row[1])
     at = first_headings([row for _, row in rows])
     if at is None:
@@ -72,13 +72,14 @@ def _table(file: LabFile, rows: list[Row], words: str, temperature: float | None
             break
     if counted is not None and counted != len(data):
         raise file.error(
-            f"the step says {counted} points and has {len(data)}: the file is cut or edited",
+            f"the step states {counted} points but has {len(data)}; the file is truncated or "
+            "edited",
             rows[at][0],
         )
     notes = ()
     if data and 1 < len(data[0][1]) < len(headings):
-        # at the time of the step quotients have no value, and the last cells are not written
-        notes = (f"line {data.pop(0)[0]} left out: it lacks cells, at the beginning of the step",)
+        # at the time of the step, ratios are undefined and the last cells are missing
+        notes = (f"line {data.pop(0)[0]} rejected: it lacks cells at the beginning of the step",)
     stated = {"words": words, "temperature": temperature, "notes": notes}
     return tabulated(file, headings, units, data, **stated)
 
@@ -92,7 +93,7 @@ def _starts(file: LabFile) -> list[int]:
 
 
 def _cell(text: str) -> str:
-    """Return the first cell of a line in small letters."""
+    """Return the first cell of a line in lower case."""
     return text.replace(",", "\t").partition("\t")[0].strip().casefold()
 
 

@@ -1,13 +1,14 @@
-r"""How moduli may move from one temperature to the next, beside their shift in frequency.
+r"""Vertical shifts of moduli between temperatures, in addition to the shift in frequency.
 
-The theory of rubber elasticity says by density and temperature,
+The theory of rubber elasticity gives, from density and temperature,
 
 .. math:: b_T = \frac{\rho_0 T_0}{\rho T}, \qquad \rho \propto e^{-\alpha T}
 
-a few per cent over ten kelvin; a clamp or a gap that changes with temperature does as much. Where
-nobody says, the moduli move as far as both of them together fix it: the vertical shifts of all
-steps have a common size, which is found with them, and where the curves are too straight to fix a
-shift this size holds it. Shifts that were found without a vertical shift are no surer than that.
+which is a few per cent per ten kelvin. A clamp or a gap that changes with temperature has an effect
+of the same size. By default the vertical shift is determined by both moduli together: the vertical
+shifts of all steps have a common size, fitted with them, which is the prior where
+curves are too straight to determine a shift. It also contributes to the uncertainty of horizontal
+shifts computed without vertical ones.
 """
 
 from collections.abc import Sequence
@@ -20,12 +21,12 @@ from viscotack.errors import InputError
 from .overlap import Curve, Hold, free_vertical
 
 WORDS = ("auto", "none", "free")
-_USUAL = 0.02  # decades, 5 %: what a gap, a clamp and rubber elasticity do from sweep to sweep
+_USUAL = 0.02  # decades, 5 %: usual effect of gap, clamp and rubber elasticity between sweeps
 _SPREADS = np.geomspace(1e-4, 0.3, 80)  # decades
 
 
 def checked(vertical: str | float) -> str | float:
-    """Return a word of WORDS, or an expansion coefficient [1/K]; refuse anything else."""
+    """Return an item of WORDS or an expansion coefficient [1/K]; raise an error otherwise."""
     if isinstance(vertical, str) and vertical in WORDS:
         return vertical
     if isinstance(vertical, bool | str) or not 0 <= float(vertical) < 0.01:
@@ -37,7 +38,7 @@ def checked(vertical: str | float) -> str | float:
 
 
 def by_density(temperature: Array, expansion: float) -> Array:
-    """Return log10 of rho T over a common factor: minus the vertical shift to any temperature.
+    """Return log10(rho T) up to a constant; differences are minus the vertical shift.
 
     Parameters
     ----------
@@ -52,16 +53,16 @@ def by_density(temperature: Array, expansion: float) -> Array:
 def holds(
     vertical: str | float, temperature: Array, pairs: Sequence[tuple[Curve, Curve]]
 ) -> list[Hold]:
-    """Return what is known before of the vertical shift of each step.
+    """Return the prior of the vertical shift of each step.
 
     Parameters
     ----------
     vertical : str or float
-        As :func:`checked` returns it.
+        Output of :func:`checked`.
     temperature : ndarray, shape (n + 1,)
         Of the curves [K], ascending.
     pairs : sequence of (Curve, Curve), n
-        Neighbours, with all the moduli that were measured.
+        Neighbouring curves, with all measured moduli.
     """
     if vertical == "free":
         return [Hold(0.0, np.inf) for _ in pairs]
@@ -74,18 +75,19 @@ def holds(
 
 
 def _spread(law: Array, pairs: Sequence[tuple[Curve, Curve]]) -> float:
-    """Return the standard deviation that vertical shifts have about what is expected of them.
+    """Return the standard deviation of vertical shifts about their expected values.
 
-    The root of the mean square under the likelihood of the steps' own free fits and half a normal
-    distribution of the usual size before.
+    Root mean square under the likelihood of the steps' free fits and a half-normal
+    prior of the usual size.
     """
     cost = (_SPREADS / _USUAL) ** 2
     for expected, (colder, hotter) in zip(law, pairs, strict=True):
         try:
             found, variance = free_vertical(colder, hotter)
         except ValueError:
-            continue  # too straight to tell
+            continue  # too straight to determine the vertical shift
         total = variance + _SPREADS**2
         cost += np.log(total) + (found - expected) ** 2 / total
-    weight = np.exp(-(cost - np.min(cost)) / 2) * _SPREADS  # evenly in the spread, not its log
+    # uniform in the spread, not in its logarithm
+    weight = np.exp(-(cost - np.min(cost)) / 2) * _SPREADS
     return float(np.sqrt(np.sum(weight * _SPREADS**2) / np.sum(weight)))

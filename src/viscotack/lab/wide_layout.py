@@ -1,8 +1,8 @@
 """Layout of wide tables: the sweeps of several temperatures side by side.
 
-The temperature stands in a line above the columns that belong to it (``20 °C`` above ``G', G''``),
-or within each heading (``G' 20 °C [Pa]``). Columns without a temperature, such as the frequency,
-belong to all.
+The temperature is in a line above its columns (``20 °C`` above ``G', G''``), or in each heading
+(``G' 20 °C [Pa]``). Columns without a temperature, such as the frequency, are common to all
+sweeps.
 """
 
 import re
@@ -13,18 +13,18 @@ from .lab_file import LabFile
 from .plain_layout import cells, is_comment, is_number, separators
 from .quantities import recognise
 
-_LOOKED = 200  # lines in which the headings are looked for
+_LOOKED = 200  # lines searched for the headings
 _WITHIN = re.compile(
     r"(?P<before>.*?[^\s,;@_-])[\s,;@_]*(?:at\s+|T\s*=\s*)?"
     r"(?P<label>[+-]?[0-9]+(?:[.,][0-9]+)?\s*(?:°C|ºC|℃|oC|degC|C|K))(?P<after>[\s\[(/].*)?"
 )
 Row = list[str]
-# line of the headings, separator, headings without temperatures, label of each column ("" of all)
+# line of the headings, separator, headings without temperatures, label of each column ("": common)
 Found = tuple[int, str | None, Row, Row]
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if no columns stand side by side."""
+    """Return the name of the format, or None if there are no side-by-side sweeps."""
     return "wide" if _found(file) is not None else None
 
 
@@ -34,8 +34,8 @@ def tables(file: LabFile) -> list[Table]:
     Raises
     ------
     ValueError
-        If no columns of several temperatures stand side by side, or a row does not have a cell
-        for each heading.
+        If there are no side-by-side columns of several temperatures, or a row has not one cell
+        per heading.
     """
     found = _found(file)
     if found is None:
@@ -58,7 +58,7 @@ def tables(file: LabFile) -> list[Table]:
 
 
 def _one(whole: Table, columns: Sequence[int], label: str) -> Table:
-    """Return the columns of one temperature; where all of them are empty its sweep is over."""
+    """Return the columns of one temperature; rows where all of them are empty are dropped."""
     own = columns[-1]
     rows = tuple(
         (line, tuple(cells[i] for i in columns))
@@ -70,7 +70,7 @@ def _one(whole: Table, columns: Sequence[int], label: str) -> Table:
         tuple(whole.units[i] for i in columns),
         rows,
         label=label,
-        notes=(f"the columns under {label!r} are a sweep of their own",),
+        notes=(f"the columns under {label!r} are a separate sweep",),
     )
 
 
@@ -93,7 +93,7 @@ def _found(file: LabFile) -> Found | None:
 
 
 def _within(row: Row) -> tuple[Row, Row]:
-    """Return headings without the temperature that each may hold, and the temperatures."""
+    """Split headings into the part without temperature, and the temperatures."""
     headings, labels = [], []
     for cell in row:
         match = _WITHIN.fullmatch(cell)
@@ -105,7 +105,7 @@ def _within(row: Row) -> tuple[Row, Row]:
 
 
 def _above(row: Row, labels: Row) -> Row:
-    """Return the label that stands above each column, or above one before it."""
+    """Return the label above each column, or above the nearest column to the left."""
     found, current = [], ""
     for i in range(len(row)):
         current = (labels[i] if i < len(labels) else "") or current
@@ -114,7 +114,7 @@ def _above(row: Row, labels: Row) -> Row:
 
 
 def _side_by_side(headings: Row, labels: Row) -> bool:
-    """Return whether every temperature has columns of its own, all with the same quantities."""
+    """Return whether every temperature has its own columns, all with the same quantities."""
     columns: dict[str, list[str]] = {}
     for heading, label in zip(headings, labels, strict=True):
         known = recognise(heading)

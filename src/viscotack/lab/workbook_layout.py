@@ -1,7 +1,7 @@
-"""Layout of workbooks: the Netzsch Gabo Eplexor's ``Exported Data``, or any first sheet like it.
+"""Layout of workbooks: Netzsch Gabo Eplexor's ``Exported Data``, or a similar first sheet.
 
-One row of headings, one of units, then rows. Old workbooks (.xls) need xlrd, new ones (.xlsx)
-need openpyxl; both come with the extra ``lab``.
+A row of headings, a row of units, then rows of numbers. Old workbooks (.xls) need xlrd, new ones
+(.xlsx) need openpyxl; both are installed by the extra ``lab``.
 """
 
 import io
@@ -23,22 +23,22 @@ Cells = list[list[str]]
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is no workbook."""
+    """Return the name of the format, or None if the file is not a workbook."""
     if not file.is_workbook:
         return None
-    # an old workbook holds the names of its sheets as they are, a new one packed
+    # old workbooks store sheet names as plain bytes, new ones compressed
     return "eplexor" if _SHEET.encode() in file.content else "workbook"
 
 
 def tables(file: LabFile) -> list[Table]:
-    """Return the table of the sheet ``Exported Data``, or else of the first sheet with one.
+    """Return the table of the sheet ``Exported Data``, or of the first sheet with a table.
 
     Raises
     ------
     ValueError
-        If the file is no readable workbook, or no sheet has headings and units.
+        If the workbook cannot be read, or no sheet has headings and units.
     ImportError
-        If the library that reads workbooks is not installed.
+        If the library for workbooks is not installed.
     """
     found = sheets(file)
     for title in sorted(found, key=lambda title: title != _SHEET):
@@ -56,9 +56,9 @@ def tables(file: LabFile) -> list[Table]:
 
 
 def under(rows: Cells, at: int) -> tuple[list[str] | None, list[tuple[int, list[str]]]]:
-    """Return the units under a row of headings, where a row has them, and the numbered rows."""
+    """Return the units below a row of headings, if there are any, and the numbered rows."""
     data = [(number, row) for number, row in enumerate(rows[at + 1 :], start=at + 2) if any(row)]
-    # a row with a number in it is a point, of headings that hold their units
+    # a row with a number is a data point; the headings then contain the units
     has_units = data and not any(map(is_number, data[0][1]))
     return data.pop(0)[1] if has_units else None, data
 
@@ -69,9 +69,9 @@ def sheets(file: LabFile) -> dict[str, Cells]:
     Raises
     ------
     ValueError
-        If the file is no readable workbook.
+        If the workbook cannot be read.
     ImportError
-        If the library that reads workbooks is not installed.
+        If the library for workbooks is not installed.
     """
     if not file.is_workbook:
         raise file.error("expected an Excel workbook")
@@ -80,12 +80,12 @@ def sheets(file: LabFile) -> dict[str, Cells]:
         return dict(_old(file.content) if old else _new(file.content))
     except ImportError as error:
         raise ImportError(
-            f"{error.name} reads workbooks and is not installed: pip install viscotack[lab]"
+            f"workbooks need {error.name}, which is not installed: pip install viscotack[lab]"
         ) from None
     except Exception as error:
-        # A damaged workbook makes the library fail in a dozen ways, none of them its promise.
+        # The library raises many undocumented errors for damaged workbooks.
         raise file.error(
-            f"the workbook cannot be read, it may be cut or damaged: {error}"
+            f"the workbook cannot be read; it may be truncated or damaged: {error}"
         ) from None
 
 
@@ -104,7 +104,7 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
             raise InputError("it unpacks to more than 200 MB")
         formulas = has_formulas(parts)
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
-    # a second reading, of what the cells hold in place of their values
+    # read again to find formulas without values
     beside = openpyxl.load_workbook(io.BytesIO(content), read_only=True) if formulas else None
     for sheet in book.worksheets:
         rows = [[_text(v) for v in row] for row in sheet.iter_rows(values_only=True)]
@@ -115,10 +115,10 @@ def _new(content: bytes) -> Iterator[tuple[str, Cells]]:
 
 
 def _name_formulas(rows: Cells, beside: Iterable[tuple[Any, ...]]) -> None:
-    """Put a formula in the place of a value that the workbook does not hold.
+    """Insert formulas where the workbook contains no value.
 
-    A program that writes workbooks without computing them leaves the value out; the empty cell
-    would be taken for a point that was not measured.
+    Programs that write workbooks without computing them omit the values; an empty cell would
+    otherwise be interpreted as a missing point.
     """
     for row, cells in zip(rows, beside, strict=False):
         for i, formula in enumerate(cells[: len(row)]):

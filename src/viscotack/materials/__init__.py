@@ -1,4 +1,4 @@
-"""Linear viscoelastic solids, and their memory as exponential modes."""
+"""Linear viscoelastic solids, their exponential modes, temperature shifts and passports."""
 
 from viscotack.materials.branched_solids import Elastic, Prony, StandardSolid
 from viscotack.materials.fractional import FractionalZener

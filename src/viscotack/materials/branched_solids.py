@@ -25,7 +25,7 @@ _MOST_BRANCHES = 10_000
 
 @dataclass(frozen=True, kw_only=True)
 class Elastic:
-    """Describe an elastic solid: no memory.
+    """Elastic solid, without memory.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class Elastic:
 
     @property
     def time_unit(self) -> float:
-        """Unit of dimensionless times [s]: 1 s, as an elastic solid has no time of its own."""
+        """Unit of dimensionless times [s]: 1 s, as there is no characteristic time."""
         return 1.0
 
     def relaxation(self, time: npt.ArrayLike) -> Real:
@@ -90,18 +90,18 @@ class Elastic:
         return like_input(np.full(w.shape, complex(1 / self.rubbery_modulus)))
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the modes of an elastic solid: none."""
+        """Return the modes of an elastic solid: an empty set."""
         checks.window(shortest=shortest, longest=longest, tolerance=tolerance)
         return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
 
     def reduced(self) -> "Elastic":
-        """Return the dimensionless twin: rubbery modulus 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, Poisson ratio 0."""
         return Elastic(rubbery_modulus=1.0, poisson_ratio=0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class StandardSolid:
-    r"""Describe the standard linear solid, one retardation time.
+    r"""Standard linear solid with one retardation time.
 
     .. math:: E_0 C(t) = 1 + (k - 1) e^{-t/\tau_0}, \quad k = E_0/E_\infty
 
@@ -168,7 +168,7 @@ class StandardSolid:
         """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s] (Eq. 3.26)."""
         t = nonnegative("time", time, "s")
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
-        # Eq. 3.26 with expm1, which keeps the digits when t << tau0
+        # Eq. 3.26 with expm1, which avoids cancellation for t << tau0
         return like_input(Cinf - (C0 - Cinf) * np.expm1(-t / self.tau0))
 
     def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
@@ -184,7 +184,7 @@ class StandardSolid:
         return like_input(Cinf + (C0 - Cinf) * voigt(w * self.tau0))
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the one mode, or none where it passes before `shortest` [s]; see `Material`."""
+        """Return the single mode, or none if it relaxes before `shortest` [s]; see `Material`."""
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
         )
@@ -200,7 +200,7 @@ class StandardSolid:
         )
 
     def reduced(self) -> "StandardSolid":
-        """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
         glassy = self.glassy_modulus / self.rubbery_modulus
         return StandardSolid(
             rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
@@ -209,7 +209,7 @@ class StandardSolid:
 
 @dataclass(frozen=True, kw_only=True)
 class Prony:
-    r"""Describe a generalised Maxwell (Wiechert) solid: a spring and a series of branches.
+    r"""Generalised Maxwell (Wiechert) solid: a spring in parallel with Maxwell branches.
 
     .. math:: R(t) = E_0 + \sum_i E_i e^{-t/\tau_i}
 
@@ -225,8 +225,8 @@ class Prony:
 
     Notes
     -----
-    The creep compliance is exact: its retardation times are the roots between the relaxation
-    times, see :func:`viscotack.materials.interconversion.reciprocal`.
+    The creep compliance is exact: its retardation times are the zeros of the modulus between the
+    relaxation times, see :func:`viscotack.materials.interconversion.reciprocal`.
 
     References
     ----------
@@ -307,8 +307,8 @@ class Prony:
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
 
-        Exact, as many modes as branches; those outside the window are merged where the tolerance
-        allows.
+        The modes are exact, one per branch; modes outside the window are merged if the tolerance
+        allows it.
         """
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
@@ -325,7 +325,7 @@ class Prony:
         )
 
     def reduced(self) -> "Prony":
-        """Return the dimensionless twin: rubbery modulus 1, longest time 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, longest time 1, Poisson ratio 0."""
         E0, unit = self.rubbery_modulus, self.time_unit
         branches = tuple((E / E0, tau / unit) for E, tau in self.branches)
         return Prony(rubbery_modulus=1.0, branches=branches, poisson_ratio=0.0)
@@ -345,11 +345,11 @@ def _branches(given) -> tuple[tuple[float, float], ...]:
         raise InputError(f"branches must be pairs of numbers, got {given!r}; {advice}") from None
     if len(pairs) > _MOST_BRANCHES:
         raise InputError(
-            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten a decade "
-            "of time describe any solid"
+            f"a series has at most {_MOST_BRANCHES:,} branches, got {len(pairs):,}; ten per decade "
+            "of time are sufficient for any solid"
         )
     if not pairs:
-        raise InputError("branches must not be empty; describe a solid without any by Elastic")
+        raise InputError("branches must not be empty; use Elastic for a solid without branches")
     for pair in pairs:
         if len(pair) != 2:
             raise InputError(f"each branch must be a pair of numbers, got {pair!r}; {advice}")
@@ -366,7 +366,7 @@ def _branches(given) -> tuple[tuple[float, float], ...]:
     for (_, time), (_, following) in zip(checked, checked[1:], strict=False):
         if following < time * (1 + 1e-9):
             raise InputError(
-                "relaxation times of branches must differ by more than 1e-9 of themselves, got "
-                f"{time!r} s and {following!r} s; add the moduli of the two"
+                "relaxation times of branches must differ by more than 1e-9 (relative), got "
+                f"{time!r} s and {following!r} s; merge the two branches by adding their moduli"
             )
     return tuple(checked)

@@ -1,4 +1,4 @@
-"""Checks of the numbers and arrays given to a material, each with the sentence it fails with."""
+"""Validation of the numbers and arrays given to a material, with error messages."""
 
 import math
 from typing import Any
@@ -10,7 +10,7 @@ from viscotack.errors import InputError
 
 
 def positive(name: str, value: float, unit: str) -> float:
-    """Return a positive, finite number as a float."""
+    """Validate a positive, finite number and return it as a float."""
     number = _number(value)
     if not 0 < number < math.inf:
         raise InputError(
@@ -20,24 +20,24 @@ def positive(name: str, value: float, unit: str) -> float:
 
 
 def stiffens(material: Any) -> None:
-    """Refuse a short-time modulus below the long-time one."""
+    """Raise an error if the short-time modulus is below the long-time one."""
     glassy, rubbery = material.glassy_modulus, material.rubbery_modulus
     if glassy < rubbery:
         raise InputError(
             "glassy_modulus (short times) must not be below rubbery_modulus (long times), got "
-            f"{glassy:g} Pa < {rubbery:g} Pa; perhaps the two are exchanged"
+            f"{glassy:g} Pa < {rubbery:g} Pa; check whether they are interchanged"
         )
 
 
 def rests(material: Any) -> None:
-    """Refuse a law, or a class of laws, on which no contact comes to rest, with the reason."""
+    """Raise an error for a law without a rubbery plateau, on which no contact is at rest."""
     reason = getattr(material, "no_contact", "")
     if reason:
         raise InputError(f"{material.word} is a law for fits only: {reason}")
 
 
 def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float, float, float]:
-    """Return the window of time [s] and the tolerance of a set of modes as floats."""
+    """Validate the time window [s] and tolerance of a set of modes; return them as floats."""
     shortest = positive("shortest", shortest, "s")
     longest = positive("longest", longest, "s")
     tolerance = positive("tolerance", tolerance, "1/rubbery_modulus")
@@ -45,13 +45,14 @@ def window(*, shortest: float, longest: float, tolerance: float) -> tuple[float,
         raise InputError(f"longest must not be below shortest, got {longest:g} s < {shortest:g} s")
     if tolerance >= 1:
         raise InputError(
-            f"tolerance is a part of the rubbery compliance and must be below 1, got {tolerance:g}"
+            "tolerance is relative to the rubbery compliance and must be below 1, got "
+            f"{tolerance:g}"
         )
     return shortest, longest, tolerance
 
 
 def nonnegative(name: str, values: npt.ArrayLike, unit: str) -> npt.NDArray[np.float64]:
-    """Return times or frequencies in [0, inf] as an array of floats."""
+    """Return times or frequencies in [0, inf] as an array of floats; raise an error otherwise."""
     array = np.asarray(values, dtype=float)
     wrong = array[~(array >= 0)]  # true for nan as well
     if wrong.size:
@@ -65,13 +66,13 @@ def like_input(values: Any) -> Any:
 
 
 def store(instance: Any, **checked: Any) -> None:
-    """Set the checked fields of a frozen dataclass; only its __post_init__ may do so."""
+    """Set the validated fields of a frozen dataclass; only for its __post_init__."""
     for name, value in checked.items():
         object.__setattr__(instance, name, value)
 
 
 def _number(value: Any) -> float:
-    """Return a float, or nan for what is not a number (text needs a unit: see units.parse)."""
+    """Return a float, or nan for anything that is not a number (for text see units.parse)."""
     if isinstance(value, (str, bytes)):
         return math.nan
     try:

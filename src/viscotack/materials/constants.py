@@ -1,4 +1,4 @@
-"""The cards of the constants that materials share: word, unit, symbol, range, example."""
+"""Cards of the constants shared by materials: name, unit, symbol, range, example."""
 
 from typing import Annotated, Any
 
@@ -81,5 +81,5 @@ ContactModulus = Annotated[
 
 
 def poisson_ratio(value: Any) -> float:
-    """Return a Poisson ratio as a float, or refuse an impossible one."""
+    """Validate a Poisson ratio and return it as a float."""
     return card_of(PoissonRatio).checked("poisson_ratio", value)

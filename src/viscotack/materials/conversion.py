@@ -1,15 +1,15 @@
-r"""Relaxation form, retardation form, and a Prony series that stands for any other solid.
+r"""Convert between relaxation form, retardation form and approximate Prony series of a solid.
 
-A generalised Maxwell solid (branches side by side, :class:`Prony`) and a chain of Voigt elements
-(:class:`RetardationSeries`) are one and the same material written twice:
+A generalised Maxwell solid (parallel branches, :class:`Prony`) and a chain of Voigt elements
+(:class:`RetardationSeries`) are two forms of the same material:
 
 .. math::
 
     R(t) = E_0 + \sum_i E_i e^{-t/\tau_i} , \qquad
     C(t) = \frac{1}{E_\infty} + \sum_j C_j (1 - e^{-t/\lambda_j})
 
-The times of the two forms differ: each retardation time is longer than its relaxation time. What
-one form is in the other is found exactly, see :mod:`viscotack.materials.interconversion`.
+Their times differ: each retardation time is longer than its relaxation time. The conversion is
+exact, see :mod:`viscotack.materials.interconversion`.
 """
 
 from dataclasses import dataclass
@@ -29,12 +29,12 @@ from viscotack.materials.scaling import scaled
 
 @dataclass(frozen=True, kw_only=True)
 class RetardationSeries:
-    """The creep of a solid as Voigt elements in a row with a spring.
+    """Retardation form of a solid: Voigt elements in series with a spring.
 
     Parameters
     ----------
     glassy_modulus : float
-        Short-time Young's modulus [Pa]: of the spring.
+        Short-time Young's modulus [Pa], that of the spring.
     elements : sequence of (float, float)
         Compliance C_j [1/Pa] and RETARDATION time lambda_j [s] of each element, both positive.
         Stored as a tuple sorted by time.
@@ -64,7 +64,7 @@ class RetardationSeries:
             for C, time in self.elements
         ]
         if not checked:
-            raise InputError("elements must not be empty; describe a solid without any by Elastic")
+            raise InputError("elements must not be empty; use Elastic for a solid without elements")
         conform(self)
         checks.store(
             self,
@@ -74,18 +74,18 @@ class RetardationSeries:
 
 @dataclass(frozen=True, kw_only=True)
 class PronyForm:
-    """A Prony series that stands for a solid, and how far it is from it.
+    """A Prony series that approximates a solid, and its error.
 
     Attributes
     ----------
     material : Prony
-        The series; its rubbery modulus is that of the solid, exactly.
+        The series; its rubbery modulus is exactly that of the solid.
     error : float
-        Largest relative error of the complex modulus between the two frequencies, as seen on a
-        grid of 40 points a decade; 0 where the solid is a sum of exponentials itself.
+        Largest relative error of the complex modulus between the two frequencies, evaluated on a
+        grid of 40 points per decade; 0 if the solid is itself a sum of exponentials.
     frequencies : tuple of float
-        Angular frequencies [rad/s] between which it holds. Beyond the higher one the series is
-        too soft: spectrum above it became the instantaneous modulus.
+        Angular frequencies [rad/s] between which it is valid. Above the higher one the series is
+        too soft, because the spectrum above it is part of the instantaneous compliance.
     """
 
     material: Prony
@@ -94,7 +94,7 @@ class PronyForm:
 
 
 def retardation_series(material: Prony | StandardSolid) -> RetardationSeries:
-    """Return the same solid in its retardation form, exact to round-off.
+    """Convert a solid to its retardation form, exact to round-off.
 
     Examples
     --------
@@ -118,11 +118,11 @@ def retardation_series(material: Prony | StandardSolid) -> RetardationSeries:
 
 
 def relaxation_series(series: RetardationSeries) -> Prony:
-    """Return the solid that creeps in this way as a Prony series, exact to round-off."""
+    """Convert a retardation form to a Prony series, exact to round-off."""
     C, time = np.array(series.elements).T
     E, tau = reciprocal(1 / series.glassy_modulus, C, time)
     return Prony(
-        # a sum of positive terms: no digit is lost
+        # a sum of positive terms, without cancellation
         rubbery_modulus=1 / (1 / series.glassy_modulus + float(np.sum(C))),
         branches=tuple(zip(E, tau, strict=True)),
         poisson_ratio=series.poisson_ratio,
@@ -144,8 +144,8 @@ def relaxation_form(material: Prony | StandardSolid) -> Prony:
         return material
     if not isinstance(material, StandardSolid) or material.modulus_ratio == 1:
         raise InputError(
-            f"{type(material).__name__} is no sum of exponentials; prony_form makes one that is "
-            "close to it"
+            f"{type(material).__name__} is not a sum of exponentials; use prony_form for an "
+            "approximation"
         )
     return Prony(
         rubbery_modulus=material.rubbery_modulus,
@@ -157,20 +157,20 @@ def relaxation_form(material: Prony | StandardSolid) -> Prony:
 def prony_form(
     material: Material, *, frequencies: tuple[float, float], tolerance: float = 3e-4
 ) -> PronyForm:
-    """Return a Prony series that has the complex modulus of a solid between two frequencies.
+    """Approximate the complex modulus of a solid by a Prony series between two frequencies.
 
-    The exact modes of its creep, as far apart as the tolerance allows, interconverted exactly;
-    nothing is fitted. A solid of exponentials is returned as it is.
+    Uses the exact modes of the creep, as few as the tolerance allows, with exact
+    interconversion and without fitting. A solid of exponentials is returned unchanged.
 
     Parameters
     ----------
     material : StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
-        The solid; an elastic one has no series.
+        The solid; not an elastic one.
     frequencies : (float, float)
         Lowest and highest angular frequency [rad/s], positive.
     tolerance : float
-        Largest relative error of the complex modulus between them, in (0, 1). At the default
-        the simulated pull-off force of a power law changes by less than 1e-4.
+        Largest relative error of the complex modulus between them, in (0, 1). The default
+        changes the simulated pull-off force of a power law by less than 1e-4.
 
     Raises
     ------
@@ -189,17 +189,18 @@ def prony_form(
     """
     low, high = (checks.positive("a frequency", w, "rad/s") for w in frequencies)
     if not 0 < tolerance < 1:
-        raise InputError(f"tolerance is relative and must lie in (0, 1), got {tolerance:g}")
+        raise InputError(f"tolerance is relative and must lie between 0 and 1, got {tolerance:g}")
     if low >= high:
         raise InputError(f"frequencies must ascend, got {low:g} and {high:g} rad/s")
     if isinstance(material, Prony) or isinstance(material, StandardSolid):
         return PronyForm(material=relaxation_form(material), error=0.0, frequencies=(low, high))
     if material.modulus_ratio == 1 or isinstance(material, Elastic):
-        raise InputError("an elastic solid does not relax: it has no Prony series")
+        raise InputError("an elastic solid does not relax, so it has no Prony series")
     omega = np.geomspace(low, high, 2 + int(40 * np.log10(high / low)))
     exact = material.complex_modulus(omega)
     least = float(np.min(np.abs(material.complex_compliance(omega))) * material.rubbery_modulus)
-    # In frequency a mode passes as omega tau, not as exp(-t/tau): the window of time is wider.
+    # The modulus of a mode varies as omega tau, more slowly than exp(-t/tau): widen the time
+    # window.
     error = np.inf
     for finer in (30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4):
         part = min(tolerance * finer, 0.5)
@@ -207,7 +208,7 @@ def prony_form(
             shortest=part / high, longest=1 / (part * low), tolerance=max(part * least, 1e-14)
         )
         E, tau = reciprocal(modes.instantaneous, np.array(modes.weights), np.array(modes.times))
-        keep = E > 0  # a mode too weak to move its pole has no branch
+        keep = E > 0  # a mode too weak to move its pole gives no branch
         series = Prony(
             rubbery_modulus=material.rubbery_modulus,
             branches=tuple(zip(material.rubbery_modulus * E[keep], tau[keep], strict=True)),
@@ -217,13 +218,13 @@ def prony_form(
         if error <= tolerance:
             return PronyForm(material=series, error=error, frequencies=(low, high))
     raise InputError(
-        f"no series came closer to the solid than {error:.1e}, and {tolerance:g} was asked for; "
-        "ask for less"
+        f"the closest series has an error of {error:.1e}, above the tolerance {tolerance:g}; "
+        "increase the tolerance"
     )
 
 
 def slowed(material: Any, factor: float) -> Any:
-    """Return the same solid with every time multiplied: what a lower temperature does.
+    """Multiply all times of a solid by a factor, as a change of temperature does.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-r"""Fractional Zener solid: the standard solid with its dashpot made a springpot.
+r"""Fractional Zener solid: a standard solid with a springpot in place of the dashpot.
 
-A springpot answers a strain with a stress proportional to its derivative of the order a: between a
-spring (a = 0) and a dashpot (a = 1). The relaxations of such solids are Mittag-Leffler functions,
-which decay as powers of time on both sides of tau0, and each is a sum of exponentials with a
+The stress of a springpot is proportional to the fractional derivative of order a of the strain,
+between a spring (a = 0) and a dashpot (a = 1). The relaxation functions are Mittag-Leffler
+functions, with power-law decay on both sides of tau0, and each is a sum of exponentials with a
 positive spectrum,
 
 .. math::
@@ -12,7 +12,7 @@ positive spectrum,
 
 (Mainardi, Fractional Calculus and Waves in Linear Viscoelasticity, 2nd ed. (2022),
 doi:10.1142/p926, Sec. 3.4). As a function of ln u it is analytic for \|Im ln u\| < d, the smaller
-of pi/2 (of the exponential) and pi (1 - a)/a (of h_a), so that the trapezoidal rule errs by
+of pi/2 (from the exponential) and pi (1 - a)/a (from h_a), so the trapezoidal rule has an error of
 exp(-2 pi d/step).
 """
 
@@ -40,12 +40,12 @@ from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import FINEST, ROUNDING, Modes, blockwise, compressed
 
 _FINE = 0.127  # of the width d: exp(-2 pi/0.127) = 3e-22
-_LAST = 60.0  # a |ln u| beyond which the spectrum weighs less than round-off over any k
+_LAST = 60.0  # a |ln u| above which the spectrum is below round-off for any k
 
 
 @dataclass(frozen=True, kw_only=True)
 class FractionalZener:
-    r"""Describe a solid whose creep is a Mittag-Leffler function of time.
+    r"""Solid whose creep is a Mittag-Leffler function of time (fractional Zener model).
 
     .. math::
 
@@ -53,7 +53,7 @@ class FractionalZener:
         E(\omega) = E_0 + (E_\infty - E_0) \frac{(i \omega \tau_R)^a}{1 + (i \omega \tau_R)^a} ,
         \qquad \tau_R = k^{1/a} \tau_0
 
-    with k = E0/Einf. In the modulus and in the compliance this is the law of Cole and Cole.
+    with k = E0/Einf. Modulus and compliance have the form of the Cole-Cole law.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class FractionalZener:
     glassy_modulus : float
         Short-time Young's modulus [Pa], not below the rubbery one.
     order : float
-        Order a of the springpot, in (0, 0.95]; 1 would be the standard solid.
+        Order a of the springpot, in (0, 0.95]; a = 1 would be the standard solid.
     tau0 : float
         RETARDATION time [s], positive. The relaxation time is k^(1/a) tau0: `relaxation_time`.
     poisson_ratio : float
@@ -70,9 +70,9 @@ class FractionalZener:
 
     Notes
     -----
-    All four functions are exact to 1e-12 of themselves. For t << tau0 the creep rises as t^a and
-    for t >> tau0 it comes to its end as t^-a: slower than any exponential, so that a test that
-    lasts for N tau0 has not seen the last N^-a of it.
+    All four functions have relative errors below 1e-12. For t << tau0 the creep rises as t^a, and
+    for t >> tau0 it approaches its limit as t^-a, more slowly than any exponential: after N tau0
+    a fraction N^-a of it remains.
 
     References
     ----------
@@ -125,7 +125,7 @@ class FractionalZener:
         """Return the relaxation modulus [Pa], from glassy to rubbery, at times [s]."""
         t = nonnegative("time", time, "s")
         E0, Einf = self.rubbery_modulus, self.glassy_modulus
-        # in logarithms: at a small order the relaxation time underflows
+        # in logarithms, because the relaxation time underflows at small orders
         return like_input(E0 + (Einf - E0) * remaining(self.order, _log(t) - self._log_relaxation))
 
     def creep(self, time: npt.ArrayLike) -> Real:
@@ -144,16 +144,16 @@ class FractionalZener:
         """Return 1/(E' + i E'') = C' - i C'' [1/Pa] at angular frequencies [rad/s]."""
         w = nonnegative("omega", omega, "rad/s")
         C0, Cinf = 1 / self.rubbery_modulus, 1 / self.glassy_modulus
-        # 1/(1 + z) is what z/(1 + z) is at the conjugate of 1/z
+        # 1/(1 + z) equals z/(1 + z) at the conjugate of 1/z
         passing = np.conj(_cole(self.order, -_log(w) - math.log(self.tau0)))
         return like_input(Cinf + (C0 - Cinf) * passing)
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
 
-        The trapezoidal rule over the spectrum, with the widest step that keeps the tolerance; the
-        error is measured against the exact creep. 1 to 30 ms; 1 s at an order of 0.95 over forty
-        decades.
+        Uses the trapezoidal rule over the spectrum, with the widest step within the tolerance; the
+        error is measured against the exact creep. Takes 1 to 30 ms; 1 s at an order of 0.95 over
+        forty decades.
         """
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
@@ -164,15 +164,15 @@ class FractionalZener:
         tolerance = max(tolerance, FINEST)
         first, last = math.log(shortest / self.tau0), math.log(longest / self.tau0)
         step = 3 * math.pi * _width(a) / math.log(4 / tolerance)
-        # The error is a wave of one step in the logarithm of time, and its height changes over the
-        # width of the kernel: one wave every quarter of an e-fold has the highest.
+        # The error oscillates with one step in the logarithm of time, and its amplitude varies over
+        # the width of the kernel: sampling one period every quarter of an e-fold finds the maximum.
         waves = np.linspace(first, last, 2 + int((last - first) / max(step, 0.25)))
         at = np.unique(np.minimum(waves[:, None] + step * np.arange(16) / 16, last))
         exact = k + (1 - k) * passed(a, at)
         missed = math.inf
         while step > _FINE * _width(a):
             weights, log_u = nodes(a, step)
-            # what has passed before the window, or hardly begins in it, is one mode each
+            # merge the modes faster, and those slower, than the window into one each
             inside = np.clip(log_u, first - 5, last - math.log(tolerance) + 5)
             log_u, place = np.unique(inside, return_inverse=True)
             modes = compressed(
@@ -190,12 +190,12 @@ class FractionalZener:
                 return Modes(modes.instantaneous, modes.weights, modes.times, error)
             step *= 0.85
         raise InputError(
-            f"no modes came closer to the solid than {missed:.1e}, and {tolerance:g} was asked "
-            "for; ask for less"
+            f"the closest modes have an error of {missed:.1e}, above the tolerance {tolerance:g}; "
+            "increase the tolerance"
         )
 
     def reduced(self) -> "FractionalZener":
-        """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
         glassy = self.glassy_modulus / self.rubbery_modulus
         return replace(
             self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
@@ -207,7 +207,7 @@ class FractionalZener:
 
 
 def nodes(order: float, step: float) -> tuple[Array, npt.NDArray[Any]]:
-    """Return weights, of sum 1, and places ln u of the spectrum of a Mittag-Leffler function."""
+    """Return normalised weights and nodes ln u of the spectrum of a Mittag-Leffler function."""
     a = order
     last = math.ceil(_LAST / a / step)
     y = step * np.arange(-last, last + 1, dtype=float)
@@ -217,19 +217,19 @@ def nodes(order: float, step: float) -> tuple[Array, npt.NDArray[Any]]:
 
 
 def passed(order: float, log_time: Array) -> Array:
-    """Return 1 - E_a(-x^a) at ln x, from -inf to inf: a sum of positive terms."""
+    """Return 1 - E_a(-x^a) at ln x, from -inf to inf, as a sum of positive terms."""
     return _summed(order, log_time, lambda ratio: -np.expm1(-ratio), early=0.0, late=1.0)
 
 
 def remaining(order: float, log_time: Array) -> Array:
-    """Return E_a(-x^a) at ln x, from -inf to inf: a sum of positive terms."""
+    """Return E_a(-x^a) at ln x, from -inf to inf, as a sum of positive terms."""
     return _summed(order, log_time, lambda ratio: np.exp(-ratio), early=1.0, late=0.0)
 
 
 def _summed(
     order: float, log_time: Array, kernel: Callable[[Array], Array], *, early: float, late: float
 ) -> Array:
-    """Return the mean over the spectrum of a kernel of x/u, with its limits at 0 and infinity."""
+    """Average a kernel of x/u over the spectrum, with its limits at 0 and infinity."""
     found = np.where(log_time > 0, late, early)
     inside = np.isfinite(log_time)
     if not np.any(inside):
@@ -249,10 +249,10 @@ def _summed(
 
 
 def _cole(order: float, log_x: Array) -> npt.NDArray[np.complex128]:
-    """Return z/(1 + z) with z = (i x)^a at ln x, from -inf to inf, each part exactly."""
+    """Return z/(1 + z) with z = (i x)^a at ln x, from -inf to inf, without cancellation."""
     cos, sin = math.cos(math.pi * order / 2), math.sin(math.pi * order / 2)
     with np.errstate(over="ignore", divide="ignore"):
-        small = np.exp(-order * np.abs(log_x))  # of z and 1/z the smaller
+        small = np.exp(-order * np.abs(log_x))  # the smaller of z and 1/z
         across = sin / (small + 2 * cos + 1 / small)
     above = 1 + 2 * cos * small + small**2
     part = np.where(log_x > 0, 1 + cos * small, small * (small + cos)) / above
@@ -260,7 +260,7 @@ def _cole(order: float, log_x: Array) -> npt.NDArray[np.complex128]:
 
 
 def _width(order: float) -> float:
-    """Return how far from the real axis of ln u the integrands are analytic."""
+    """Return the half-width of the strip about real ln u where the integrands are analytic."""
     return min(math.pi / 2, math.pi * (1 - order) / order)
 
 

@@ -1,6 +1,7 @@
-"""Published materials with their source, ready to be used.
+"""Published materials with their source.
 
-Few, because each is checked against its publication. Add one by a function like those below.
+The list is short, because each material is checked against its publication. Add one by a function
+like those below.
 """
 
 from collections.abc import Callable, Iterable
@@ -17,11 +18,11 @@ from viscotack.materials.shift import WLF
 
 
 def pdms_10_1() -> Passport:
-    """Return PDMS (Sylgard 184, resin to curing agent 10:1, 2 h at 70 C), Eq. 4.27.
+    """Return the passport of PDMS (Sylgard 184, resin to curing agent 10:1, 2 h at 70 C), Eq. 4.27.
 
     Tensile DMA at 1 Hz and 0.1 % strain, -130 to 20 C in steps of 10 K, shifted to 20 C by WLF
     with a glass transition at -115 C; modified power law in its retardation form. k is
-    1.458/3089 = 4.720e-4. The thesis states no Poisson ratio beside it: 0.5, as for rubber.
+    1.458/3089 = 4.720e-4. The thesis states no Poisson ratio; 0.5 is assumed.
 
     Examples
     --------
@@ -55,7 +56,7 @@ def pdms_10_1() -> Passport:
             undetermined=(
                 "no intervals were published",
                 "the coldest points lie below the glass transition, where WLF is not valid: the "
-                "glassy modulus and the highest frequencies rest on them",
+                "glassy modulus and the highest frequencies depend on them",
             ),
         ),
     )
@@ -67,15 +68,23 @@ MATERIALS: dict[str, Callable[[], Passport]] = {"pdms-10-1": pdms_10_1}
 def published(name: str) -> Passport:
     """Return the passport of a published material by its short name.
 
+    Returns
+    -------
+    Passport
+        Material, temperature, shift and source.
+
+    Raises
+    ------
+    ValueError
+        If the library has no such material.
+
     Examples
     --------
     >>> published("pdms-10-1").material.exponent
     0.2207
     """
     if name not in MATERIALS:
-        raise InputError(
-            f"there is no published material {name!r} in the library; it has {', '.join(MATERIALS)}"
-        )
+        raise InputError(f"no published material {name!r}; the library has {', '.join(MATERIALS)}")
     return MATERIALS[name]()
 
 
@@ -87,12 +96,12 @@ def passport_of(name: str, *, also: Iterable[Any] = ()) -> Passport:
     name : str
         Path of the file, or short name of the published material.
     also : iterable of classes
-        Materials of the user's own that the file may name.
+        User-defined materials that the file may name.
 
     Raises
     ------
     ValueError
-        If it is neither, or the file no passport.
+        If it is neither, or the file is not a passport.
     """
     if name in MATERIALS:
         return published(name)

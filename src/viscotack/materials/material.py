@@ -1,4 +1,4 @@
-"""What every material answers, in one place: words, units and signs."""
+"""Protocol of materials: their attributes and methods with units and signs."""
 
 from typing import Protocol
 
@@ -12,12 +12,12 @@ Complex = complex | npt.NDArray[np.complex128]
 
 
 class Material(Protocol):
-    """Describe a linear viscoelastic, isotropic solid with a constant Poisson ratio.
+    """Linear viscoelastic, isotropic solid with a constant Poisson ratio.
 
-    A type for the checker: a new material needs these names and nothing else. Quantities are
-    uniaxial (E, not the contact modulus E*), in SI, angular frequencies in rad/s. A number gives a
-    number, an array an array of its shape; times and frequencies lie in [0, inf], anything else
-    raises ValueError.
+    A protocol for type checkers, see for example :class:`viscotack.StandardSolid`. A new material
+    needs these attributes and methods only. Quantities are uniaxial (E, not the contact modulus
+    E*), in SI, angular frequencies in rad/s. Methods accept a number or an array and return the
+    same shape. Times and frequencies must be in [0, inf]; other values raise ValueError.
     """
 
     @property
@@ -67,26 +67,26 @@ class Material(Protocol):
         ...
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return the creep in exponential modes, for a window of time.
+        """Approximate the creep by exponential modes in a window of time.
 
         Parameters
         ----------
         shortest, longest : float
-            Times [s] between which the modes must hold, positive.
+            Times [s] between which the modes must be valid, positive.
         tolerance : float
-            Largest error of E0 C(t), dimensionless, in (0, 1). It is absolute: for fast events in
-            a solid of small k ask for a fraction of E0 C(shortest). Theories of cracks ask for
-            1e-14 k: below `viscotack.materials.modes.FINEST`, 3e-14, rounding decides, and the
-            modes are the closest there are.
+            Largest absolute error of E0 C(t), dimensionless, in (0, 1). For fast events in a solid
+            of small k, request a fraction of E0 C(shortest). Theories of cracks request 1e-14 k:
+            below `viscotack.materials.modes.FINEST`, 3e-14, rounding limits the accuracy, and the
+            closest modes are returned.
 
         Returns
         -------
         Modes
-            With a stated error that holds for shortest <= time <= longest; not above the larger
-            of the tolerance and `FINEST`.
+            With a stated error for shortest <= time <= longest, at most the larger of the tolerance
+            and `FINEST`.
         """
         ...
 
     def reduced(self) -> "Material":
-        """Return the dimensionless twin: rubbery modulus 1, time unit 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, time unit 1, Poisson ratio 0."""
         ...

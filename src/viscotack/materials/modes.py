@@ -1,4 +1,4 @@
-"""The memory of a linear viscoelastic solid as a few exponential modes."""
+"""Exponential modes of the creep of a linear viscoelastic solid."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -10,29 +10,29 @@ from viscotack.arrays import Array
 from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, nonnegative
 
-# Of E0 C(t): what its evaluation as a sum of exponentials may lose to rounding, and the smallest
-# tolerance that modes can be held to. Below it they are the closest ones, and state their error.
+# Rounding error of E0 C(t) as a sum of exponentials, and the smallest tolerance of modes.
+# Below it the closest modes are returned with their error.
 ROUNDING, FINEST = 1e-14, 3e-14
 _BLOCK = 2**18  # elements of one temporary array
 
 
 @dataclass(frozen=True)
 class Modes:
-    r"""Hold a creep compliance as exponential modes, in units of the rubbery compliance.
+    r"""Creep compliance as exponential modes, relative to the rubbery compliance.
 
     .. math:: E_0 C(t) = c_\infty + \sum_j w_j (1 - e^{-t/\tau_j})
 
     Parameters
     ----------
     instantaneous : float
-        Compliance at once (c_inf), dimensionless, positive; with the weights it sums to 1.
+        Instantaneous compliance c_inf, dimensionless, positive; with the weights it sums to 1.
     weights : tuple of float
         Weight of each mode (w), dimensionless, positive.
     times : tuple of float
         Retardation time of each mode (tau) [s], ascending.
     error : float
-        Bound on the error of E0 C(t), dimensionless, over the window of time the modes were
-        made for. At times below that window the modes are too compliant.
+        Bound on the error of E0 C(t), dimensionless, in the window of time of the modes. At shorter
+        times the modes are too compliant.
 
     Examples
     --------
@@ -58,35 +58,35 @@ class Modes:
             )
 
     def creep(self, time: npt.ArrayLike) -> float | Array:
-        """Return E0 C, dimensionless, at times [s]: from `instantaneous` at 0 to 1."""
+        """Return E0 C, dimensionless, at times [s]; it rises from `instantaneous` at 0 to 1."""
         t = nonnegative("time", time, "s")
         crept = -np.expm1(-t[..., None] / np.array(self.times)) @ np.array(self.weights)
         return like_input(self.instantaneous + crept)
 
 
 def maxwell(x: Array) -> npt.NDArray[np.complexfloating]:
-    """Return i x/(1 + i x), a Maxwell branch at x = omega tau in [0, inf], each part exactly."""
+    """Return i x/(1 + i x), a Maxwell branch at x = omega tau in [0, inf], without cancellation."""
     with np.errstate(divide="ignore", over="ignore"):
         return 1 / (1 + (1 / x) ** 2) + 1j / (x + 1 / x)
 
 
 def voigt(x: Array) -> npt.NDArray[np.complexfloating]:
-    """Return 1/(1 + i x), a Voigt element at x = omega tau in [0, inf], each part exactly."""
+    """Return 1/(1 + i x), a Voigt element at x = omega tau in [0, inf], without cancellation."""
     with np.errstate(divide="ignore", over="ignore"):
         return 1 / (1 + x**2) - 1j / (x + 1 / x)
 
 
 def blockwise(rows: Callable[[Array], npt.NDArray], weights: Array, x: Array) -> npt.NDArray:
-    """Return ``rows(x) @ weights``, of the shape of x, where `rows` takes columns of x.
+    """Compute ``rows(x) @ weights`` in blocks to limit memory; the result has the shape of x.
 
     Parameters
     ----------
     rows : callable
         (column of x, shape (n, 1)) -> array of shape (n, N).
     weights : ndarray, shape (N,)
-        Of the columns of that array, which is made of few rows at a time.
+        Weights of the columns of that array.
     x : ndarray
-        Places.
+        Arguments.
     """
     count = max(1, _BLOCK // max(weights.size, 1))
     flat = np.ravel(x)
@@ -105,10 +105,10 @@ def compressed(
     tolerance: float,
     error: float,
 ) -> Modes:
-    """Return fewer modes with the same creep for shortest <= time <= longest.
+    """Reduce modes, with the same creep for shortest <= time <= longest.
 
     The fastest modes become instantaneous; the slowest become one mode of the same weight and the
-    same first rate of creep. Each of the two takes at most half of the tolerance.
+    same initial creep rate. Each of the two reductions uses at most half of the tolerance.
 
     Parameters
     ----------
@@ -119,17 +119,17 @@ def compressed(
     shortest, longest : float
         Window of time [s].
     tolerance : float
-        Error to add at most, in units of the rubbery compliance.
+        Largest additional error, relative to the rubbery compliance.
     error : float
-        Error of the modes given, in the same unit; that of the result contains it.
+        Error of the given modes, in the same unit; included in that of the result.
 
     Returns
     -------
     Modes
-        With at least the modes the window needs, and a true bound on the error.
+        At least the modes that the window needs, with a strict bound on the error.
     """
     w, tau = weights, times
-    # 1 - exp(-t/tau) counted as 1 is wrong by exp(-t/tau), most at the shortest time
+    # replacing 1 - exp(-t/tau) by 1 has the error exp(-t/tau), largest at the shortest time
     lost = np.cumsum(w * np.exp(-shortest / tau))
     fast = int(np.searchsorted(lost, tolerance / 2, side="right"))
     instantaneous = instantaneous + float(np.sum(w[:fast]))
@@ -139,13 +139,13 @@ def compressed(
         return Modes(instantaneous, (), (), error)
 
     def tail(x: Array) -> Array:
-        """Return sums over the slowest mode, the two slowest, and so on."""
+        """Return cumulative sums from the slowest mode on."""
         return np.cumsum(x[::-1])
 
     weight, rate = tail(w), tail(w / tau)
     time = weight / rate
     excess = -weight * np.expm1(-longest / time) - tail(-w * np.expm1(-longest / tau))
-    # the excess grows while one mode creeps faster than those it replaces; it is below the weight
+    # the excess grows while the mode creeps faster than those it replaces; it is below the weight
     fastest = rate * np.exp(-longest / time)
     growing = fastest * (1 + 1e-12) > tail(w / tau * np.exp(-longest / tau))
     bound = np.where(growing, np.minimum(np.abs(excess), weight), weight)

@@ -1,4 +1,4 @@
-"""A material with its papers: what it is, how anybody knows, where it may be trusted."""
+"""Material passport: a material with its origin, uncertainty and range of validity."""
 
 import math
 from dataclasses import dataclass, replace
@@ -13,20 +13,20 @@ from viscotack.materials.shift import BESIDE, FittedShift, Shift, TabulatedShift
 
 @dataclass(frozen=True, kw_only=True)
 class Origin:
-    """Where a material comes from.
+    """Origin of a material.
 
     Attributes
     ----------
     reference : str
-        Publication or laboratory, in words.
+        Publication or laboratory, as text.
     doi : str
-        Its DOI.
+        DOI of the publication.
     file, sha256, format : str
-        Name, hash and format of the file that was fitted.
+        Name, hash and format of the fitted file.
     made_by : str
-        Program and version that wrote the passport.
+        Program and version that created the passport.
     notes : tuple of str
-        What was decided on the way from the file to the numbers.
+        Decisions between file and numbers.
     """
 
     reference: str = ""
@@ -40,20 +40,20 @@ class Origin:
 
 @dataclass(frozen=True, kw_only=True)
 class Evidence:
-    """How well a fit knows its material.
+    """Quality of a fit.
 
     Attributes
     ----------
     numbers, constants : int
-        Measured numbers, and constants fitted to them.
+        Number of measured values, and of fitted constants.
     scatter : float or None
-        Standard deviation of ln(measured/fitted); None where nobody says.
+        Standard deviation of ln(measured/fitted); None if unknown.
     level : float
         Confidence level of the intervals.
     intervals : tuple of (str, float, float)
-        Name, lower and upper end [SI] of each; 0 and inf where there is no bound.
+        Name, lower and upper end [SI] of each interval; 0 and inf where there is no bound.
     undetermined, cautions : tuple of str
-        What the measurement cannot say, and what to know of the fit.
+        Sentences on undetermined constants, and on the quality of the fit.
     """
 
     numbers: int
@@ -67,33 +67,33 @@ class Evidence:
 
 @dataclass(frozen=True, kw_only=True)
 class Passport:
-    """A material and its papers.
+    """A material with its temperature shift, origin and uncertainty.
 
     Parameters
     ----------
     name : str
-        What it is called.
+        Name of the material.
     material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
-        The solid at `temperature`; tensile, with a constant Poisson ratio.
+        Tensile solid at `temperature`, with a constant Poisson ratio.
     temperature : float or None
-        Temperature at which the material holds [K].
+        Temperature of `material` [K].
     shift : WLF, Arrhenius, TabulatedShift or None
-        How its times change with temperature.
+        Temperature dependence of its times.
     fitted_shift : FittedShift or None
-        The law nearest to a measured table of shifts.
+        Law fitted to a measured table of shifts.
     temperatures : (float, float) or None
-        Lowest and highest temperature at which it was measured [K].
+        Lowest and highest measured temperature [K].
     frequencies : (float, float) or None
-        Lowest and highest angular frequency [rad/s], at `temperature`, that was measured.
+        Lowest and highest measured angular frequency [rad/s], reduced to `temperature`.
     measured : str or None
-        "E" or "G": which modulus was measured; None where nobody says.
+        Measured kind of modulus, "E" or "G"; None if unknown.
     origin : Origin
-        Where it comes from.
+        Origin of the material.
     evidence : Evidence or None
-        How well the fit knows it.
+        Quality of the fit.
     allowed : tuple of Material
-        Solids that the measurement allows as well, drawn at random at the same temperature: what
-        a forecast does with the uncertainty of all constants together.
+        Solids sampled from the uncertainty of the measurement at the same temperature, to propagate
+        the joint uncertainty of all constants to predictions.
 
     Examples
     --------
@@ -131,7 +131,7 @@ class Passport:
                 f"material must be one of viscotack.materials, got {type(self.material).__name__}"
             )
         if self.shift is not None and self.temperature is None:
-            raise InputError("a shift needs the temperature [K] at which the material holds")
+            raise InputError("a shift needs the temperature [K] of the material")
         if self.measured not in ("E", "G", None):
             raise InputError(f"measured must be 'E', 'G' or None, got {self.measured!r}")
         for name in ("temperatures", "frequencies"):
@@ -140,18 +140,20 @@ class Passport:
                 raise InputError(f"{name} must be positive and ascend, got {pair}")
 
     def shift_factor(self, temperature: float) -> float:
-        """Return a_T: how many times slower the material is at another temperature [K].
+        """Return a_T, the factor on the times of the material at another temperature [K].
 
         Raises
         ------
         ValueError
-            Without a shift law; outside the temperatures that were measured, or outside the law.
+            Without a shift law, or outside the measured temperatures or the law's range.
         """
         if temperature == self.temperature:
             return 1.0
         if self.shift is None or self.temperature is None:
             known = "" if self.temperature is None else f" from {_both(self.temperature)}"
-            raise InputError(f"{self.name}: no law says how times change with temperature{known}")
+            raise InputError(
+                f"{self.name}: the temperature dependence of its times is unknown{known}"
+            )
         if self.temperatures is not None:
             low, high = self.temperatures
             if not low - BESIDE <= temperature <= high + BESIDE:
@@ -164,16 +166,15 @@ class Passport:
         return 10.0**decades
 
     def shift_deviation(self, temperature: float) -> float:
-        """Return the standard deviation of log10 a_T at a temperature [K]; 0 where nobody says."""
+        """Return the standard deviation of log10 a_T at a temperature [K]; 0 if unknown."""
         if self.temperature is None or not isinstance(self.shift, TabulatedShift):
             return 0.0
         return self.shift.deviation(temperature, self.temperature)
 
     def at_temperature(self, temperature: float) -> Any:
-        """Return the material at another temperature [K]: its times multiplied by a_T.
+        """Return the material at another temperature [K], with its times multiplied by a_T.
 
-        Moduli stay as they are: the small change of the rubbery modulus with temperature is not
-        counted.
+        Moduli are unchanged: the small temperature dependence of the rubbery modulus is neglected.
 
         Raises
         ------
@@ -189,12 +190,12 @@ class Passport:
         deviation = self.shift_deviation(temperature)
         note = f"moved from {_both(self.temperature)} to {_both(temperature)}, a_T = {a:.6g}"
         if deviation > 0:
-            note += f", log10 a_T known to {deviation:.2g}"
+            note += f", standard deviation of log10 a_T {deviation:.2g}"
         if self.temperature is None or temperature == self.temperature:
             return self
         evidence = self.evidence
         if evidence is not None:
-            # of two independent errors of ln tau0, where the second is that of the shift
+            # combine two independent errors of ln tau0; the second is that of the shift
             wider = NormalDist().inv_cdf((1 + evidence.level) / 2) * deviation * math.log(10)
             moved = tuple(
                 _moved(interval, getattr(self.material, "tau0", math.nan), a, wider)
@@ -216,8 +217,8 @@ class Passport:
 
 
 def _scattered(count: int) -> list[float]:
-    """Return numbers of mean 0 and deviation 1, evenly spread and in no order; always the same."""
-    # steps of the golden section visit the unit interval evenly
+    """Return deterministic numbers of mean 0 and deviation 1, evenly spread and unordered."""
+    # golden-section steps cover the unit interval evenly
     drawn = [NormalDist().inv_cdf((0.5 + 0.6180339887 * i) % 1.0) for i in range(count)]
     if count < 2:
         return [0.0] * count
@@ -227,11 +228,11 @@ def _scattered(count: int) -> list[float]:
 def _moved(
     interval: tuple[str, float, float], tau0: float, factor: float, wider: float
 ) -> tuple[str, float, float]:
-    """Return an interval at another temperature; `wider` is the half-width of ln(factor)."""
+    """Move an interval to another temperature; `wider` is the half-width of ln(factor)."""
     name, low, high = interval
     if name != "tau0":
         return interval
-    # an end that is open stays open
+    # an open end stays open
     down = math.hypot(math.log(tau0 / low), wider) if low > 0 else math.inf
     up = math.hypot(math.log(high / tau0), wider) if high < math.inf else math.inf
     return name, tau0 * factor * math.exp(-down), tau0 * factor * math.exp(up)

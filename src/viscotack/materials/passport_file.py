@@ -1,8 +1,8 @@
-"""Passports in TOML files: written and read back to the last digit.
+"""Read and write passports as TOML files, without loss of digits.
 
-docs/materials.md shows one. Every quantity is text with its unit, as in the file of a problem. The
-tables [relaxation] and [retardation] are for other programs: they follow from [material], and
-reading refuses a file in which they no longer do.
+docs/materials.md shows an example. Every quantity is text with its unit, as in case files. The
+tables [relaxation] and [retardation] are derived from [material] for other programs; reading
+rejects a file in which they disagree.
 """
 
 import os
@@ -33,42 +33,76 @@ _TABLES = (
 
 
 def write_passport(passport: Passport, path: Target) -> None:
-    """Write a passport to a TOML file; :func:`read_passport` gives back an equal one.
+    """Write a passport to a TOML file; :func:`read_passport` restores an equal one.
 
-    A material of the user's own is written by its word and its numbers, without its code.
+    For a user-defined material, its word and numbers are written, but not its code.
+
+    Parameters
+    ----------
+    passport : Passport
+        Passport to write.
+    path : path or binary file
+        Output file.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from viscotack.materials.library import pdms_10_1
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "pdms.toml")
+    ...     write_passport(pdms_10_1(), file)
+    ...     read_passport(file) == pdms_10_1()
+    True
     """
     write_whole(path, passport_text(passport).encode())
 
 
 def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Passport:
-    """Return the passport in a file.
+    """Read a passport from a TOML file.
 
     Parameters
     ----------
     path : path
-        File that :func:`write_passport` wrote, or one by hand of the same tables.
+        File written by :func:`write_passport`, or by hand with the same tables.
     also : iterable of classes
-        Materials of the user's own that it may name by their words; others are ignored.
+        User-defined materials that the file may name by their words; unused ones are ignored.
+
+    Returns
+    -------
+    Passport
+        Equal to the one that was written.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If it is no passport, a key is missing, unknown or impossible, or its relaxation or
-        retardation form is not that of its material.
+        If the file is not a passport, a key is missing, unknown or invalid, or its relaxation or
+        retardation form disagrees with its material.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from viscotack.materials.library import pdms_10_1
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "pdms.toml")
+    ...     write_passport(pdms_10_1(), file)
+    ...     read_passport(file) == pdms_10_1()
+    True
     """
     path = Path(path)
     tables = read_toml(path)
     if "passport" not in tables:
         raise InputError(
-            f"{path} is no material passport: it has no line 'passport = {VERSION}'; "
-            "`viscotack material fit` writes one, docs/materials.md shows one"
+            f"{path} is not a material passport, because it lacks the line 'passport = {VERSION}'; "
+            "create one by `viscotack material fit`; docs/materials.md shows an example"
         )
     if tables["passport"] != VERSION:
         raise InputError(
-            f"{path}: passport version {tables['passport']!r} is not known, only {VERSION}; "
-            "a newer viscotack may read it"
+            f"{path}: passport version {tables['passport']!r} is not supported, only {VERSION}; "
+            "use a newer viscotack"
         )
     try:
         return _passport(tables, known_models(also))
@@ -81,7 +115,7 @@ def read_passport(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> 
 
 
 def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
-    """Return the classes of materials by their words, with those of the user's own."""
+    """Return the classes of materials by their words, including user-defined ones."""
     own = {kind.word: kind for kind in also if hasattr(kind, "retardation_modes")}
     return {**MODELS, **own}
 
@@ -89,7 +123,7 @@ def known_models(also: Iterable[Any] = ()) -> Mapping[str, Any]:
 def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
     for name in tables:
         if name not in ("passport", "name", *_TABLES):
-            raise InputError(f"unknown table [{name}]; a passport has {', '.join(_TABLES)}")
+            raise InputError(f"unknown table [{name}]; allowed tables: {', '.join(_TABLES)}")
     convention = tables.get("convention", {})
     if convention.get("modulus", "E") != "E":
         raise InputError(
@@ -117,13 +151,14 @@ def _passport(tables: Mapping[str, Any], models: Mapping[str, Any]) -> Passport:
 
 
 def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material:
-    """Return the material of a table [material] that states a model, one of those given."""
+    """Return the material of a table [material]; its model must be one of the given ones."""
     model = table["model"]
     rests(FITS_ONLY.get(model))
     if model not in models:
         raise InputError(
-            f"[material] model must be one of {', '.join(models)}, got {model!r}; if it is one of "
-            "your own, give its class (also=(CLASS,) in Python, --with FILE.py on the command line)"
+            f"[material] model must be one of {', '.join(models)}, got {model!r}; for a "
+            "user-defined model, give its class (also=(CLASS,) in Python, --with FILE.py on the "
+            "command line)"
         )
     units, lists = units_of(models[model]), cards(models[model], Pairs)
     values: dict[str, Any] = {key: parse(table[key], unit) for key, unit in units.items()}
@@ -137,7 +172,7 @@ def material_in(table: Mapping[str, Any], models: Mapping[str, Any]) -> Material
 
 
 def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:
-    """Refuse series that are not those of the material: somebody changed one of them."""
+    """Raise an error if the series disagree with the material, because one of them was edited."""
     forms = (
         ("relaxation", "rubbery_modulus", "branches", "Pa", _modulus_of_branches),
         ("retardation", "glassy_modulus", "elements", "1/Pa", _modulus_of_elements),
@@ -153,8 +188,8 @@ def _check_forms(passport: Passport, tables: Mapping[str, Any]) -> None:
         allowed = min(1.5 * float(table["largest_error"]), 0.1) + 1e-9
         if not np.max(np.abs(stated / exact - 1)) < allowed:
             raise InputError(
-                f"the table [{name}] is not that of [material]; it follows from it, so delete "
-                "[relaxation] and [retardation] after a change of [material]"
+                f"the table [{name}] disagrees with [material], from which it is derived; delete "
+                "[relaxation] and [retardation] after editing [material]"
             )
 
 

@@ -1,4 +1,4 @@
-"""A passport as the text of its TOML file: the tables, and every number with all its digits."""
+"""Format a passport as the text of its TOML file, with all digits."""
 
 from dataclasses import fields
 from typing import Any
@@ -12,7 +12,7 @@ from viscotack.materials.shift import WLF, Arrhenius, FittedShift, Shift, Tabula
 from viscotack.materials.words import units_of, word_of
 
 VERSION = 1
-_NOT_EXACT = 1e-3  # of the Prony series written for a power law
+_NOT_EXACT = 1e-3  # relative error of the Prony series written for a power law
 _TIMES = {
     "elastic": "none",
     "sls": "tau0 is the retardation time",
@@ -25,7 +25,7 @@ _OWN_TIMES = "as the class of the model defines them"
 
 
 def passport_text(passport: Passport) -> str:
-    """Return a passport as the text of its file."""
+    """Format a passport as the text of its file."""
     lines = [
         "# A material and its papers, written by viscotack. Moduli are Young's moduli.",
         f"passport = {VERSION}",
@@ -41,7 +41,7 @@ def passport_text(passport: Passport) -> str:
 
 
 def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
-    """Return the tables of the file; empty ones are not written."""
+    """Return the tables of the file, without empty ones."""
     solid = _solid(passport.material)
     convention = {
         "modulus": "E",
@@ -69,7 +69,7 @@ def _tables(passport: Passport) -> dict[str, dict[str, Any]]:
 
 
 def _solid(material: Any) -> dict[str, Any]:
-    """Return a material by the name of its model and its constants."""
+    """Return a material as the word of its model and its constants."""
     constants: dict[str, Any] = {
         name: _quantity(getattr(material, name), unit)
         for name, unit in units_of(type(material)).items()
@@ -80,7 +80,7 @@ def _solid(material: Any) -> dict[str, Any]:
 
 
 def _forms(passport: Passport) -> dict[str, dict[str, Any]]:
-    """Return the relaxation and the retardation form, in exponentials."""
+    """Return the relaxation and the retardation form as exponentials."""
     material = passport.material
     exact = isinstance(material, Prony | StandardSolid)
     error = 0.0
@@ -100,7 +100,7 @@ def _forms(passport: Passport) -> dict[str, dict[str, Any]]:
         "branches": _pairs(series.branches, "Pa", "s"),
     }
     return {
-        # a Prony series states its relaxation form in [material]
+        # [material] already contains the relaxation form of a Prony series
         "relaxation": {} if isinstance(material, Prony) else relaxation,
         "retardation": {
             "largest_error": error,
@@ -135,13 +135,13 @@ def _fitted_words(fitted: FittedShift | None) -> dict[str, Any]:
 
 
 def _plain(record: Any) -> dict[str, Any]:
-    """Return the fields of a record that say something."""
+    """Return the non-empty fields of a record."""
     values = {field.name: getattr(record, field.name) for field in fields(record)}
     return {key: value for key, value in values.items() if value not in ("", (), None)}
 
 
 def _quantity(value: float, unit: str) -> Any:
-    """Return a number with its unit: repr keeps every digit."""
+    """Format a number with its unit; repr keeps all digits."""
     return float(value) if unit == "1" else f"{float(value)!r} {unit}"
 
 

@@ -1,4 +1,4 @@
-"""A passport in words, for a person at a terminal."""
+"""Format a passport as text for the terminal."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from viscotack.units import readable
 
 
 def in_words(passport: Passport) -> str:
-    """Return a passport as lines a person reads."""
+    """Format a passport as lines of text."""
     solid = passport.material
     model = word_of(solid)
     lines = [f"{passport.name}: {model}"]
@@ -46,7 +46,7 @@ def in_words(passport: Passport) -> str:
 
 
 def shift_lines(passport: Passport) -> list[str]:
-    """Return a table of shifts and the law nearest to it as lines; none without a table."""
+    """Format a table of shifts and its fitted law as lines; empty without a table."""
     shift = passport.shift
     if not isinstance(shift, TabulatedShift):
         return []
@@ -66,5 +66,7 @@ def shift_lines(passport: Passport) -> list[str]:
         for T, value, doubt, up in rows
     ]
     if passport.fitted_shift is None:
-        return [*lines, "  no WLF or Arrhenius law fits them"] if len(shift.values) > 2 else lines
+        return (
+            [*lines, "  no WLF or Arrhenius law fits the table"] if len(shift.values) > 2 else lines
+        )
     return [*lines, f"  nearest law: {passport.fitted_shift.words()}"]

@@ -1,11 +1,11 @@
-r"""Modified power law: a broad spectrum with four numbers, in its two forms.
+r"""Modified power law: a broad spectrum with four constants, in two forms.
 
-The two classes share the words `exponent` and `tau0` and are DIFFERENT materials: with the same
-numbers they are not each other's reciprocal (they differ by factors up to 8 at k = 0.1, up to
+The two classes share the names `exponent` and `tau0` but are DIFFERENT materials: with the same
+numbers they are not reciprocal (they differ by factors up to 8 at k = 0.1, up to
 2000 at k = 5e-4). Simulations, the crack theory and the published fit of a silicone (Eq. 4.27 of
 Maghami, PhD thesis (2025)) use the retardation form.
 
-What one form gives in closed form, the other obtains from it: its spectrum is a sum of nodes
+Functions without a closed form in one form follow from the other: its spectrum is a sum of nodes
 (exact to round-off), and sums of exponentials are interconverted exactly.
 """
 
@@ -35,7 +35,7 @@ from viscotack.materials.spectrum import FINE, coarse_step, crept, nodes, summed
 
 @dataclass(frozen=True, kw_only=True)
 class RetardationPowerLaw:
-    r"""Describe a solid by a power-law spectrum of retardation times: the one simulated.
+    r"""Solid with a power-law spectrum of retardation times; the default in simulations.
 
     .. math::
 
@@ -60,9 +60,9 @@ class RetardationPowerLaw:
 
     Notes
     -----
-    Creep compliance and complex functions are exact to 1e-13 of themselves (real and imaginary
-    part each) over 25 decades of time and frequency and for k down to 1e-6; so is the relaxation
-    modulus, to 1e-12.
+    Creep compliance and complex functions have relative errors below 1e-13 (real and imaginary
+    part each) over 25 decades of time and frequency and for k down to 1e-6; the relaxation
+    modulus below 1e-12.
 
     References
     ----------
@@ -119,13 +119,13 @@ class RetardationPowerLaw:
     def relaxation(self, time: npt.ArrayLike) -> Real:
         """Return the relaxation modulus [Pa], from glassy to rubbery, at times [s].
 
-        The reciprocal of the creep in the sense of E*(s) C*(s) = 1; not Eq. 4.4.
+        This is the reciprocal of the creep in the sense of E*(s) C*(s) = 1, not Eq. 4.4.
         """
         t = nonnegative("time", time, "s") / self.tau0
         k = self.modulus_ratio
         if k == 1:
             return like_input(np.full(t.shape, self.rubbery_modulus))
-        # the same algebra in times as that of a Prony series in rates
+        # the algebra of a Prony series, with times in place of rates
         weights, tau = nodes(self.exponent, smallest=_smallest(t, self), step=FINE)
         E, relaxation_time = reciprocal(k, (1 - k) * weights, tau)
         relaxing = summed(lambda ratio: np.exp(-ratio), E, t, relaxation_time)
@@ -146,8 +146,8 @@ class RetardationPowerLaw:
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
 
-        The trapezoidal rule over the spectrum (Eq. 4.6), with the widest step that keeps the
-        tolerance: 2 to 4 modes a decade.
+        Uses the trapezoidal rule over the spectrum (Eq. 4.6), with the widest step within the
+        tolerance: 2 to 4 modes per decade.
         """
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
@@ -156,7 +156,7 @@ class RetardationPowerLaw:
         if k == 1:
             return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
         step, error = coarse_step(n, longest=longest / tau0, tolerance=0.6 * tolerance / (1 - k))
-        # what has passed by exp(-40) at the shortest time is instantaneous
+        # modes that have relaxed to exp(-40) at the shortest time are instantaneous
         weights, tau = nodes(n, smallest=shortest / tau0 / 40, step=step)
         return compressed(
             k,
@@ -169,7 +169,7 @@ class RetardationPowerLaw:
         )
 
     def reduced(self) -> "RetardationPowerLaw":
-        """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
         glassy = self.glassy_modulus / self.rubbery_modulus
         return replace(
             self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
@@ -178,7 +178,7 @@ class RetardationPowerLaw:
 
 @dataclass(frozen=True, kw_only=True)
 class RelaxationPowerLaw:
-    r"""Describe a solid by a power-law spectrum of relaxation times.
+    r"""Solid with a power-law spectrum of relaxation times.
 
     .. math::
 
@@ -204,9 +204,9 @@ class RelaxationPowerLaw:
 
     Notes
     -----
-    Relaxation modulus and complex functions are exact to 1e-13 of themselves (real and imaginary
-    part each) over 25 decades of time and frequency and for k down to 1e-6; so is the creep
-    compliance, to 1e-12.
+    Relaxation modulus and complex functions have relative errors below 1e-13 (real and imaginary
+    part each) over 25 decades of time and frequency and for k down to 1e-6; the creep
+    compliance below 1e-12.
 
     References
     ----------
@@ -258,7 +258,7 @@ class RelaxationPowerLaw:
     def creep(self, time: npt.ArrayLike) -> Real:
         """Return the creep compliance [1/Pa], from glassy to rubbery, at times [s].
 
-        The reciprocal of the relaxation in the sense of E*(s) C*(s) = 1; not Eq. 4.9.
+        This is the reciprocal of the relaxation in the sense of E*(s) C*(s) = 1, not Eq. 4.9.
         """
         t = nonnegative("time", time, "s") / self.tau0
         k = self.modulus_ratio
@@ -283,15 +283,15 @@ class RelaxationPowerLaw:
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
         """Return modes of the creep for shortest <= time <= longest [s]; see `Material`.
 
-        The relaxation spectrum (Eq. 4.1) in nodes as far apart as the tolerance allows,
-        interconverted; the error is measured against nodes twice as close. 1 to 10 ms.
+        Uses nodes of the relaxation spectrum (Eq. 4.1), as few as the tolerance allows,
+        interconverted; the error is measured against nodes twice as dense. Takes 1 to 10 ms.
         """
         shortest, longest, tolerance = checks.window(
             shortest=shortest, longest=longest, tolerance=tolerance
         )
         if self.modulus_ratio == 1:
             return Modes(instantaneous=1.0, weights=(), times=(), error=0.0)
-        # the relative error of R - E0 is the same at all times, as that of the creep at late ones
+        # the relative error of R - E0 is uniform in time and equals that of the creep at long times
         step, _ = coarse_step(self.exponent, longest=np.inf, tolerance=tolerance)
         smallest = _smallest(np.array([self.tau0 / longest]), self)
         C, tau = self._retardation(smallest=smallest, step=step)
@@ -311,14 +311,14 @@ class RelaxationPowerLaw:
         return replace(modes, error=1.05 * float(missed) + ROUNDING)
 
     def reduced(self) -> "RelaxationPowerLaw":
-        """Return the dimensionless twin: rubbery modulus 1, tau0 1, Poisson ratio 0."""
+        """Return the dimensionless solid: rubbery modulus 1, tau0 1, Poisson ratio 0."""
         glassy = self.glassy_modulus / self.rubbery_modulus
         return replace(
             self, rubbery_modulus=1.0, glassy_modulus=glassy, tau0=1.0, poisson_ratio=0.0
         )
 
     def _retardation(self, *, smallest: float, step: float) -> tuple[Array, Array]:
-        """Return weights and retardation times in tau0, ascending, of E0 C(t)."""
+        """Return weights and ascending retardation times, relative to tau0, of E0 C(t)."""
         k = self.modulus_ratio
         weights, rate = nodes(self.exponent, smallest=smallest, step=step)
         C, retardation_rate = reciprocal(1.0, (1 / k - 1) * weights, rate)
@@ -326,10 +326,10 @@ class RelaxationPowerLaw:
 
 
 def _smallest(u: Array, material: RetardationPowerLaw | RelaxationPowerLaw) -> float:
-    """Return the node of the spectrum below which its mean stands for it, at times u.
+    """Return the node below which the spectrum is replaced by its mean, for times u.
 
-    A node matters to second order in its distance from u; all together they do not matter
-    where their weight is lost in the rounding of the floor (k, or 1 beside 1/k).
+    A node contributes to second order in its distance from u. All together are negligible
+    if their weight is below the rounding of the floor (k, or 1 relative to 1/k).
     """
     asked = u[(u > 0) & np.isfinite(u)]
     nearest = 1e-8 * float(np.min(asked)) if asked.size else 1e-8

@@ -1,4 +1,4 @@
-"""A material in other units of modulus and time, by the units on the cards of its numbers."""
+"""Change the units of modulus and time of a material, by the units of its cards."""
 
 import re
 from dataclasses import replace
@@ -11,14 +11,14 @@ _FACTOR = re.compile(r"(Pa|s)(?:\^(-?[0-9.]+))?")
 
 
 def scaled(material: Any, *, modulus: float, time: float) -> Any:
-    """Return a material with its moduli and its times multiplied by factors.
+    """Multiply the moduli and the times of a material by factors.
 
-    Every number changes by the unit of its card, in a material of the user's own as well.
+    Each constant is scaled by the unit of its card, for user-defined materials as well.
 
     Raises
     ------
     ValueError
-        If a constant has no card, or a unit that is not made of Pa and s.
+        If a constant has no card, or a unit that is not composed of Pa and s.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def scaled(material: Any, *, modulus: float, time: float) -> Any:
 
 
 def _factor(text: str, unit: dict[str, float]) -> float:
-    """Return what one of a unit such as "Pa s^0.5" or "1/Pa" is in other moduli and times."""
+    """Return the scale factor of a unit such as "Pa s^0.5" or "1/Pa"."""
     if text in unit:
         return unit[text]
     above, _, below = text.partition("/")
@@ -52,7 +52,7 @@ def _factor(text: str, unit: dict[str, float]) -> float:
         for word in words.split():
             found = _FACTOR.fullmatch(word)
             if found is None and word != "1":
-                raise InputError(f"a material is measured in Pa and s, got {text!r}")
+                raise InputError(f"units of a material must be composed of Pa and s, got {text!r}")
             if found is not None:
                 factor *= unit[found[1]] ** (sign * float(found[2] or 1))
     return factor

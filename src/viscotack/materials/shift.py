@@ -1,8 +1,8 @@
-r"""Time-temperature superposition: how much slower a solid is at another temperature.
+r"""Time-temperature superposition: the shift factor a_T of a solid at another temperature.
 
 log10 a_T is positive where the solid is slower than at the reference temperature, that is below
 it: relaxation times at T are a_T times those at the reference, and a modulus measured at omega and
-T is the one that the reference temperature has at omega a_T.
+T equals that at the reference temperature and omega a_T.
 """
 
 import math
@@ -19,17 +19,18 @@ from viscotack.errors import InputError
 from viscotack.materials.checks import like_input, positive, store
 from viscotack.units import readable
 
-UNIVERSAL = 17.44, 51.6  # c1 and c2 [K] at the glass transition (Eq. 4.25): means of many polymers
+# c1 and c2 [K] at the glass transition (Eq. 4.25): averages over many polymers
+UNIVERSAL = 17.44, 51.6
 
 
 def wlf_decades(above: Any, c1: float, c2: float) -> Any:
-    """Return log10 a_T of the WLF law, temperatures counted from its reference [K]."""
+    """Return log10 a_T of the WLF law, for temperatures relative to its reference [K]."""
     return -c1 * above / (c2 + above)
 
 
 @dataclass(frozen=True)
 class WLF:
-    r"""The shift of Williams, Landel and Ferry, for polymers above their glass transition.
+    r"""Shift law of Williams, Landel and Ferry, for polymers above their glass transition.
 
     .. math:: \log_{10} a_T = -\frac{c_1 (T - T_0)}{c_2 + T - T_0}
 
@@ -40,13 +41,14 @@ class WLF:
     c1 : float
         Decades [-], positive.
     c2 : float
-        Temperature above the pole [K], positive: at T0 - c2 the solid would be infinitely slow.
+        Distance of the reference from the pole [K], positive: at T0 - c2 the solid would be
+        infinitely slow.
 
     Notes
     -----
-    The law is used from the glass transition to about 100 K above it. Between the pole and the
-    transition it still gives a number, which a glass out of equilibrium does not follow; at the
-    pole and below it there is none, and asking for it is an error.
+    The law is valid from the glass transition to about 100 K above it. Between the pole and the
+    transition it returns a number that a glass out of equilibrium does not follow; at and below the
+    pole it raises an error.
 
     References
     ----------
@@ -54,7 +56,7 @@ class WLF:
 
     Examples
     --------
-    PDMS at -100 C, seen from a room at 20 C (Sec. 4.6.1 of the thesis):
+    PDMS at -100 C, relative to 20 C (Sec. 4.6.1 of the thesis):
 
     >>> wlf = WLF.from_glass_transition(158.15).at_reference(293.15)
     >>> round(wlf.log10_shift(173.15), 3)
@@ -91,7 +93,7 @@ class WLF:
 
     @property
     def pole(self) -> float:
-        """Temperature below which there is no shift, T0 - c2 [K]; the same for every reference."""
+        """Temperature T0 - c2 [K] of the pole, with no shift at or below it."""
         return self.reference_temperature - self.c2
 
     def log10_shift(self, temperature: npt.ArrayLike) -> float | Array:
@@ -101,12 +103,12 @@ class WLF:
             raise InputError(
                 f"the WLF shift has its pole at {_in_celsius(self.pole)} and no value below, got "
                 f"{_in_celsius(float(np.min(above)) + self.reference_temperature)}; "
-                "leave these temperatures out, or use a measured table of shifts"
+                "omit these temperatures, or use a measured table of shifts"
             )
         return like_input(wlf_decades(above, self.c1, self.c2))
 
     def at_reference(self, temperature: float) -> "WLF":
-        """Return the same law seen from another reference temperature [K], above the pole."""
+        """Return the same law for another reference temperature [K], above the pole."""
         temperature = positive("reference_temperature", temperature, "K")
         c2 = self.c2 + temperature - self.reference_temperature
         if c2 <= 0:
@@ -117,13 +119,13 @@ class WLF:
         return WLF(temperature, self.c1 * self.c2 / c2, c2)
 
     def words(self) -> str:
-        """Return the law as a person reads it."""
+        """Describe the law in words."""
         return f"WLF with c1 = {self.c1:g}, c2 = {self.c2:g} K at {self.reference_temperature:g} K"
 
 
 @dataclass(frozen=True)
 class Arrhenius:
-    r"""The shift of a thermally activated process, for example below the glass transition.
+    r"""Shift law of a thermally activated process, for example below the glass transition.
 
     .. math:: \log_{10} a_T = \frac{E_a}{R \ln 10} \left(\frac{1}{T} - \frac{1}{T_0}\right)
 
@@ -169,7 +171,7 @@ class Arrhenius:
         )
 
     def at_reference(self, temperature: float) -> "Arrhenius":
-        """Return the same law seen from another reference temperature [K]."""
+        """Return the same law for another reference temperature [K]."""
         return replace(self, reference_temperature=temperature)
 
     def words(self) -> str:
@@ -177,33 +179,33 @@ class Arrhenius:
         return f"Arrhenius with {readable(self.activation_energy, 'J/mol', digits=6)}"
 
 
-# K: a chamber is set to a whole degree and drifts, so this much beyond what was measured is inside
+# K: accepted distance from the measured range, because chambers drift about their set point
 BESIDE = 1.0
 
 
 @dataclass(frozen=True)
 class TabulatedShift:
-    """A measured shift: passes through a table, smoothly, and is refused outside it.
+    """Measured shift table, interpolated smoothly; temperatures outside it are rejected.
 
     Parameters
     ----------
     reference_temperature : float
-        T0 [K], inside the table. The shift is zero there, whatever the table says.
+        T0 [K], inside the table; there the shift is zero.
     temperature : tuple of float
         Temperatures of the table [K], ascending, two or more.
     values : tuple of float
-        log10 a_T at these temperatures, relative to any one temperature.
+        log10 a_T at these temperatures, relative to any temperature.
     uncertainty : tuple of float
-        Standard deviation of each value; empty where nobody says.
+        Standard deviation of each value; empty if unknown.
     vertical : tuple of float
-        log10 of the factor that takes a modulus at these temperatures to the one at which the
+        log10 of the factor that converts a modulus at these temperatures to the one where the
         values are zero; empty for 1.
 
     Notes
     -----
-    Between the rows runs the monotone cubic of Fritsch & Carlson (1980), doi:10.1137/0717021: it
-    adds no bump that the table does not have. Up to 1 K beside its ends goes a straight line: a
-    sweep at 0 C is written down with the -0.01 C that the chamber had.
+    Interpolated by the monotone cubic of Fritsch & Carlson (1980), doi:10.1137/0717021, which
+    adds no extrema, and extrapolated linearly by up to 1 K, because a sweep at 0 C may be recorded
+    with the -0.01 C of the chamber.
 
     Examples
     --------
@@ -237,7 +239,7 @@ class TabulatedShift:
             column = np.asarray(getattr(self, name), dtype=float)
             if column.size and column.shape != values.shape:
                 raise InputError(
-                    f"{name} of a table of shifts needs one number for each temperature or none, "
+                    f"{name} of a table of shifts needs one number per temperature or none, "
                     f"got {column.size} for {values.size}"
                 )
             if not np.all(np.isfinite(column)) or name == "uncertainty" and np.any(column < 0):
@@ -263,8 +265,8 @@ class TabulatedShift:
     def deviation(self, temperature: float, other: float) -> float:
         """Return the standard deviation of log10 a_T between two temperatures [K] of the table.
 
-        Both rows count as if they erred apart, which is no less than what they do. Zero where
-        nobody says.
+        The errors of both rows are assumed independent, which is an upper estimate. Zero if
+        unknown.
         """
         if temperature == other or not self.uncertainty:
             return 0.0
@@ -272,7 +274,7 @@ class TabulatedShift:
         return math.hypot(there, here)
 
     def at_reference(self, temperature: float) -> "TabulatedShift":
-        """Return the same table seen from another reference temperature [K] inside it."""
+        """Return the same table for another reference temperature [K] inside it."""
         return replace(self, reference_temperature=temperature)
 
     def _along(self, temperature: Array) -> Array:
@@ -285,8 +287,8 @@ class TabulatedShift:
         outside = temperature[(temperature < low - BESIDE) | (temperature > high + BESIDE)]
         if outside.size:
             raise InputError(
-                f"the table of shifts runs from {_in_celsius(low)} to {_in_celsius(high)}, "
-                f"got {_in_celsius(float(outside[0]))}; a table is not extrapolated: "
+                f"the table of shifts covers {_in_celsius(low)} to {_in_celsius(high)}, "
+                f"got {_in_celsius(float(outside[0]))}; tables are not extrapolated; "
                 "fit a WLF or Arrhenius law to it"
             )
 
@@ -297,19 +299,19 @@ LAWS: Mapping[str, type[WLF] | type[Arrhenius]] = {kind.word: kind for kind in (
 
 @dataclass(frozen=True)
 class FittedShift:
-    """The law nearest to a measured table of shifts, and how well it is known.
+    """A shift law fitted to a measured table, from :func:`viscotack.lab.fit_wlf` and others.
 
     Parameters
     ----------
     law : WLF or Arrhenius
-        At its reference temperature.
+        Law at its reference temperature.
     standard_error : tuple of float
-        Of c1 [-] and c2 [K], or of the activation energy [J/mol].
+        Standard errors of c1 [-] and c2 [K], or of the activation energy [J/mol].
     misfit : float
-        Root mean square of log10 a_T of the table less that of the law [decades].
+        Root mean square of log10 a_T of the table minus that of the law [decades].
     worst : (float, float)
-        Temperature [K] and difference [decades] of the row that fits worst; passports do not keep
-        it, and it does not count in comparisons.
+        Temperature [K] and difference [decades] of the worst row; not stored in passports, and
+        ignored in comparisons.
     """
 
     law: WLF | Arrhenius
@@ -318,7 +320,7 @@ class FittedShift:
     worst: tuple[float, float] = field(default=(math.nan, math.nan), compare=False)
 
     def words(self) -> str:
-        """Return the law with its errors as a person reads it."""
+        """Describe the law with its errors in words."""
         law, errors = self.law, self.standard_error
         if isinstance(law, WLF):
             constants = (
@@ -328,7 +330,7 @@ class FittedShift:
         else:
             energy = readable(law.activation_energy, "J/mol", uncertainty=errors[0])
             constants = f"Arrhenius with {energy}"
-        return f"{constants}; {self.misfit:.2g} decades off on average"
+        return f"{constants}; {self.misfit:.2g} decades off the table on average"
 
 
 def _temperatures(values: npt.ArrayLike) -> Array:

@@ -1,16 +1,16 @@
-r"""Two springpots and nothing else: laws for fits, and why no contact is simulated on them.
+r"""Pairs of springpots: laws for fits only.
 
-A springpot of order a answers a strain e with E tau^a d^a e/dt^a: a spring for a = 0, a dashpot for
-a = 1 (Schiessel, Metzler, Blumen & Nonnenmacher, Journal of Physics A 28 (1995) 6567-6584,
-doi:10.1088/0305-4470/28/23/012). Two of them describe many gels, melts and foods with four numbers,
-over the decades that were measured. Beyond, their moduli go on as powers of time: there is no
-rubbery plateau, in which a contact could come to rest, and no glassy one, on which a fast crack
-runs. Every answer of a simulation would hang on where the law was cut off, so that none is given;
+The stress of a springpot of order a under a strain e is E tau^a d^a e/dt^a: a spring for a = 0, a
+dashpot for a = 1 (Schiessel, Metzler, Blumen & Nonnenmacher, Journal of Physics A 28 (1995)
+6567-6584, doi:10.1088/0305-4470/28/23/012). Two of them describe many gels, melts and foods with
+four constants over the measured decades. Beyond, their moduli continue as powers of time: there is
+neither a rubbery plateau, needed for a relaxed contact, nor a glassy one, needed for a fast crack.
+Every simulation would depend on an arbitrary cut-off, so none is allowed;
 :class:`viscotack.materials.FractionalZener` has both plateaus.
 
-Relaxation in series and creep side by side are Mittag-Leffler functions of two parameters. Here
-each is its spectrum of exponentials, found from the modulus across the cut of negative s, and a sum
-of positive terms by the trapezoidal rule in ln s.
+Relaxation in series and creep in parallel are two-parameter Mittag-Leffler functions. They are
+computed from their spectrum of exponentials, which follows from the modulus across the branch cut
+at negative s, as a sum of positive terms by the trapezoidal rule in ln s.
 """
 
 import math
@@ -37,17 +37,17 @@ from viscotack.materials.material import Complex, Real
 from viscotack.materials.modes import blockwise
 
 NO_PLATEAU = (
-    "two springpots have no plateau, neither rubbery nor glassy: their modulus goes on as a power "
-    "of time for ever, and what a contact does would hang on where that is cut off. Fit "
+    "two springpots have neither a rubbery nor a glassy plateau: their modulus continues as a "
+    "power of time, and a simulated contact would depend on an arbitrary cut-off. Fit "
     "fractional-zener, or a Prony series over the measured range"
 )
 _FINE = 0.127  # of the width in which the integrand is analytic: exp(-2 pi/0.127) = 3e-22
-_LAST = 40.0  # logarithms by which the integrand falls until it is left out
+_LAST = 40.0  # decrease of ln(integrand) beyond which it is neglected
 
 
 @dataclass(frozen=True, kw_only=True)
 class FractionalMaxwell:
-    r"""Describe two springpots in series.
+    r"""Two springpots in series (fractional Maxwell model).
 
     .. math:: E(\omega) = E \frac{(i \omega \tau_0)^a}{1 + (i \omega \tau_0)^{a-b}}
 
@@ -56,16 +56,17 @@ class FractionalMaxwell:
     modulus : float
         E [Pa], positive: each springpot alone has this modulus at 1/tau0.
     order, lower_order : float
-        a in [0.05, 1] of the one that flows at long times, and b in [0, a] of the one that is
-        seen at short times; at most 0.99 apart.
+        Orders: a in [0.05, 1] dominates at long times, b in [0, a] at short times; at most 0.99
+        apart.
     tau0 : float
-        Time [s] at which one gives way to the other, positive.
+        Crossover time [s], positive.
     poisson_ratio : float
         Poisson ratio nu, between 0 and 0.5.
 
     Notes
     -----
-    Relaxation to 1e-10 of itself, creep and complex functions to round-off.
+    The relative error of the relaxation is below 1e-10; creep and complex functions are exact to
+    round-off.
 
     Examples
     --------
@@ -94,12 +95,12 @@ class FractionalMaxwell:
         return 1 / self.complex_compliance(omega)
 
     def complex_compliance(self, omega: npt.ArrayLike) -> Complex:
-        """Return C' - i C'' [1/Pa] at angular frequencies [rad/s]: those of both add up."""
+        """Return C' - i C'' [1/Pa] at angular frequencies [rad/s], the sum of both compliances."""
         x = _inside("omega", omega, "rad/s") * self.tau0
         return like_input((_power(x, -self.order) + _power(x, -self.lower_order)) / self.modulus)
 
     def creep(self, time: npt.ArrayLike) -> Real:
-        """Return the creep compliance [1/Pa] at times [s]: those of both add up."""
+        """Return the creep compliance [1/Pa] at times [s], the sum of both compliances."""
         T = _inside("time", time, "s") / self.tau0
         a, b = self.order, self.lower_order
         return like_input(
@@ -126,7 +127,7 @@ class FractionalMaxwell:
 
 @dataclass(frozen=True, kw_only=True)
 class FractionalKelvinVoigt:
-    r"""Describe two springpots side by side.
+    r"""Two springpots in parallel (fractional Kelvin-Voigt model).
 
     .. math:: E(\omega) = E \left[(i \omega \tau_0)^a + (i \omega \tau_0)^b\right]
 
@@ -135,16 +136,17 @@ class FractionalKelvinVoigt:
     modulus : float
         E [Pa], positive: each springpot alone has this modulus at 1/tau0.
     order, lower_order : float
-        a in [0.05, 1] of the one that carries at short times, and b in [0, a] of the one that
-        carries at long times; at most 0.99 apart.
+        Orders: a in [0.05, 1] dominates at short times, b in [0, a] at long times; at most 0.99
+        apart.
     tau0 : float
-        Time [s] at which one gives way to the other, positive.
+        Crossover time [s], positive.
     poisson_ratio : float
         Poisson ratio nu, between 0 and 0.5.
 
     Notes
     -----
-    Creep to 1e-10 of itself, relaxation and complex functions to round-off.
+    The relative error of the creep is below 1e-10; relaxation and complex functions are exact to
+    round-off.
 
     Examples
     --------
@@ -169,7 +171,7 @@ class FractionalKelvinVoigt:
         _check_orders(self)
 
     def complex_modulus(self, omega: npt.ArrayLike) -> Complex:
-        """Return E' + i E'' [Pa] at angular frequencies [rad/s]: those of both add up."""
+        """Return E' + i E'' [Pa] at angular frequencies [rad/s], the sum of both moduli."""
         x = _inside("omega", omega, "rad/s") * self.tau0
         return like_input(self.modulus * (_power(x, self.order) + _power(x, self.lower_order)))
 
@@ -178,10 +180,10 @@ class FractionalKelvinVoigt:
         return 1 / self.complex_modulus(omega)
 
     def relaxation(self, time: npt.ArrayLike) -> Real:
-        """Return the relaxation modulus [Pa] at times [s]: those of both add up."""
+        """Return the relaxation modulus [Pa] at times [s], the sum of both moduli."""
         T = _inside("time", time, "s") / self.tau0
         a, b = self.order, self.lower_order
-        # 1/Gamma(0) is 0: a dashpot has only the instant of the step
+        # 1/Gamma(0) is 0: a dashpot contributes only at the instant of the step
         return like_input(
             self.modulus
             * (T**-a * scipy.special.rgamma(1 - a) + T**-b * scipy.special.rgamma(1 - b))
@@ -210,12 +212,12 @@ def _check_orders(law: FractionalMaxwell | FractionalKelvinVoigt) -> None:
     if not 0 <= apart <= 0.99:
         raise InputError(
             "lower_order must not be above order, and not more than 0.99 below it, got "
-            f"{law.lower_order:g} and {law.order:g}; a spring and a dashpot are a Prony series"
+            f"{law.lower_order:g} and {law.order:g}; use a Prony series for a spring and a dashpot"
         )
 
 
 def _inside(name: str, values: npt.ArrayLike, unit: str) -> Array:
-    """Return times or frequencies in (0, inf): at the ends there is nothing to answer."""
+    """Return times or frequencies in (0, inf); raise an error at 0 and infinity."""
     array = np.asarray(values, dtype=float)
     wrong = array[~((array > 0) & (array < np.inf))]
     if wrong.size:
@@ -231,7 +233,7 @@ def _power(x: Array, order: float) -> npt.NDArray[Any]:
 
 
 def _width(apart: float) -> float:
-    """Return how far from the real axis of ln s the integrands are analytic."""
+    """Return the half-width of the strip about real ln s where the integrands are analytic."""
     return math.pi / 2 if apart < 2 / 3 else math.pi * (1 - apart) / apart
 
 
@@ -244,9 +246,9 @@ def _summed(
     slow: float,
     fast: float,
 ) -> Array:
-    """Return the integral of spectrum times kernel(rate times time) over the logarithm of rates.
+    """Integrate spectrum times kernel(rate times time) over the logarithm of rates.
 
-    The integrand falls as exp(slow y) below all times and as exp(-fast y) above them.
+    The integrand decays as exp(slow y) below all times and as exp(-fast y) above them.
     """
     x = np.log(np.ravel(T))
     low = min(0.0, -float(np.max(x, initial=0.0))) - _LAST / slow

@@ -1,4 +1,4 @@
-"""The names of the materials and of their constants in files: ``model = "power-law"``."""
+"""Names of the materials and of their constants in files, such as ``model = "power-law"``."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -25,16 +25,16 @@ MODELS: Mapping[str, Any] = {
     )
 }
 
-# Laws for fits, on which no contact comes to rest.
+# Laws for fits only, without a relaxed contact.
 FITS_ONLY: Mapping[str, Any] = {
     kind.word: kind for kind in (FractionalMaxwell, FractionalKelvinVoigt)
 }
 
 
 def units_of(model: Any) -> dict[str, str]:
-    """Return the SI unit of each plain constant of a class of materials, by its name.
+    """Return the SI unit of each plain constant of a class of materials, by name.
 
-    Those that all materials have come first, as in files.
+    Constants common to all materials come first, as in files.
     """
     units = {name: field.card.unit for name, field in cards(model).items()}
     first = {name: units[name] for name in _ALL if name in units}
@@ -52,7 +52,7 @@ def word_of(material: Material) -> str:
     word = getattr(material, "word", None)
     if word is None:
         raise InputError(
-            f"{type(material).__name__} has no word in files; give the class one, "
-            f'word: ClassVar[str] = "...", other than {", ".join(MODELS)}'
+            f"{type(material).__name__} has no word in files; define "
+            f'word: ClassVar[str] = "..." in the class, different from {", ".join(MODELS)}'
         )
     return word

@@ -1,4 +1,4 @@
-"""A problem: material, traction law, shape, body and protocol, in SI, in groups and in files."""
+"""Contact problems: material, traction law, shape, body and protocol, in SI, groups and files."""
 
 from .older import PunchGroups
 from .plane import PunchScales

@@ -1,10 +1,10 @@
-"""How accurate an answer is wanted, and how soon: what a simulation is asked beside its problem."""
+"""Accuracy and time limit of a simulation."""
 
 from typing import Annotated
 
 from viscotack.cards import Quantity
 
-# The accuracy at which the numbers of a simulation's settings are stated.
+# Accuracy at which the settings of a simulation are defined.
 DEFAULT_ACCURACY = 2e-3
 LOOSEST_ACCURACY = 0.02
 
@@ -25,7 +25,7 @@ TimeLimit = Annotated[
     Quantity(
         "s",
         "",
-        "longest wall time of a run and of the coarser one beside it",
+        "longest wall time of a run and of its coarser companion run",
         above=0,
         example="90 s",
     ),

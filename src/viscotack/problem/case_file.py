@@ -1,6 +1,6 @@
-"""A problem written in a file: TOML in SI with units in the text.
+"""Read a problem from a case file: TOML in SI, quantities as text with units.
 
-docs/input.md describes the format; which keys a table has is read from the cards of what it states.
+docs/input.md describes the format; the keys of a table follow from the cards of its class.
 """
 
 import os
@@ -45,7 +45,7 @@ def read_case(
     temperature: float | None = None,
     beside: Callable[[str], Path] | None = None,
 ) -> Problem:
-    """Return the problem that a TOML file states in SI.
+    """Read a problem in SI from a TOML file.
 
     Parameters
     ----------
@@ -54,20 +54,51 @@ def read_case(
         [cone], [profile], [wavy-sphere], or [punch] and [layer]. Quantities are texts with units,
         such as ``radius = "5.19 mm"``.
     also : iterable of classes
-        Laws, materials, shapes and bodies of the user's own that the file may name by their words.
+        User-defined laws, materials, shapes and bodies that the file may name by their words.
     temperature : float, optional
-        Of the material [K], instead of that in the file; only of a passport, and within the range
-        in which it was measured.
+        Temperature of the material [K], overriding that in the file; only for a passport, within
+        its measured range.
     beside : callable, optional
-        Returns the path of a file that a table names; else it lies beside the case.
+        Returns the path of a file named in a table; by default relative to the folder of the case.
+
+    Returns
+    -------
+    Problem
+        The problem in SI.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
         If it is not TOML, a table or key is missing, unknown or of the wrong kind, or the problem
-        is impossible; with file, table and key.
+        is invalid; the message names file, table and key.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> text = '''
+    ... [material]
+    ... model = "elastic"
+    ... rubbery_modulus = "1 MPa"
+    ... poisson_ratio = 0.5
+    ... [interface]
+    ... law = "lennard-jones"
+    ... work_of_adhesion = "50 mJ/m^2"
+    ... equilibrium_gap = "1 um"
+    ... [sphere]
+    ... radius = "1 mm"
+    ... [protocol]
+    ... preload_depth = "1 um"
+    ... speed = "10 um/s"
+    ... '''
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "case.toml")
+    ...     _ = file.write_text(text)
+    ...     problem = read_case(file)
+    >>> problem.geometry
+    Sphere(radius=0.001)
     """
     path = Path(path)
     beside = beside or path.parent.joinpath
@@ -77,16 +108,16 @@ def read_case(
 def case_of_tables(
     tables: Mapping[str, Any], *, where: str = "the case", also: Iterable[Any] = ()
 ) -> Problem:
-    """Return the problem that the tables of a case file state, without the file.
+    """Return the problem stated by the tables of a case file, without a file.
 
     Parameters
     ----------
     tables : mapping
-        As :func:`read_case` has them; none may name a file.
+        Tables as in :func:`read_case`, without names of files.
     where : str
-        What errors call it.
+        Name of the case in error messages.
     also : iterable of classes
-        Laws, materials, shapes and bodies of the user's own that it may name by their words.
+        User-defined laws, materials, shapes and bodies that it may name by their words.
 
     Raises
     ------
@@ -122,12 +153,12 @@ def _stated(
     temperature: float | None,
     beside: Callable[[str], Path] | None = None,
 ) -> Problem:
-    """Return the problem of tables that stand in a file, or were sent."""
+    """Return the problem of tables from a file or a request."""
     shape = _shape_table(path, tables, nouns)
     plain = nouns.shapes[shape].symmetry == "plane"
     bodies = [name for name in tables if name in nouns.bodies] or ([Layer.word] if plain else [])
     if len(bodies) > 1:
-        raise InputError(f"{path}: one body at a time, got [{'] and ['.join(bodies)}]")
+        raise InputError(f"{path}: only one body is allowed, got [{'] and ['.join(bodies)}]")
     names = (*_COMMON, shape, *bodies)
     more = f", or another indenter: {', '.join(nouns.shapes)}{OWN}"
     refuse_unknown(f"{path}", tables, names, "table", more)
@@ -161,14 +192,14 @@ def _shape_table(path: Path | str, tables: Mapping[str, Any], nouns: Nouns) -> s
     """Return the name of the table that states the indenter."""
     given = [name for name in tables if name in nouns.shapes]
     if len(given) > 1:
-        raise InputError(f"{path}: one indenter at a time, got [{'] and ['.join(given)}]")
+        raise InputError(f"{path}: only one indenter is allowed, got [{'] and ['.join(given)}]")
     if given:
         return given[0]
     return "punch" if "layer" in tables else "sphere"
 
 
 def _shape(table: Table, kind: Any) -> Any:
-    """Return the indenter that a table states by the cards of its class.
+    """Return the indenter stated by a table, by the cards of its class.
 
     A [profile] is a measured one by its file, a cone by its slope, or the exponent q and one point
     of z = A r^q, its height at a radius, so that nobody has to type a coefficient in m^(1-q).
@@ -197,7 +228,7 @@ def _measured(table: Table) -> MeasuredProfile:
 
 
 def _body(table: Table, kind: Any, material: Material) -> Any:
-    """Return the body that a table states; a bonded layer is as its material is."""
+    """Return the body stated by a table; a bonded layer takes the Poisson ratio of its material."""
     if kind is not Layer:
         return table.make(kind, **table.numbers(kind))
     bonded = table.word("base", (Frictionless.word, Bonded.word)) == Bonded.word
@@ -211,9 +242,9 @@ def shift_deviation(
     temperature: float | None = None,
     also: Iterable[Any] = (),
 ) -> float:
-    """Return how well the times of a case's material are known, as far as its shift says.
+    """Return the uncertainty of the times of a case's material, from its temperature shift.
 
-    Parameters are those of :func:`read_case`, which has checked the file.
+    The parameters are those of :func:`read_case`, which has checked the file.
 
     Returns
     -------
@@ -234,8 +265,8 @@ def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material
         return passport.material if stated is None else table.make(passport.at_temperature, stated)
     if temperature is not None:
         raise InputError(
-            f"{table.path}: a temperature of {temperature:g} K is for a material from a passport, "
-            'which says how times shift; [material] passport = "pdms.toml"'
+            f"{table.path}: a temperature of {temperature:g} K needs a material from a passport, "
+            'which contains the shift of its times; [material] passport = "pdms.toml"'
         )
     rests(FITS_ONLY.get(str(table.values.get("model"))))
     kind = nouns.materials[table.word("model", nouns.materials, OWN)]
@@ -247,7 +278,7 @@ def _material(table: Table, nouns: Nouns, temperature: float | None) -> Material
 def _passport(
     table: Table, nouns: Nouns, temperature: float | None
 ) -> tuple[Passport, float | None]:
-    """Return the passport beside the file, and the temperature [K] that is asked for."""
+    """Return the passport next to the file, and the requested temperature [K]."""
     own = nouns.materials.values()
     passport = read_passport(table.beside("passport", '"pdms.toml"'), also=own)
     stated = None
@@ -257,11 +288,11 @@ def _passport(
 
 
 def _prony(table: Table) -> Prony:
-    """Return a Prony series whose branches are in a file, in moduli over the rubbery one."""
+    """Return a Prony series with branches from a file, as moduli over the rubbery modulus."""
     ratios, unit = read_prony(table.beside("file", '"prony.csv"'))
     if unit == "1":
         raise InputError(
-            f"{table.name} file: its times have no unit; name the column relaxation_time_s"
+            f"{table.name} file: the times have no unit; name the column relaxation_time_s"
         )
     second = parse(f"1 {unit}", "s")
     plain = {name: table.number(field) for name, field in cards(Prony).items()}

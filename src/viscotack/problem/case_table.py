@@ -1,4 +1,4 @@
-"""One table of a case file: hands out its keys by the cards of a noun.
+"""Access to one table of a case file by the cards of a class.
 
 Every error names the file, the table and the key, and gives an example.
 """
@@ -12,12 +12,12 @@ from viscotack.cards import Field, Pairs, cards
 from viscotack.errors import InputError
 from viscotack.units import parse
 
-# Where a law, a material or a shape that is not known may come from.
+# Hint for unknown laws, materials and shapes.
 OWN = "; one of your own comes --with FILE.py"
 
 
 class Table:
-    """A table of a file: hands out its keys, and knows which were never asked for."""
+    """A table of a file, which records the keys that were read."""
 
     def __init__(
         self,
@@ -34,7 +34,7 @@ class Table:
         self.known: set[str] = set()
 
     def get(self, key: str, example: str = '"..."') -> Any:
-        """Return what a key says, or say how it is written."""
+        """Return the value of a key; raise an error with an example if it is missing."""
         self.known.add(key)
         if key not in self.values:
             raise InputError(
@@ -44,21 +44,21 @@ class Table:
         return self.values[key]
 
     def beside(self, key: str, example: str) -> Path:
-        """Return the file that a key names, beside the file that the table stands in.
+        """Return the path of a file named by a key, relative to the folder of the case.
 
-        Tables that were sent and stand in no file can name none: nobody reads this machine's files
-        by sending a case.
+        Tables sent in a request may not name files, so that requests cannot read files of the
+        server.
         """
         name = self.get(key, example)
         if self._beside is None:
             raise InputError(
-                f"{self.name} {key} names a file, {name!r:.60}, and a case that is sent can name "
-                "none; write the numbers themselves"
+                f"{self.name} {key} names a file, {name!r:.60}, which is not allowed in a request; "
+                "write the numbers themselves"
             )
         return self._beside(str(name))
 
     def require(self, fields: Iterable[Field]) -> None:
-        """Name all at once where several of the keys are missing that some cards describe."""
+        """Raise one error that names all missing keys of several cards."""
         asked = {f.name: f.card for f in fields}
         missing = {name: card for name, card in asked.items() if name not in self.values}
         if len(missing) < 2:
@@ -75,7 +75,7 @@ class Table:
         )
 
     def _meant(self, key: str) -> str:
-        """Return which key may have been meant, in words."""
+        """Suggest the key that may have been meant, in words."""
         given = self.values.keys() - self.known
         close = difflib.get_close_matches(key, given, n=1, cutoff=0.75)
         return f" (is {close[0]} meant?)" if close else ""
@@ -95,7 +95,7 @@ class Table:
             raise InputError(f"{self.name} {key}: {error}; for example {key} = {example}") from None
 
     def number(self, field: Field, key: str = "", unit: str = "") -> float:
-        """Return the number that a card describes, by the name of its field or another key."""
+        """Return the number described by a card, from the key of its field or another key."""
         card, key = field.card, key or field.name
         unit = unit or card.unit
         value = self.quantity(key, unit, _example(card.example, unit))
@@ -105,7 +105,7 @@ class Table:
             raise InputError(f"{self.name} {error}") from None
 
     def pairs(self, field: Field) -> tuple[tuple[float, float], ...]:
-        """Return the list of pairs that a card describes."""
+        """Return the list of pairs described by a card."""
         card, key = field.card, field.name
         given = self.get(key, card.example)
         first, second = card.units
@@ -120,7 +120,7 @@ class Table:
             ) from None
 
     def numbers(self, noun: type) -> dict[str, Any]:
-        """Return the numbers of a noun that the table states; all that have no default must be."""
+        """Return the numbers of a class stated by the table; those without default are required."""
         plain = cards(noun).values()
         self.require([*(f for f in plain if f.needed), *cards(noun, Pairs).values()])
         found: dict[str, Any] = {
@@ -131,7 +131,7 @@ class Table:
         return found | {f.name: self.pairs(f) for f in cards(noun, Pairs).values()}
 
     def word(self, key: str, allowed: Iterable[str], more: str = "") -> str:
-        """Return the word of a key, one of those allowed; `more` says where others come from."""
+        """Return the word of a key, one of those allowed; `more` is a hint for other words."""
         allowed = list(allowed)
         value = self.get(key, f'"{allowed[0]}"')
         if value not in allowed:
@@ -141,21 +141,21 @@ class Table:
         return value
 
     def make(self, kind: Any, *value: Any, **values: Any) -> Any:
-        """Return what a class or a function makes, its errors with the name of the table."""
+        """Call a class or a function; errors get the name of the table."""
         try:
             return kind(*value, **values)
         except ValueError as error:
             raise InputError(f"{self.name} {error}") from None
 
     def finish(self) -> None:
-        """Refuse keys that nobody asked for."""
+        """Raise an error for keys that were not read."""
         refuse_unknown(self.name, self.values, self.known, "key")
 
 
 def refuse_unknown(
     where: str, given: Iterable[str], known: Iterable[str], what: str, more: str = ""
 ) -> None:
-    """Refuse names that are not known, and say which may be meant, and where more come from."""
+    """Raise an error for unknown names, with a suggestion."""
     known = sorted(known)
     for name in given:
         if name not in known:
@@ -166,7 +166,7 @@ def refuse_unknown(
 
 def _pair(given: Any, words: str) -> tuple[Any, Any]:
     if not isinstance(given, list) or len(given) != 2:
-        raise InputError(f"each entry is a pair, {words}, got {given!r}")
+        raise InputError(f"each entry must be a pair, {words}, got {given!r}")
     return given[0], given[1]
 
 
@@ -179,5 +179,5 @@ def _example_of(card: Any) -> str:
 
 
 def _example(text: str, unit: str) -> str:
-    """Return an example as TOML writes it: quantities are texts, pure numbers are not."""
+    """Format an example for TOML: quantities as text, pure numbers without quotes."""
     return text if unit == "1" or not text else f'"{text}"'

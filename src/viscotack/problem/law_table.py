@@ -1,4 +1,4 @@
-"""The table [interface] of a case file, and the flag for the same: a traction law in words."""
+"""Traction law from the table [interface] of a case file, or from an option."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,9 +13,9 @@ from viscotack.units import finite, positive
 
 
 def law_from_table(table: Table, laws: Mapping[str, Any] = LAWS) -> Traction:
-    """Return the law of the table [interface]; its range by equilibrium_gap or by strength.
+    """Return the law of the table [interface]; its range is equilibrium_gap or strength.
 
-    One that grows with the opening speed has its law at rest under ``base``, with the keys of that.
+    A law that grows with the opening speed has its law at rest in the table ``base``.
     """
     kind: Any = laws[table.word("law", laws, OWN)]
     if not grows(kind):
@@ -46,7 +46,9 @@ def _of_gap(table: Table, kind: Any) -> Traction:
     if "strength" not in table.values:
         gap = table.number(scales["equilibrium_gap"])
     elif "equilibrium_gap" in table.values:
-        raise InputError(f"{table.name} strength and equilibrium_gap say the same; leave out one")
+        raise InputError(
+            f"{table.name} strength and equilibrium_gap determine each other; give only one"
+        )
     else:
         strength = table.quantity("strength", "Pa", '"100 kPa"')
         strength = table.make(positive, "strength", strength, "Pa")
@@ -55,7 +57,7 @@ def _of_gap(table: Table, kind: Any) -> Traction:
 
 
 def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
-    """Return the reduced law that a flag states: its name and, after a colon, what it needs.
+    """Return the reduced law stated by an option: its name and, after a colon, its constants.
 
     Examples
     --------
@@ -64,7 +66,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     >>> law_from_words("dugdale").strength
     1.0
 
-    One that grows with the opening speed has its law at rest behind a second colon:
+    For a law that grows with the opening speed, the law at rest follows after a second colon:
 
     >>> law_from_words("gent-schultz:10,0.4:exponential:0.25").base.decay
     0.25
@@ -75,7 +77,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
     kind: Any = laws[name]
     if kind is Tabulated:
         if not rest:
-            raise InputError("a law of the kind table needs its file: table:FILE.csv")
+            raise InputError("the law table needs a file: table:FILE.csv")
         return _tabulated(rest).reduced()
     base = None
     if grows(kind):
@@ -97,7 +99,7 @@ def law_from_words(words: str, laws: Mapping[str, Any] = LAWS) -> Traction:
 
 
 def _constants(kind: Any) -> list[Field]:
-    """Return the cards of a law beside its work and gap; without dimensions, pure numbers."""
+    """Return the cards of a law except work and gap; all are dimensionless."""
     return [
         field
         for name, field in cards(kind).items()

@@ -1,7 +1,7 @@
-"""What a problem may be made of: laws, materials, shapes and bodies that are known, and own ones.
+"""Known classes of laws, materials, shapes and bodies, including user-defined ones.
 
-Nothing is registered: a class says itself what it is, by what it answers, and `word` names it in
-files and flags.
+There is no registry: a class is recognised by its attributes, and `word` is its name in
+files and options.
 """
 
 import importlib.util
@@ -21,7 +21,7 @@ from viscotack.geometry import BODIES, SHAPES
 from viscotack.materials.words import MODELS
 from viscotack.traction import LAWS
 
-# What tells a noun from another class, and where it belongs.
+# Attributes that identify a kind of class, and its room.
 _SIGNS = {
     "laws": (
         "traction",
@@ -48,16 +48,16 @@ _ROOMS = (materials, geometry, protocol, problem)
 
 @dataclass(frozen=True)
 class Nouns:
-    """The classes that are known.
+    """The known classes.
 
     Attributes
     ----------
     laws, materials, shapes, bodies : mapping
-        Word in files and flags -> class.
+        Word in files and options -> class.
     types : mapping
-        Name -> class, of everything that a record may hold.
+        Name -> class, for everything that a record may contain.
     observables : tuple
-        Numbers of results of the user's own.
+        User-defined numbers of results.
     """
 
     laws: Mapping[str, Any]
@@ -69,13 +69,13 @@ class Nouns:
 
 
 def known(also: Iterable[Any] = ()) -> Nouns:
-    """Return what is known, and these classes and observables of a user's own beside it.
+    """Return the known classes, including user-defined classes and observables.
 
     Raises
     ------
     ValueError
-        If one is no law, material, shape, body or observable, or has a name or a word that is
-        taken.
+        If one is not a law, material, shape, body or observable, or its name or word is already
+        used.
     """
     also = tuple(also)
     nouns = {"laws": LAWS, "materials": MODELS, "shapes": SHAPES, "bodies": BODIES}
@@ -85,30 +85,31 @@ def known(also: Iterable[Any] = ()) -> Nouns:
     for noun in also:
         if hasattr(noun, "function") and not isinstance(noun, type):
             if noun.name in {other.name for other in observables}:
-                raise InputError(f"two observables are called {noun.name}; rename one")
+                raise InputError(f"two observables have the name {noun.name}; rename one")
             observables.append(noun)
             continue
         room = _room(noun)
         check_carded(noun)
         if noun.word in own[room] or noun.__name__ in types:
             raise InputError(
-                f"{noun.__name__} ({noun.word!r}) has a name or a word that is taken; choose others"
+                f"{noun.__name__} ({noun.word!r}) has a name or a word that is already used; "
+                "choose others"
             )
         own[room][noun.word] = types[noun.__name__] = noun
     return Nouns(**own, types=types, observables=tuple(observables))
 
 
 def own_nouns(paths: Iterable[str | Path]) -> tuple[Any, ...]:
-    """Return the laws, materials, shapes, bodies and observables that Python files define.
+    """Return the laws, materials, shapes, bodies and observables defined in Python files.
 
-    The files are executed: they are programs of the user's own.
+    The files are executed.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If a file does not exist.
     ValueError
-        If a file is no Python, or defines nothing of the kind.
+        If a file is not valid Python, or defines none of these.
     """
     found: list[Any] = []
     for path in dict.fromkeys(Path(path).resolve() for path in paths):
@@ -132,8 +133,8 @@ def _defined(path: Path, content: str) -> tuple[Any, ...]:
     found = tuple(thing for thing in vars(module).values() if _is_own(thing, name))
     if not found:
         raise InputError(
-            f"{path} defines no law, material, shape, body or observable; docs/own.md shows how "
-            "one looks"
+            f"{path} defines no law, material, shape, body or observable; docs/own.md shows an "
+            "example"
         )
     return found
 
@@ -155,8 +156,8 @@ def _room(noun: Any) -> str:
                 return room
     wanted = "; ".join(f"{room}: {', '.join(signs)}" for room, signs in _SIGNS.items())
     raise InputError(
-        f"{getattr(noun, '__name__', noun)!r} is no law, material, shape or body: a frozen "
-        f"dataclass with a `word` and ({wanted}), or an Observable"
+        f"{getattr(noun, '__name__', noun)!r} is not a law, material, shape or body: these are "
+        f"frozen dataclasses with a `word` and ({wanted}); nor is it an Observable"
     )
 
 

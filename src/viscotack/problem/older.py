@@ -1,4 +1,4 @@
-"""Records and names of older versions as this one has them.
+"""Convert records and names of earlier versions to the current ones.
 
 Version 0.1 had a class for each indenter: PunchProblem with `punch` and `layer`, ProfileProblem
 with `profile`, ProfileGroups with `profile_exponent`, and PunchGroups with `size`, `thickness` and
@@ -13,7 +13,7 @@ from viscotack.errors import InputError
 from viscotack.geometry import Base, FlatPunch, Frictionless, Layer
 from viscotack.problem.problem import Groups
 
-# What numbers of an answer were called -> are called, as in `outputs`; in SI too.
+# Old -> current names of outputs, as in `outputs`; in SI too.
 _OUTPUTS = {
     f"{old}{tail}": f"{new}{tail}"
     for old, new in (
@@ -23,9 +23,9 @@ _OUTPUTS = {
     for tail in ("", "_m")
 }
 OUTPUTS = frozenset(_OUTPUTS)
-# What numbers of a problem were called -> are called, by the beginning of their path.
+# Old -> current prefixes of paths of inputs.
 _PATHS = {"punch.": "geometry.", "layer.": "body.", "profile.": "geometry."}
-# The same of a dimensionless punch; in tables of other kinds two of these are columns of today.
+# The same for a dimensionless punch; in tables of other kinds two of these are current columns.
 _PATHS_OF_PUNCH = {
     "size": "geometry.half_width",
     "thickness": "body.thickness",
@@ -37,18 +37,34 @@ _SLIDING = Frictionless()
 def PunchGroups(  # noqa: N802
     size: float, thickness: float, cohesion: float, *, base: Base = _SLIDING, **parts: Any
 ) -> Groups:
-    """Return the dimensionless punch on a layer: an older name of :class:`viscotack.Groups`.
+    """Return the dimensionless punch on a layer; former name of :class:`viscotack.Groups`.
 
     Parameters
     ----------
     size, thickness : float
-        Half width and thickness of the layer [a_0].
+        Half width of the punch and thickness of the layer [a_0].
     cohesion : float
         sigma_0/E_0*.
     base : Frictionless or Bonded
-        How the layer rests on the rigid body below.
+        Lower boundary of the layer.
     **parts
-        Those of Groups: material, start, rate, ...
+        Further parameters of Groups: material, start, rate, ...
+
+    Returns
+    -------
+    Groups
+        With ``tabor=None``, a flat punch and a layer.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.protocol import AtDepth
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> with warnings.catch_warnings(action="ignore"):
+    ...     case = PunchGroups(64.85, 3.24, 0.05, material=solid, start=AtDepth(1.0), rate=10.0)
+    >>> case.body
+    Layer(thickness=3.24, base=Frictionless())
     """
     warnings.warn(
         "PunchGroups(size, thickness, cohesion, ...) is Groups(tabor=None, cohesion=..., "
@@ -61,7 +77,7 @@ def PunchGroups(  # noqa: N802
 
 
 def upgraded(record: Any) -> Any:
-    """Return a record of any version as one of this version; what is none is left as it is."""
+    """Convert a record of any version to the current one; other objects are unchanged."""
     if not isinstance(record, dict):
         return record
     renamed = dict(record)
@@ -87,7 +103,7 @@ def upgraded(record: Any) -> Any:
 
 
 def upgraded_path(path: str) -> str:
-    """Return the path of a number in a record, such as ``punch.half_width``, as it is now."""
+    """Convert the path of a number in a record, such as ``punch.half_width``."""
     for old, new in _PATHS.items():
         if path.startswith(old):
             return new + path.removeprefix(old)
@@ -95,19 +111,19 @@ def upgraded_path(path: str) -> str:
 
 
 def upgraded_paths(paths: Iterable[str], record: Mapping[str, Any]) -> list[str]:
-    """Compute the paths of today of numbers in a record, which has the names of today."""
+    """Convert paths of numbers in a record that already has the current names."""
     punch = record["type"] == Groups.__name__ and "cohesion" in record
     more = _PATHS_OF_PUNCH if punch else {}
     return [more.get(path, upgraded_path(path)) for path in paths]
 
 
 def upgraded_output(name: str) -> str:
-    """Return the name of a number of an answer, such as ``pull_off_depth``, as it is now."""
+    """Convert the name of an output, such as ``pull_off_depth``."""
     return _OUTPUTS.get(name, name)
 
 
 def naming(record: dict[str, Any]) -> dict[str, Any]:
-    """Return a record as version 0.1 wrote it: names by content are made from that for ever."""
+    """Return a record as version 0.1 wrote it; run ids are always computed from that form."""
     shape, body = record.get("geometry", {}), record.get("body", {})
     renamed = {name: value for name, value in record.items() if name not in ("geometry", "body")}
     match record["type"], shape.get("type"), body.get("type"):

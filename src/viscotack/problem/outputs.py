@@ -1,8 +1,8 @@
-r"""What each kind of problem calls the numbers of its answer, and the units it gives them in.
+r"""Names and units of the outputs of each kind of problem.
 
 A :class:`viscotack.Result` is the same for every indenter: force, depth, contact edge. Summaries,
-tables and pictures speak of what is at hand, the pull-off force of a sphere [1.5 pi R
-Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. One :class:`Kind` states all of it.
+tables and figures use the specific quantities: the pull-off force of a sphere [1.5 pi R
+Delta-gamma_0] or the pull-off stress of a punch [sigma_0]. A :class:`Kind` defines them.
 """
 
 from collections.abc import Callable, Mapping
@@ -19,9 +19,9 @@ class Unit:
     Attributes
     ----------
     text, drawn : str
-        As printed, and as drawn in a picture.
+        Unit in text, and in figures.
     scale : str
-        The attribute of ``problem.scales()`` that turns the number into SI.
+        Attribute of ``problem.scales()`` that converts the number to SI.
     si : str
         SI unit.
     """
@@ -33,11 +33,11 @@ class Unit:
 
     @property
     def tail(self) -> str:
-        """Return what a name in SI ends with, ``m_per_s``."""
+        """Return the unit suffix of a name in SI, such as ``m_per_s``."""
         return self.si.replace("/", "_per_").replace("^", "")
 
 
-# By which a number of a `Result` is multiplied, from the dimensionless groups.
+# Factor on a number of a `Result`, from the dimensionless groups.
 Factor = Callable[[Any], float]
 
 
@@ -47,7 +47,7 @@ def _as_it_is(groups: Any) -> float:
 
 @dataclass(frozen=True)
 class Series:
-    """A column of a table: a series of a `Result` in a unit, times a factor."""
+    """A column of a table: a series of a `Result`, its unit and a factor."""
 
     source: str
     words: str
@@ -57,9 +57,10 @@ class Series:
 
 @dataclass(frozen=True)
 class Output:
-    """A number of a summary: the function of that name in :mod:`viscotack.result.observables`.
+    """A number of a summary, computed by the function of that name in the observables.
 
-    A `noted` one has a note beside it: what the function warned of, or why there is none.
+    A `noted` one has an additional note: a warning of the function, or the reason why it is
+    undefined.
     """
 
     words: str
@@ -69,22 +70,22 @@ class Output:
 
 @dataclass(frozen=True)
 class Kind:
-    """What a kind of problem gives.
+    """Outputs of a kind of problem.
 
     Attributes
     ----------
     series : mapping
-        The columns of its table, by name.
+        Columns of its table, by name.
     observables : mapping
-        The numbers of its summary, by name.
+        Numbers of its summary, by name.
     cycles : mapping
-        The columns of the table of its cycles, by name.
+        Columns of the table of its cycles, by name.
     units : mapping
-        What a force, a depth, a radius, a speed, a work, a time and a pure number are given in.
+        Units of force, depth, radius, speed, work, time and pure numbers.
     energy : Unit
-        What energies and works are given in.
+        Unit of energies and works.
     energy_factor : callable
-        That unit's factor.
+        Factor of that unit.
     """
 
     series: Mapping[str, Series]
@@ -95,17 +96,17 @@ class Kind:
     energy_factor: Factor = _as_it_is
 
     def of(self, source: str) -> Series:
-        """Return the column that a series of a `Result` becomes."""
+        """Return the column of a series of a `Result`."""
         return self.series[self.name_of(source)]
 
     def check_has(self, observable: str) -> None:
-        """Refuse a number that a summary of this kind does not have, naming what is pulled."""
+        """Raise an error for a number that summaries of this kind do not contain."""
         if observable not in self.observables:
             pulled = f"pull_off_{self.name_of('force')}"
-            raise InputError(f"there is no {observable} of this problem; it has {pulled}")
+            raise InputError(f"this kind of problem has no {observable}; use {pulled}")
 
     def name_of(self, source: str) -> str:
-        """Return the name of that column."""
+        """Return the name of the column of a series of a `Result`."""
         return next(name for name, column in self.series.items() if column.source == source)
 
 
@@ -124,7 +125,7 @@ _WORK = Unit("1.5 pi R dg0 h0", r"$1.5\,\pi R\,\Delta\gamma_0 h_0$", "work", "J"
 
 
 def _cycles(force: str, unit: Unit, work: Unit, factor: Factor = _as_it_is) -> dict[str, Series]:
-    """Return the columns of a table of cycles, of :class:`viscotack.result.cycles.Cycle`."""
+    """Return the columns of a table of cycles, see :class:`viscotack.result.cycles.Cycle`."""
     return {
         "begin": Series("begin", "begin", _TIME),
         "end": Series("end", "end", _TIME),
@@ -200,7 +201,7 @@ def _per_half_width(groups: Any) -> float:
 
 
 def _crack_speed(groups: Any) -> float:
-    return groups.fracture_length  # a Result counts lengths in a0
+    return groups.fracture_length  # lengths of a Result are in a0
 
 
 def _per_work_of_adhesion(groups: Any) -> float:

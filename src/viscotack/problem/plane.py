@@ -1,4 +1,4 @@
-r"""A flat punch on a layer, in plane strain: its scales, its limits.
+r"""A flat punch on a layer in plane strain: scales, groups and limits.
 
 With :math:`a_0 = \pi E_0^* \Delta\gamma_0/(2 \sigma_0^2)` (Eq. 3.3) and the strength
 :math:`\sigma_0` of the interface, the groups are
@@ -6,7 +6,7 @@ With :math:`a_0 = \pi E_0^* \Delta\gamma_0/(2 \sigma_0^2)` (Eq. 3.3) and the str
 .. math:: \frac{a}{a_0}, \quad \frac{b}{a_0}, \quad \Sigma_0 = \frac{\sigma_0}{E_0^*}, \quad k,
           \quad \frac{\delta_l}{h_0}, \quad \hat r = \frac{r\,\tau_0}{h_0}.
 
-The cohesion :math:`\Sigma_0` only says how many h_0 there are in a_0: it changes crack speeds, and
+The cohesion :math:`\Sigma_0` determines only the ratio of h_0 to a_0: it affects crack speeds, but
 no stress. Source: Maghami, PhD thesis (2025), chapter 3.
 """
 
@@ -22,7 +22,7 @@ from viscotack.problem.units import InSI, time_unit
 from viscotack.protocol import Apart, AtRadius, Start, Units
 from viscotack.protocol.words import PUNCH_UNITS
 
-# What a protocol's numbers are in, in SI and dimensionless: forces are mean stresses.
+# Units of a protocol, in SI and dimensionless; forces are mean stresses.
 SI = PUNCH_UNITS | {"stiffness": "Pa/m"}
 GROUPS = {
     "depth": "h0",
@@ -32,7 +32,7 @@ GROUPS = {
     "time": "tau0",
     "stiffness": "sigma0/h0",
 }
-# What the numbers of its shape and its body are called without dimensions.
+# Cards of the dimensionless shape and body.
 SIZES = {
     "size": Quantity("a0", "a/a0", "half width of the punch", above=0),
     "thickness": Quantity("a0", "b/a0", "thickness of the layer", above=0),
@@ -41,7 +41,7 @@ SIZES = {
 
 @dataclass(frozen=True)
 class PunchScales:
-    """What one unit of each dimensionless output of a punch is in SI.
+    """SI values of the units of a punch's outputs, from :meth:`viscotack.Problem.scales`.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class PunchScales:
     half_width : float
         a [m], for the ligament.
     work : float
-        Delta-gamma_0 [J/m^2], for works and energies of unit area.
+        Delta-gamma_0 [J/m^2], for works and energies per unit area.
     time : float
         The material's time unit [s].
     crack_speed : float
@@ -82,7 +82,7 @@ def fracture_length(problem: Any) -> float:
 
 
 def scales_of(problem: Any) -> PunchScales:
-    """Return what one unit of each dimensionless output is in SI."""
+    """Return the SI values of the units of the dimensionless outputs."""
     law, time = problem.traction, time_unit(problem.material, problem.traction)
     return PunchScales(
         stress=law.strength,
@@ -96,21 +96,21 @@ def scales_of(problem: Any) -> PunchScales:
 
 
 def to_groups(scales: PunchScales) -> Units:
-    """Return what takes the numbers of a protocol from SI to those of the groups."""
+    """Return the factors that convert a protocol from SI to groups."""
     return Units(1 / scales.length, 1 / scales.stress, 1 / scales.width, 1 / scales.time)
 
 
 def check_start(start: Start | Apart) -> None:
-    """Refuse a start at a contact radius."""
+    """Raise an error for a start at a contact radius."""
     if isinstance(start, AtRadius):
         raise InputError(
-            "a punch does not start at a contact radius: its contact is as wide as the punch; "
-            f"give a depth or a mean stress, got {start}"
+            "a punch cannot start at a contact radius, because its contact is as wide as the "
+            f"punch; give a depth or a mean stress, got {start}"
         )
 
 
 def check(problem: Any) -> None:
-    """Refuse a start at a contact radius."""
+    """Raise an error for a start at a contact radius."""
     check_start(problem.protocol.start)
 
 
@@ -120,16 +120,17 @@ def lengths(problem: Any) -> tuple[float, float]:
 
 
 def ratios(problem: Any) -> dict[str, float | None]:
-    """Return the group that no shape, body or test has: the cohesion."""
+    """Return the group that is independent of shape, body and test: the cohesion."""
     return {"tabor": None, "cohesion": problem.cohesion}
 
 
 def check_groups(groups: Any) -> None:
-    """Refuse a dimensionless punch without cohesion, with a Tabor number, or begun at a radius."""
+    """Raise an error for a punch without cohesion, with a Tabor number, or begun at a radius."""
     if groups.cohesion is None or groups.tabor is not None:
         raise InputError(
-            "a punch has a cohesion, sigma_0/E_0*, and no Tabor number: give cohesion=0.05, say, "
-            f"and tabor=None, got cohesion={groups.cohesion} and tabor={groups.tabor}"
+            "a punch needs a cohesion, sigma_0/E_0*, and no Tabor number: give for example "
+            f"cohesion=0.05 and tabor=None, got cohesion={groups.cohesion} and "
+            f"tabor={groups.tabor}"
         )
     check_start(groups.start)
 
@@ -142,9 +143,9 @@ def si_units(
     equilibrium_gap: float = 0.0,
     work_of_adhesion: float = 0.0,
 ) -> InSI:
-    """Return the units of dimensionless groups in SI, of one of gap and work of adhesion."""
+    """Return the SI units of dimensionless groups, given either gap or work of adhesion."""
     if radius is not None:
-        raise InputError(f"a punch has no radius, got {radius:g} m; leave it out")
+        raise InputError(f"a punch has no radius, got {radius:g} m; omit it")
     strength, E = groups.cohesion * contact_modulus, contact_modulus
     w = work_of_adhesion or equilibrium_gap * strength / groups.traction.strength
     h0 = equilibrium_gap or groups.traction.strength * w / strength

@@ -1,17 +1,17 @@
-r"""A problem: material, traction law, geometry and protocol, in SI or in dimensionless groups.
+r"""Contact problem: material, traction law, geometry and protocol, in SI or dimensionless groups.
 
-A problem is a shape on a body, with a traction law, a material and a protocol. By the symmetry of
-the shape it is one of two kinds, an indenter of revolution (:mod:`.revolution`) or a punch in plane
-strain (:mod:`.plane`); these say what its scales, groups, limits and outputs are. With
+A problem is a shape on a body, with a traction law, a material and a protocol. The symmetry of
+the shape defines its kind: an indenter of revolution (:mod:`.revolution`) or a punch in plane
+strain (:mod:`.plane`), with their scales, groups, limits and outputs. With
 :math:`E_0^* = E_0/(1-\nu^2)` the five groups of the sphere on a half-space are
 
 .. math:: \mu = \left(\frac{R \Delta\gamma_0^2}{E_0^{*2} h_0^3}\right)^{1/3}, \quad
           k = \frac{E_0}{E_\infty}, \quad n, \quad
           \hat\delta_l = \frac{\delta_l}{h_0}, \quad \hat r = \frac{r\,\tau_0}{h_0}.
 
-They do not fix :math:`R/h_0`: whether strains are small can be judged only in SI, and going from
-groups to SI needs four scales. Source: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and 31, the
-Tabor number as corrected in Eq. 31.
+They do not determine :math:`R/h_0`: whether strains are small can be checked only in SI, and
+converting groups to SI needs four scales. Source: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and
+31, with the Tabor number as corrected in Eq. 31.
 """
 
 from collections.abc import Mapping
@@ -42,7 +42,7 @@ Tabor = Annotated[
     Quantity("1", "mu", "Tabor number, (R dg0^2/(E0*^2 h0^3))^(1/3)", above=0, example="3.24"),
 ]
 if TYPE_CHECKING:
-    _TaborOrNone = Any  # code of one symmetry need not ask for None again
+    _TaborOrNone = Any  # code for one symmetry need not check for None again
 else:
     _TaborOrNone = Tabor | None
 Cohesion = Annotated[
@@ -65,26 +65,26 @@ class Problem:
     Parameters
     ----------
     material : Elastic, StandardSolid, Prony, RetardationPowerLaw or RelaxationPowerLaw
-        The soft body's.
+        Material of the soft body.
     traction : LennardJones, Dugdale, Exponential, Tabulated, GentSchultz or Eyring
-        The forces across the gap.
+        Traction law of the interface.
     geometry : Sphere, Cone, PowerLawProfile, FlatPunch or a shape of the user's
-        The rigid indenter.
+        Rigid indenter.
     protocol : Retraction
-        A relaxed start and the retraction from it, and what the machine does between. Of a punch
+        State at rest, moves and retraction. For a punch,
         AtForce and LoadTo are mean stresses [Pa], positive in compression, and a stiffness is per
         area [Pa/m].
     body : HalfSpace, Layer or a body of the user's
-        What is pressed; a half-space when left out. A flat punch needs a layer, the others may
-        press either, or a body that was made for their symmetry.
+        Soft body, by default a half-space. A flat punch needs a layer, other shapes press either,
+        or a body for their symmetry.
 
     Raises
     ------
     ValueError
-        If a part is of the wrong kind, shape and body do not go together, or the contact is too
+        If a part is of the wrong kind, shape and body do not fit together, or the contact is too
         large for small strain: the relaxed contact radius of a sphere, estimated by JKR, may be up
-        to half its radius, and so may sqrt(2 R h_0), the radius over which an undeformed gap of h_0
-        is reached; of another shape the flank may be up to 0.5 there.
+        to half its radius, and so may sqrt(2 R h_0), the radius at which the undeformed gap is h_0;
+        for another shape the slope of the flank may be up to 0.5 there.
 
     Examples
     --------
@@ -142,26 +142,27 @@ class Problem:
             self._kind.check(self)
 
     def _check_digits(self) -> None:
-        """Raise an InputError where a unit of the dimensionless problem is not a number."""
+        """Raise an InputError if a unit of the dimensionless problem overflows or underflows."""
         try:
             lost = [name for name, unit in vars(self._scales).items() if not 0 < unit < np.inf]
         except ArithmeticError:
             lost = ["length"]
         if lost:
             raise InputError(
-                f"no number holds the unit of {', '.join(lost)} of this problem: {self.geometry}, "
-                f"{self.traction} and a contact modulus of {self.material.contact_modulus:.4g} Pa "
-                "lie too far apart; check their units"
+                f"the unit of {', '.join(lost)} of this problem overflows or underflows: "
+                f"{self.geometry}, {self.traction} and a contact modulus of "
+                f"{self.material.contact_modulus:.4g} Pa have incompatible magnitudes; check "
+                "their units"
             )
 
     @property
     def tabor(self) -> float:
-        """Tabor number mu of a shape of revolution, range of the forces beside the deformation."""
+        """Tabor number mu of a shape of revolution: deformation over range of the forces."""
         return revolution.tabor_number(self.radius, self.material, self.traction)
 
     @cached_property
     def radius(self) -> float:
-        """Radius R [m] of the sphere with the Tabor number and scales of a shape of revolution."""
+        """Radius R [m] of a sphere with the same Tabor number and scales."""
         if self._kind is plane:
             raise InputError("a flat punch has no radius and no Tabor number; see its cohesion")
         return revolution.radius_of(self)
@@ -170,28 +171,28 @@ class Problem:
     def cohesion(self) -> float:
         """Strength of the interface of a punch over the contact modulus, Sigma_0."""
         if self._kind is not plane:
-            raise InputError(f"the cohesion is one of a punch, and this is a {self.geometry}")
+            raise InputError(f"the cohesion is defined for a punch, got a {self.geometry}")
         return self.traction.strength / self.material.contact_modulus
 
     @property
     def fracture_length(self) -> float:
         """Length a_0 [m] of a punch, Eq. 3.3."""
         if self._kind is not plane:
-            raise InputError(f"the length a_0 is one of a punch, and this is a {self.geometry}")
+            raise InputError(f"the length a_0 is defined for a punch, got a {self.geometry}")
         return plane.fracture_length(self)
 
     @property
     def outputs(self) -> Kind:
-        """What the numbers of its answer are called and given in."""
+        """Names and units of the outputs."""
         return self._kind.outputs(self.geometry)
 
     @property
     def units(self) -> Mapping[str, str]:
-        """What its protocol is measured in."""
+        """Units of the protocol."""
         return self._kind.SI
 
     def scales(self) -> Any:
-        """Return what one unit of each dimensionless output is in SI, Scales or PunchScales."""
+        """Return the SI values of the units of the outputs, Scales or PunchScales."""
         return self._scales
 
     def groups(self) -> "Groups":
@@ -231,37 +232,38 @@ class Groups:
         Tabor number mu of a shape of revolution; positive. None for a punch.
     material : like that of a Problem
         Reduced material: rubbery modulus 1, Poisson ratio 0, times in the time unit of the case.
-        ``material.reduced()`` makes one whose time unit is tau_0 (Prony: its longest time).
+        ``material.reduced()`` returns it with the time unit tau_0 (Prony: its longest time).
     start : AtDepth, AtForce, AtRadius or Apart
-        Depth and gap in h_0, force in 1.5 pi R Delta-gamma_0, radius in
-        (pi R^2 Delta-gamma_0/E_0*)^(1/3); of a punch mean stress in sigma_0 (positive in
+        State at rest: depth and gap in h_0, force in 1.5 pi R Delta-gamma_0, radius in
+        (pi R^2 Delta-gamma_0/E_0*)^(1/3); for a punch mean stress in sigma_0 (positive in
         compression), and no radius.
     rate : float or None
         Retraction speed in h_0 per time unit; positive. None if the test ends with its moves.
     traction : LennardJones
-        Reduced law; leave it out for Lennard-Jones.
+        Reduced law, by default Lennard-Jones.
     moves : tuple of Approach, Retract, MoveTo, Dwell and LoadTo
-        What the machine does before the retraction, in the same units.
+        Moves of the machine before the retraction, in the same units.
     stiffness : float or None
-        Of the machine [1.5 pi R Delta-gamma_0/h_0], of a punch [sigma_0/h_0]; None for a rigid one.
+        Stiffness of the machine [1.5 pi R Delta-gamma_0/h_0], for a punch [sigma_0/h_0]; None if
+        rigid.
     geometry : Sphere, Cone, PowerLawProfile, FlatPunch or a shape of revolution of the user's
-        Reduced shape. One of revolution has slope 1 at distance 1; leave it out for the sphere.
-        Then R is the equivalent radius. The half width of a punch is in a_0.
+        Reduced shape, by default the sphere. A shape of revolution has slope 1 at distance 1;
+        then R is the equivalent radius. The half width of a punch is in a_0.
     body : HalfSpace, Layer or a body of the user's
-        Lengths in beta = (R^2 Delta-gamma_0/E_0*)^(1/3), under a punch in a_0; leave it out for the
-        half-space.
+        Body with lengths in beta = (R^2 Delta-gamma_0/E_0*)^(1/3), under a punch in a_0; by default
+        the half-space.
     cohesion : float or None
-        Of a punch: strength of the interface over the relaxed contact modulus, sigma_0/E_0*;
+        For a punch, strength of the interface over the relaxed contact modulus, sigma_0/E_0*;
         positive. None for a shape of revolution.
 
     Notes
     -----
     Profiles were tested for exponents from 1 to 10, Tabor numbers from 0.01 to 10 and a modulus
-    ratio of 0.1; a cone has wide contacts, and at a Tabor number of 30 it takes minutes. The
-    elastic pull-off force of a cone is above that of JKR by 25, 4.7 and 0.7 % at Tabor numbers of
-    1, 3 and 10. The energy audit closes within 1e-3, but for viscoelastic cones pressed by a force
-    above zero at large Tabor numbers: there 3e-3 at the default accuracy, while next to no work has
-    been done, and 7e-4 at an accuracy of 5e-4.
+    ratio of 0.1. Contacts of a cone are wide; at a Tabor number of 30 a simulation takes minutes.
+    The elastic pull-off force of a cone exceeds that of JKR by 25, 4.7 and 0.7 % at Tabor numbers
+    of 1, 3 and 10. The energy balance closes within 1e-3, except for viscoelastic cones under a
+    compressive start force at large Tabor numbers: there the residual is 3e-3 at the default
+    accuracy, while the work is still small, and 7e-4 at an accuracy of 5e-4.
 
     Examples
     --------
@@ -308,12 +310,12 @@ class Groups:
 
     @property
     def modulus_ratio(self) -> float:
-        """Rubbery over glassy modulus, k, in (0, 1]; no unit."""
+        """Rubbery over glassy modulus, k, in (0, 1], dimensionless."""
         return self.material.modulus_ratio
 
     @property
     def effective_tabor(self) -> float:
-        """Tabor number over the effective range of the law: how near the contact is to JKR."""
+        """Tabor number for the effective range of the law: a measure of closeness to JKR."""
         if self.tabor is None:
             raise InputError("a flat punch has no Tabor number; see its cohesion")
         return self.tabor / effective_range(self.traction)
@@ -325,33 +327,33 @@ class Groups:
         .. math:: \frac{a_0}{h_0} = \frac{\pi}{2} \frac{\Delta\gamma_0}{\sigma_0 h_0 \Sigma_0}
         """
         if self.cohesion is None:
-            raise InputError(f"the length a_0 is one of a punch, and this is a {self.geometry}")
+            raise InputError(f"the length a_0 is defined for a punch, got a {self.geometry}")
         return np.pi / (2 * self.traction.strength * self.cohesion)
 
     @property
     def outputs(self) -> Kind:
-        """What the numbers of its answer are called and given in."""
+        """Names and units of the outputs."""
         return self._kind.outputs(self.geometry)
 
     @property
     def units(self) -> Mapping[str, str]:
-        """What its protocol is measured in."""
+        """Units of the protocol."""
         return self._kind.GROUPS
 
     @property
     def inputs(self) -> dict[str, float | None]:
-        """The numbers that a summary repeats."""
+        """Input numbers repeated in a summary."""
         found: dict[str, float | None] = {} if self.tabor is None else {"tabor": self.tabor}
         found |= {**numbers(self.geometry), **numbers(self.body)}
         found |= {} if self.cohesion is None else {"cohesion": self.cohesion}
         return found | {"modulus_ratio": self.modulus_ratio, "rate": self.rate}
 
     def groups(self) -> "Groups":
-        """Return itself, so that a problem in SI and one in groups can be treated alike."""
+        """Return itself, as :meth:`Problem.groups` does for a problem in SI."""
         return self
 
     def scales(self) -> None:
-        """Return None: there is nothing to go back to."""
+        """Return None, because the groups have no SI scales."""
 
     def in_si(
         self,
@@ -363,27 +365,27 @@ class Groups:
         time_unit: float,
         poisson_ratio: float,
     ) -> Problem:
-        """Return the problem in SI with these scales; give the gap or the work of adhesion.
+        """Convert the problem to SI with given scales; give either the gap or the work of adhesion.
 
         Parameters
         ----------
         contact_modulus : float
             E_0* = E_0/(1 - nu^2) [Pa].
         radius : float, optional
-            Sphere radius R [m], of another shape of revolution its equivalent radius; a punch has
-            none.
+            Sphere radius R [m], or the equivalent radius of another shape of revolution; None for a
+            punch.
         equilibrium_gap, work_of_adhesion : float, optional
-            h_0 [m] or Delta-gamma_0 [J/m^2]: exactly one, the Tabor number, or the cohesion of a
-            punch, fixes the other.
+            h_0 [m] or Delta-gamma_0 [J/m^2]: exactly one; the other follows from the Tabor number,
+            or from the cohesion of a punch.
         time_unit : float
-            What one unit of the groups' time is [s], tau_0 for a reduced material.
+            Time unit of the groups [s], tau_0 for a reduced material.
         poisson_ratio : float
             Poisson ratio of the body.
 
         Raises
         ------
         ValueError
-            If both or neither of gap and work are given, a radius is missing or too much, or the
+            If both or neither of gap and work are given, a radius is missing or superfluous, or the
             contact is too large.
         """
         E = positive("contact_modulus", contact_modulus, "Pa")
@@ -404,7 +406,7 @@ class Groups:
         return Problem(
             material=material_in_si(self.material, E * (1 - nu**2), T, nu),
             traction=scaled(self.traction, unit.work, unit.length, T),
-            # a sphere has its radius to the last digit
+            # keep the radius of a sphere exact
             geometry=Sphere(radius) if isinstance(shape, Sphere) and radius else shape,
             body=self.body.reduced(1 / unit.along),
             protocol=units.retraction(self.start, self.rate, self.moves, self.stiffness),
@@ -416,48 +418,45 @@ class Groups:
 
 
 Case = Problem | Groups
-# By the symmetry of the shape: scales, groups, limits and outputs.
+# Modules by symmetry of the shape: scales, groups, limits and outputs.
 _KINDS: Mapping[str, Any] = {"revolution": revolution, "plane": plane}
 
 
 def _check_shape(shape: Any) -> None:
-    """Refuse what is no shape, or has no symmetry that is known."""
+    """Raise an error unless the object is a shape of a supported symmetry."""
     symmetry = None if isinstance(shape, type) else getattr(shape, "symmetry", None)
     if symmetry not in _KINDS or (symmetry == "plane" and not isinstance(shape, FlatPunch)):
         raise InputError(
-            "a shape has the symmetry 'revolution', and only a FlatPunch is 'plane', got "
+            "a shape must have the symmetry 'revolution' (only a FlatPunch is 'plane'), got "
             f"{symmetry!r} of {shape!r}"
         )
 
 
 def _check_body(shape: Any, body: Any) -> None:
-    """Refuse a body that was not made for the symmetry of a shape."""
+    """Raise an error for a body that does not support the symmetry of the shape."""
     if isinstance(body, type) or not hasattr(body, "influence"):
         given = body.__name__ if isinstance(body, type) else type(body).__name__
         raise InputError(f"body cannot be a {given}; try Layer(thickness=1e-4)")
     if shape.symmetry in body.symmetries:
         return
     if shape.symmetry == "plane":
-        raise InputError(
-            f"a flat punch presses a layer, got {body}; try body=Layer(thickness=1e-4)"
-        )
+        raise InputError(f"a flat punch needs a layer, got {body}; try body=Layer(thickness=1e-4)")
     raise InputError(
-        f"the body {body} is one of plane strain, and a {shape.word} does not press it; leave it "
-        "out, or take a FlatPunch"
+        f"the body {body} is for plane strain, not for a {shape.word}; omit it, or use a FlatPunch"
     )
 
 
 def _check_poisson_ratio(body: Any, material: Any) -> None:
-    """Refuse a body that was made for another Poisson ratio than its material has."""
+    """Raise an error if body and material have different Poisson ratios."""
     own, nu = getattr(body, "poisson_ratio", None), material.poisson_ratio
     if own is not None and own != nu:
         raise InputError(
-            f"a bonded layer has the Poisson ratio of its material, {nu:g}, got {own:g}"
+            f"a bonded layer must have the Poisson ratio of its material, {nu:g}, got {own:g}"
         )
 
 
 def _check_material(material: Any) -> None:
-    """Refuse what is not a material."""
+    """Raise an error unless the object is a material."""
     rests(material)
     if not hasattr(material, "retardation_modes") or not hasattr(material, "reduced"):
         raise InputError(
@@ -467,7 +466,7 @@ def _check_material(material: Any) -> None:
 
 
 def _check_traction(traction: Any) -> None:
-    """Refuse what is not a traction law."""
+    """Raise an error unless the object is a traction law."""
     if not hasattr(traction, "stiffness") or not hasattr(traction, "reduced"):
         raise InputError(
             f"traction must be a traction law, got {type(traction).__name__}; "
@@ -476,18 +475,18 @@ def _check_traction(traction: Any) -> None:
 
 
 def _check_reduced(groups: Any) -> None:
-    """Refuse dimensionless groups whose parts are not reduced, or in which nothing moves."""
+    """Raise an error for groups with parts that are not reduced, or without motion."""
     _check_material(groups.material)
     _check_traction(groups.traction)
     if groups.material.rubbery_modulus != 1 or groups.material.poisson_ratio != 0:
         raise InputError(
             "the material of dimensionless groups must have a rubbery modulus of 1 and a "
-            f"Poisson ratio of 0, got {groups.material}; pass material.reduced()"
+            f"Poisson ratio of 0, got {groups.material}; use material.reduced()"
         )
     if groups.traction.work_of_adhesion != 1 or groups.traction.equilibrium_gap != 1:
         raise InputError(
             f"the traction law of dimensionless groups must be reduced, got {groups.traction}; "
-            "pass traction.reduced()"
+            "use traction.reduced()"
         )
     if not isinstance(groups.start, Start | Apart):
         raise InputError(f"start must be AtDepth, AtForce, AtRadius or Apart, got {groups.start!r}")

@@ -1,4 +1,4 @@
-"""A Prony series in a CSV file."""
+"""Read a Prony series from a CSV file."""
 
 import os
 from pathlib import Path
@@ -9,15 +9,15 @@ from viscotack.units import parse, positive
 
 
 def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float], ...], str]:
-    """Return the branches of a Prony series from a CSV file, and the unit of their times.
+    """Read the branches of a Prony series from a CSV file, and the unit of their times.
 
     Parameters
     ----------
     path : path
-        A first row ``modulus_ratio,relaxation_time_s``, then a branch a row: its modulus over the
-        rubbery modulus, and its relaxation time. Instead of ``s`` any unit of time (``ms``,
-        ``h``); just ``relaxation_time`` means that times are pure numbers. Lines that begin with
-        ``#`` are skipped.
+        First row ``modulus_ratio,relaxation_time_s``, then one row per branch: its modulus over the
+        rubbery modulus, and its relaxation time. The unit ``s`` may be any unit of time (``ms``,
+        ``h``); ``relaxation_time`` without a unit means dimensionless times. Lines that begin with
+        ``#`` are ignored.
 
     Returns
     -------
@@ -28,9 +28,9 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If the header or a row is not as described; with the line.
+        If the header or a row is not as described; the message names the line.
     """
     path = Path(path)
     header, rows = read_rows(path)
@@ -53,11 +53,11 @@ def read_prony(path: str | os.PathLike[str]) -> tuple[tuple[tuple[float, float],
     for line, row in rows:
         try:
             if len(row) != 2:
-                raise InputError(f"a row is a modulus ratio and a time, got {','.join(row)!r}")
+                raise InputError(f"a row must be a modulus ratio and a time, got {','.join(row)!r}")
             ratio, time = row
             branches.append((positive("modulus_ratio", ratio, "1"), positive("time", time, unit)))
         except ValueError as error:
             raise InputError(f"{path}, line {line}: {error}") from None
     if not branches:
-        raise InputError(f"{path}: there is no branch below the header")
+        raise InputError(f"{path}: the file has no branch below the header")
     return tuple(branches), unit

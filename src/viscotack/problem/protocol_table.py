@@ -1,4 +1,4 @@
-"""The table [protocol] of a case file: what the machine does, in words with units."""
+"""Protocol from the table [protocol] of a case file, as text with units."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -19,7 +19,7 @@ from viscotack.protocol import (
 from viscotack.protocol.words import history_from_file, move_from_words, start_from_words
 
 _TEST = cards(Retraction)
-# Starts that have a key of their own; the force of a punch is a mean stress, and so is its key.
+# Starts with their own keys; for a punch the force is a mean stress, with its own key.
 _STARTS = {"preload_depth": AtDepth, "preload_force": AtForce, "preload_radius": AtRadius}
 _STRESS_STARTS = {"preload_depth": AtDepth, "preload_stress": AtForce}
 
@@ -27,9 +27,9 @@ _STRESS_STARTS = {"preload_depth": AtDepth, "preload_stress": AtForce}
 def protocol_from_table(
     table: Table, units: Mapping[str, str], equilibrium_gap: float
 ) -> Retraction:
-    """Return the test that the table [protocol] states, in the units of a geometry.
+    """Return the test stated by the table [protocol], in the units of a geometry.
 
-    The equilibrium gap [m] tells where the displacement of a history is zero.
+    The equilibrium gap [m] defines the zero of the displacement of a history.
     """
     if "history" in table.values:
         start, moves = _history(table, units, equilibrium_gap)
@@ -51,9 +51,7 @@ def _history(
 ) -> tuple[Start | Apart, tuple[Move, ...]]:
     for key in (*_preloads(units), "start", "moves"):
         if key in table.values:
-            raise InputError(
-                f"{table.name} history states the start and the moves; leave out {key}"
-            )
+            raise InputError(f"{table.name} history states the start and the moves; omit {key}")
     return history_from_file(table.beside("history", '"drive.csv"'), equilibrium_gap)
 
 
@@ -63,8 +61,8 @@ def _start(table: Table, units: Mapping[str, str]) -> Start | Apart:
     given = [key for key in known if key in table.values]
     if len(given) != 1:
         raise InputError(
-            f"{table.name} needs exactly one of {', '.join(known)}, "
-            f"got {' and '.join(given) or 'none'}; "
+            f"{table.name} needs exactly one of {', '.join(known)}, got "
+            f"{' and '.join(given) or 'none'}; "
             'write for example preload_depth = "2 um", or start = "apart 20 um"'
         )
     if given == ["start"]:
@@ -92,10 +90,10 @@ def _moves(table: Table, units: Mapping[str, str]) -> tuple[Move, ...]:
 
 
 def _cycles(table: Table) -> int:
-    """Return how often the moves are made."""
+    """Return the number of repetitions of the moves."""
     if "cycles" not in table.values:
         return 1
     cycles = table.get("cycles")
     if not isinstance(cycles, int) or isinstance(cycles, bool) or cycles < 1:
-        raise InputError(f"{table.name} cycles must be a whole number from 1, got {cycles!r}")
+        raise InputError(f"{table.name} cycles must be a positive integer, got {cycles!r}")
     return cycles

@@ -1,26 +1,26 @@
-"""Ranges of numbers in which an answer was verified, and what lies outside of them in words."""
+"""Verified ranges of numbers, and descriptions of values outside."""
 
 from collections.abc import Mapping
 
-# Rounding of a number at the end of a range.
+# Tolerance for rounding at the end of a range.
 _ROUNDED = 1e-9
 
 
 def at_least(value: float, least: float) -> bool:
-    """Return whether a positive number reaches the lower end of a range, however it was rounded.
+    """Return whether a positive number reaches the lower end of a range, within rounding.
 
-    A number in SI comes back from its groups with another last digit.
+    Converting a number from SI to groups may change its last digit.
     """
     return value >= least * (1 - _ROUNDED)
 
 
 def at_most(value: float, most: float) -> bool:
-    """Return whether a positive number stays within the upper end, however it was rounded."""
+    """Return whether a positive number is at most the upper end of a range, within rounding."""
     return value <= most * (1 + _ROUNDED)
 
 
 def outside(values: Mapping[str, float], ranges: Mapping[str, tuple[float, float]]) -> str:
-    """Return the values outside of their ranges in words, or an empty string.
+    """Describe the values outside their ranges, or return an empty string.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""A problem as plain words and numbers, for files, and its name by content."""
+"""Convert problems to and from plain dictionaries, and compute their content-based ids."""
 
 import hashlib
 import json
@@ -12,15 +12,30 @@ from viscotack.problem.older import naming, upgraded
 
 
 class UnknownNoun(InputError):
-    """A record names a law, a material or a shape that nobody has given."""
+    """A record names an unknown law, material or shape."""
 
 
 def to_dict(thing: Any) -> dict[str, Any]:
-    """Return a problem, or a part of one, as a dictionary with the name of its type.
+    """Convert a problem, or a part of one, to a dictionary with the name of its type.
 
-    What is as it would be if left out is left out, so that a new option renames no old problem.
-    Only dictionaries, lists, words and numbers are in it: ``json.dumps`` writes it, and
-    :func:`from_dict` makes an equal object.
+    Values equal to the default are omitted, so that new options do not change the ids of old
+    problems. The dictionary contains only dictionaries, lists, texts and numbers: ``json.dumps``
+    writes it, and :func:`from_dict` restores an equal object.
+
+    Parameters
+    ----------
+    thing : Problem, Groups or a part of one
+        Object to convert.
+
+    Returns
+    -------
+    dict
+        Ready for JSON.
+
+    Raises
+    ------
+    ValueError
+        If the object is not part of a problem.
 
     Examples
     --------
@@ -29,7 +44,7 @@ def to_dict(thing: Any) -> dict[str, Any]:
     {'type': 'AtForce', 'force': 0.0015}
     """
     if not is_dataclass(thing) or isinstance(thing, type):
-        raise InputError(f"expected a problem or a part of one, got {type(thing).__name__}")
+        raise InputError(f"expected a problem or a part of a problem, got {type(thing).__name__}")
     values = {f.name: getattr(thing, f.name) for f in fields(thing)}
     defaults = {f.name: f.default for f in fields(thing)}
     return {"type": type(thing).__name__} | {
@@ -38,27 +53,55 @@ def to_dict(thing: Any) -> dict[str, Any]:
 
 
 def from_dict(record: Any, also: Iterable[Any] = ()) -> Any:
-    """Return the problem, or the part of one, that a dictionary of :func:`to_dict` describes.
+    """Restore a problem, or a part of one, from a dictionary of :func:`to_dict`.
 
     Parameters
     ----------
     record : dict
-        Of this version, or of an older one.
+        Record of this or an earlier version.
     also : iterable of classes
-        Laws, materials and shapes of the user's own that it may name.
+        User-defined laws, materials and shapes that it may name.
+
+    Returns
+    -------
+    Problem, Groups or a part of one
+        Equal to the original object.
 
     Raises
     ------
     ValueError
-        If the type is unknown, a field is missing or unknown, or a value is impossible.
+        If the type is unknown, a field is missing or unknown, or a value is invalid.
+
+    Examples
+    --------
+    >>> from_dict({"type": "AtForce", "force": 0.0015})
+    AtForce(force=0.0015)
     """
     return _made(upgraded(record), known(also))
 
 
 def run_id(case: Any) -> str:
-    """Return a short name that depends only on the content of a problem.
+    """Return a short id that depends only on the content of a problem.
 
-    Equal problems have equal names, whatever the version, machine or day.
+    Equal problems have equal ids, in all versions and on all machines.
+
+    Parameters
+    ----------
+    case : Problem or Groups
+        The problem.
+
+    Returns
+    -------
+    str
+        Hexadecimal digits.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> one, same = (Groups(tabor=2, material=solid, start=AtDepth(d), rate=1) for d in (20, 20.0))
+    >>> run_id(one) == run_id(same)
+    True
     """
     text = json.dumps(naming(to_dict(case)), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -76,9 +119,9 @@ def _made(record: Any, nouns: Nouns) -> Any:
     kind = nouns.types.get(record["type"])
     if kind is None:
         raise UnknownNoun(
-            f"unknown type {record['type']!r} in a record: if it is one of your own, give its "
+            f"unknown type {record['type']!r} in a record: for a user-defined class, give the "
             f"class (also=({record['type']},) in Python, --with FILE.py on the command line); a "
-            "newer version may know it"
+            "newer version may support it"
         )
     given, names = record.keys() - {"type"}, {f.name for f in fields(kind)}
     needed = {f.name for f in fields(kind) if f.default is MISSING}
@@ -93,11 +136,11 @@ def _made(record: Any, nouns: Nouns) -> Any:
     except InputError:
         raise
     except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
-        raise InputError(f"a record of {record['type']} is impossible: {error}") from error
+        raise InputError(f"a record of {record['type']} is invalid: {error}") from error
 
 
 def _value(value: Any, nouns: Nouns) -> Any:
-    # A list stays one: the classes make their own tuples.
+    # Keep lists: the classes convert them to tuples.
     if isinstance(value, list):
         return [_value(entry, nouns) for entry in value]
     return _made(value, nouns) if isinstance(value, dict) else value

@@ -1,15 +1,15 @@
-r"""An indenter of revolution: its scales, its Tabor number, its limits, its outputs.
+r"""An indenter of revolution: scales, Tabor number, limits and outputs.
 
-The relaxed solid and the profile f have one length along the surface, and an equivalent radius,
+The relaxed solid and the profile f define a length along the surface, and an equivalent radius,
 
 .. math:: \beta f'(\beta)^2 = \frac{\Delta\gamma_0}{E_0^*}, \quad R = \frac{\beta}{f'(\beta)}, \quad
           \mu = \left(\frac{R \Delta\gamma_0^2}{E_0^{*2} h_0^3}\right)^{1/3}
               = \frac{\beta^2}{R h_0},
 
-and with R all scales are those of the sphere, for which it is the radius: forces in
+For a sphere R is its radius, and all scales have the form of those of the sphere: forces in
 :math:`1.5 \pi R \Delta\gamma_0`, contact radii in :math:`(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}`. For
-another shape R depends on the modulus and the work of adhesion, like the pull-off force of the
-elastic solid; neither knows the range h_0. For a power law :math:`z = A r^q`,
+another shape R depends on the modulus and the work of adhesion, like the elastic pull-off force,
+but not on the range h_0. For a power law :math:`z = A r^q`,
 :math:`\beta = (\Delta\gamma_0/(E_0^* (q A)^2))^{1/(2 q - 1)}`.
 
 Source for the sphere: Maghami, PhD thesis (2025), Eq. 4.19, 4.24 and 31, the Tabor number as
@@ -35,21 +35,21 @@ from viscotack.theory.elastic.relaxed import contact
 from viscotack.traction import Traction
 from viscotack.units import positive
 
-# Largest contact radius beside the sphere radius. At 0.5 the paraboloid's gap is 7 % off the
-# sphere's and strains are of order a/R: linear elasticity of the half-space ends about here. For
+# Largest contact radius over sphere radius. At 0.5 the paraboloid's gap differs by 7 % from the
+# sphere's and strains are of order a/R: the limit of linear elasticity of the half-space. For
 # another shape it is the steepest flank at the edge of a contact.
 LARGEST_CONTACT = STEEPEST_FLANK = 0.5
-# Depth of a contact beside the thickness of a layer.
+# Largest depth of a contact over the thickness of a layer.
 DEEPEST_LAYER = 0.5
-# Tabor numbers that the mesh of a simulation can serve; tested from 0.01 to 10.
+# Tabor numbers that the mesh of a simulation resolves; tested from 0.01 to 10.
 SIMULATED_TABOR = (1e-6, 200.0)
-# The largest for a solid that remembers nothing: nodes catch its crack, which nothing drives on.
+# The largest one for an elastic solid, whose edge is resolved at rest.
 ELASTIC_TABOR = 30.0
-# A profile that reaches the limit nowhere near: 10^15 m.
+# Upper limit of the search for a radius: 10^15 m.
 _FAR = log(1e15)
 # Radii per detail of a shape at which its slope is looked at, and the most of them.
 _LOOKS, _MOST_LOOKS = 16, 100_000
-# What a protocol's numbers are in, in SI and dimensionless.
+# Units of a protocol, in SI and dimensionless.
 SI = SPHERE_UNITS | {"stiffness": "N/m"}
 GROUPS = {
     "depth": "h0",
@@ -63,7 +63,7 @@ GROUPS = {
 
 @dataclass(frozen=True)
 class Scales:
-    """What one unit of each dimensionless output is in SI.
+    """SI values of the units of the outputs, from :meth:`viscotack.Problem.scales`.
 
     Attributes
     ----------
@@ -117,16 +117,16 @@ def lengths(problem: Any) -> tuple[float, float]:
 
 
 def ratios(problem: Any) -> dict[str, float | None]:
-    """Return the group that no shape, body or test has: the Tabor number."""
+    """Return the group that is independent of shape, body and test: the Tabor number."""
     return {"tabor": problem.tabor, "cohesion": None}
 
 
 def check_groups(groups: Any) -> None:
-    """Refuse dimensionless groups without a Tabor number, or of a shape that is not reduced."""
+    """Raise an error for groups without a Tabor number, or with a shape that is not reduced."""
     if groups.tabor is None or groups.cohesion is not None:
         raise InputError(
-            f"a {groups.geometry.word} has a Tabor number and no cohesion: give tabor=3.24, say, "
-            f"got tabor={groups.tabor} and cohesion={groups.cohesion}"
+            f"a {groups.geometry.word} needs a Tabor number and no cohesion: give for example "
+            f"tabor=3.24, got tabor={groups.tabor} and cohesion={groups.cohesion}"
         )
     shape = groups.geometry
     if np.isfinite(detail(shape)):
@@ -140,8 +140,8 @@ def check_groups(groups: Any) -> None:
     slope = float(shape.flank(1.0))
     if abs(slope - 1) > 1e-6:
         raise InputError(
-            "the geometry of dimensionless groups must be reduced, of slope 1 at distance 1, "
-            f"got {shape!r} of slope {slope:g}; problem.groups().geometry is so"
+            "the geometry of dimensionless groups must be reduced (slope 1 at distance 1), "
+            f"got {shape!r} of slope {slope:g}; use problem.groups().geometry"
         )
 
 
@@ -153,9 +153,11 @@ def si_units(
     equilibrium_gap: float = 0.0,
     work_of_adhesion: float = 0.0,
 ) -> InSI:
-    """Return the units of dimensionless groups in SI, of one of gap and work of adhesion."""
+    """Return the SI units of dimensionless groups, given either gap or work of adhesion."""
     if radius is None:
-        raise InputError("give the radius R [m], of another shape than a sphere the equivalent one")
+        raise InputError(
+            "give the radius R [m], for a shape other than a sphere the equivalent radius"
+        )
     R, E = positive("radius", radius, "m"), contact_modulus
     w = work_of_adhesion or float(np.sqrt(groups.tabor**3 * E**2 * equilibrium_gap**3 / R))
     h0 = equilibrium_gap or (R * w**2 / (E**2 * groups.tabor**3)) ** (1 / 3)
@@ -171,12 +173,12 @@ def si_units(
 
 
 def scales_of(problem: Any) -> Scales:
-    """Return what one unit of each dimensionless output is in SI."""
+    """Return the SI values of the units of the dimensionless outputs."""
     return scales_of_sphere(problem.radius, problem.material, problem.traction)
 
 
 def scales_of_sphere(radius: float, material: Material, traction: Traction) -> Scales:
-    """Return what one unit of each dimensionless output is for a sphere of this radius [m]."""
+    """Return the SI values of the units for a sphere of this radius [m]."""
     w, h0 = traction.work_of_adhesion, traction.equilibrium_gap
     beta = (radius**2 * w / material.contact_modulus) ** (1 / 3)
     force, time = 1.5 * np.pi * radius * w, time_unit(material, traction)
@@ -192,20 +194,20 @@ def scales_of_sphere(radius: float, material: Material, traction: Traction) -> S
 
 
 def to_groups(scales: Scales) -> Units:
-    """Return what takes the numbers of a protocol from SI to those of the groups."""
+    """Return the factors that convert a protocol from SI to groups."""
     return Units(1 / scales.length, 1 / scales.force, 1 / scales.radius, 1 / scales.time)
 
 
 def check(problem: Any) -> None:
-    """Refuse a problem in SI beyond small strain.
+    """Raise an error for a problem in SI beyond small strain.
 
     Raises
     ------
     ValueError
         If the relaxed contact of a sphere on a half-space would be larger than half its radius, or
-        the flank of another shape, or on another body, steeper than 0.5 at the edge of a contact as
-        JKR has it; if that is so where the undeformed gap is h_0; or if a layer would be pressed to
-        less than half its thickness.
+        the flank of another shape, or on another body, steeper than 0.5 at the JKR contact edge; if
+        the same holds at the radius where the undeformed gap is h_0; or if a layer would be pressed
+        to less than half its thickness.
     """
     if isinstance(problem.geometry, Disc):
         _check_disc(problem)
@@ -222,16 +224,16 @@ def _check_sphere(problem: Any) -> None:
         if a <= LARGEST_CONTACT * R:
             continue
         raise InputError(
-            "the start lies beyond small strain: its relaxed contact radius is about "
-            f"{a:.3g} m = {a / R:.2g} sphere radii, and the theory holds to {LARGEST_CONTACT}; "
+            "the start exceeds small strain: its relaxed contact radius is about "
+            f"{a:.3g} m = {a / R:.2g} sphere radii, valid up to {LARGEST_CONTACT}; "
             f"reduce the preload of {state}, or use a larger sphere"
         )
     rim = float(np.sqrt(2 * R * problem.traction.equilibrium_gap))
     if rim > LARGEST_CONTACT * R:
         raise InputError(
-            f"equilibrium_gap of {problem.traction.equilibrium_gap:.3g} m is too long beside the "
-            f"sphere radius of {R:.3g} m: the forces would reach where a sphere is no longer a "
-            f"paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
+            f"equilibrium_gap = {problem.traction.equilibrium_gap:.3g} m is too long for the "
+            f"sphere radius of {R:.3g} m, because the forces would act where a sphere is no "
+            f"longer a paraboloid; it may be up to {LARGEST_CONTACT**2 / 2:g} radii"
         )
 
 
@@ -252,7 +254,7 @@ def _check_disc(problem: Any) -> None:
         depth = state.depth if is_depth else state.force / stiffness
         if depth > most:
             raise InputError(
-                f"{state} lies beyond small strain: it presses the disc deeper than half its "
+                f"{state} exceeds small strain: it presses the disc deeper than half its "
                 f"radius, {most:.3g} m"
             )
 
@@ -264,16 +266,16 @@ def _check_flank(problem: Any) -> None:
     if flank > STEEPEST_FLANK:
         raise InputError(
             f"the flank of {shape} is too steep: its slope is {flank:.3g} where the gap "
-            f"is equilibrium_gap = {h0:.3g} m, and the theory holds to {STEEPEST_FLANK}"
+            f"is equilibrium_gap = {h0:.3g} m, valid up to {STEEPEST_FLANK}"
         )
-    # the largest contact there may be
+    # the largest allowed contact
     a = _where_steep(shape)
     limit = f"the slope of the flank at the edge of its contact would be over {STEEPEST_FLANK}"
     pressed = _pressed_through(problem)
     if pressed < a:
         a, limit = pressed, f"its depth would be over {DEEPEST_LAYER} thicknesses of the layer"
     if a >= exp(_FAR):
-        return  # nowhere as steep
+        return  # the flank is nowhere as steep
     solid: Any = {
         "shape": shape,
         "body": problem.body,
@@ -289,12 +291,12 @@ def _check_flank(problem: Any) -> None:
             given, most, unit = state.contact_radius, a, "m"
         if given > most:
             raise InputError(
-                f"{state} lies beyond small strain: {limit}; it may be up to {most:.3g} {unit}"
+                f"{state} exceeds small strain: {limit}; it may be up to {most:.3g} {unit}"
             )
 
 
 def _pressed_through(problem: Any) -> float:
-    """Return the radius [m] of a contact as deep as a layer may be pressed, inf for no such one."""
+    """Return the radius [m] of the deepest contact allowed on a layer, inf if none."""
     body = problem.body
     if not isinstance(body, Layer):
         return np.inf
@@ -330,14 +332,14 @@ def _where_steep(shape: Any) -> float:
 
 
 def _radii(shape: Any) -> Any:
-    """Return radii [m] at which a shape with details is looked at."""
+    """Return radii [m] at which a shape with details is sampled."""
     far = min(end(shape), equivalent_radius(shape, 1.0))
     many = int(min(_LOOKS * far / detail(shape), _MOST_LOOKS))
     return np.linspace(0.0, far, max(many, _LOOKS) + 1)
 
 
 def _where(function: Any, value: float) -> float:
-    """Return the radius [m] at which a rising function has this value, 1e15 for none."""
+    """Return the radius [m] at which a rising function has this value, 1e15 if none."""
     if function(exp(_FAR)) <= value:
         return exp(_FAR)
     if function(exp(-_FAR)) >= value:
@@ -347,9 +349,9 @@ def _where(function: Any, value: float) -> float:
 
 
 def _relaxed_radius(problem: Any, start: Start) -> float:
-    """Return the JKR contact radius of a relaxed state [m], or 0 where JKR has none.
+    """Return the JKR contact radius of a relaxed state [m], or 0 if there is none.
 
-    Of a pull that detaches, the radius at pull-off.
+    For a tension that detaches the contact, return the radius at pull-off.
     """
     if isinstance(start, AtRadius):
         return start.contact_radius

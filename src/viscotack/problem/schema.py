@@ -1,7 +1,7 @@
-"""What a problem may say, as a JSON schema and as tables of words; both read from the cards.
+"""JSON schema of a problem, and tables of its parameters; both are generated from the cards.
 
-The schema describes the dictionaries of :func:`viscotack.to_dict`: what results and campaigns keep,
-and what another program may send.
+The schema describes the dictionaries of :func:`viscotack.to_dict`, as stored by results and
+campaigns and accepted from other programs.
 """
 
 import types
@@ -27,7 +27,7 @@ def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
     Parameters
     ----------
     also : iterable of classes
-        Laws, materials and shapes of the user's own, which are then part of it.
+        User-defined laws, materials and shapes to include.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def schema(also: Iterable[Any] = ()) -> dict[str, Any]:
 
 
 def words(also: Iterable[Any] = ()) -> str:
-    """Return tables in Markdown of what can be set: word, symbol, unit and meaning."""
+    """Return Markdown tables of the parameters: word, symbol, unit and meaning."""
     nouns = known(also)
     rooms = {
         "Materials": nouns.materials.values(),
@@ -85,21 +85,21 @@ def _row(field: Field) -> tuple[str, ...]:
 
 
 class _Models:
-    """Models of the classes for the library that writes the schema: fields, cards and a type."""
+    """Pydantic models of the classes for the schema: fields, cards and a type."""
 
     def __init__(self, nouns: Nouns) -> None:
         self._nouns = nouns
         self._made: dict[Any, Any] = {}
 
     def of(self, kind: Any) -> Any:
-        """Return the model of a class, whose records name it as their type."""
+        """Return the model of a class, which its records name as their type."""
         from pydantic import ConfigDict, Field, create_model
 
         if kind not in self._made:
             hints = get_type_hints(kind, include_extras=True)
             told: dict[str, Any] = {"type": (Literal[kind.__name__], ...)}
             for field in fields(kind):
-                # a default is left out of records, so only that there is one matters
+                # records omit default values, so the schema needs only their existence
                 given = ... if field.default is MISSING else Field(default_factory=dict)
                 told[field.name] = (self._told(hints[field.name], at_rest=grows(kind)), given)
             forbid = ConfigDict(extra="forbid")
@@ -107,9 +107,9 @@ class _Models:
         return self._made[kind]
 
     def _told(self, hint: Any, *, at_rest: bool = False) -> Any:
-        """Return the type of a field, with the classes that are known in place of their kinds.
+        """Return the type of a field, with the known classes in place of their protocol.
 
-        The law of a law that grows is one at rest.
+        The base of a growing law must be a law at rest.
         """
         laws = self._nouns.laws
         kinds = {

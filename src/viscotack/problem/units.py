@@ -10,7 +10,7 @@ from viscotack.traction import grows
 
 @dataclass(frozen=True)
 class InSI:
-    """What the units of dimensionless groups are in SI.
+    """SI values of the units of dimensionless groups.
 
     Attributes
     ----------

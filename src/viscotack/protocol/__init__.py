@@ -1,4 +1,4 @@
-"""What the machine does: the state at rest in which a test begins, its moves, its retraction."""
+"""Loading protocols: the state at rest at the start, moves of the machine, and the retraction."""
 
 from .moves import (
     HOLDS,

@@ -1,7 +1,7 @@
-"""What the machine does: a relaxed start, then a motion.
+"""Loading protocols: a state at rest, then motions of the drive.
 
-Depth is positive into the solid, force positive in compression. The three starts are statements
-about one number. In a :class:`~viscotack.problem.Problem` the number is in SI; in
+Depth is positive into the solid, force positive in compression. Each relaxed start is defined
+by one number. In a :class:`~viscotack.problem.Problem` it is in SI; in
 :class:`~viscotack.problem.Groups` it is in the dimensionless unit named there.
 """
 
@@ -33,13 +33,18 @@ Stiffness = Annotated[
 
 @dataclass(frozen=True)
 class AtDepth:
-    """Start relaxed at a depth, on the branch in contact.
+    """Relaxed contact at a given depth.
 
     Parameters
     ----------
     depth : float
-        Depth of the sphere below the undeformed surface [m; h_0 when dimensionless]. Positive into
-        the solid; a negative one exists while adhesion holds the contact.
+        Depth of the sphere below the undeformed surface [m; h_0 when dimensionless], positive into
+        the solid. Negative depths exist while adhesion maintains the contact.
+
+    Examples
+    --------
+    >>> AtDepth(depth=2e-6)
+    AtDepth(depth=2e-06)
     """
 
     word: ClassVar[str] = "depth"
@@ -61,13 +66,18 @@ class AtDepth:
 
 @dataclass(frozen=True)
 class AtForce:
-    """Start relaxed under a force, on the branch of the larger radius, which a dead load keeps.
+    """Relaxed contact under a given force, on the branch of larger radius, stable at fixed load.
 
     Parameters
     ----------
     force : float
-        Force [N; 1.5 pi R Delta-gamma_0 when dimensionless], positive in compression. A negative
-        one exists down to the elastic pull-off force.
+        Force [N; 1.5 pi R Delta-gamma_0 when dimensionless], positive in compression. Negative
+        forces exist down to the elastic pull-off force.
+
+    Examples
+    --------
+    >>> AtForce(force=1.5e-3)
+    AtForce(force=0.0015)
     """
 
     word: ClassVar[str] = "force"
@@ -89,13 +99,18 @@ class AtForce:
 
 @dataclass(frozen=True)
 class AtRadius:
-    """Start relaxed at a contact radius.
+    """Relaxed contact with a given contact radius.
 
     Parameters
     ----------
     contact_radius : float
-        Radius of the edge, where the gap is that of peak tension
-        [m; (pi R^2 Delta-gamma_0/E_0*)^(1/3) when dimensionless]; positive.
+        Radius of the edge, defined by the gap of peak tension
+        [m; (pi R^2 Delta-gamma_0/E_0*)^(1/3) when dimensionless], positive.
+
+    Examples
+    --------
+    >>> AtRadius(contact_radius=200e-6)
+    AtRadius(contact_radius=0.0002)
     """
 
     word: ClassVar[str] = "radius"
@@ -117,7 +132,7 @@ class AtRadius:
 
 
 Start = AtDepth | AtForce | AtRadius
-# Of a test; each takes tens of steps, and a simulation ends after 200,000.
+# Largest number of moves of a test; each takes tens of steps, and a simulation ends after 200,000.
 MOST_MOVES = 10_000
 
 
@@ -128,9 +143,14 @@ class Apart:
     Parameters
     ----------
     gap : float
-        Smallest gap between the undeformed surfaces [m; h_0 when dimensionless]; positive. Forces
-        of finite range act there already: a few h_0 are needed to be out of contact, and more the
-        softer the solid is; the search says so where contact is all there is.
+        Smallest gap between the undeformed surfaces [m; h_0 when dimensionless], positive. Because
+        the forces have a finite range, the gap must be a few h_0, and more for softer solids; the
+        simulation raises an error if only a state in contact exists.
+
+    Examples
+    --------
+    >>> Apart(gap=20e-6)
+    Apart(gap=2e-05)
     """
 
     word: ClassVar[str] = "apart"
@@ -153,14 +173,19 @@ class Apart:
 
 @dataclass(frozen=True)
 class Approach:
-    """Move the drive into the solid at a constant speed.
+    """Move the drive into the solid at constant speed.
 
     Parameters
     ----------
     speed : float
-        Speed of the drive [m/s; h_0 per time unit when dimensionless]; positive.
+        Speed of the drive [m/s; h_0 per time unit when dimensionless], positive.
     to : AtDepth, AtForce or AtRadius
-        Where it ends: depth, force or contact radius of the indenter at that instant, not relaxed.
+        End of the move: current (not relaxed) depth, force or contact radius of the indenter.
+
+    Examples
+    --------
+    >>> Approach(speed=10e-6, to=AtForce(force=1.5e-3))
+    Approach(speed=1e-05, to=AtForce(force=0.0015))
     """
 
     speed: Speed
@@ -173,14 +198,19 @@ class Approach:
 
 @dataclass(frozen=True)
 class Retract:
-    """Move the drive out of the solid at a constant speed, to a depth, a force or a radius.
+    """Move the drive out of the solid at constant speed, to a depth, a force or a radius.
 
     Parameters
     ----------
     speed : float
-        Speed of the drive [m/s; h_0 per time unit when dimensionless]; positive.
+        Speed of the drive [m/s; h_0 per time unit when dimensionless], positive.
     to : AtDepth, AtForce or AtRadius
-        Where it ends. The surfaces may have come apart by then.
+        End of the move. The surfaces may have separated by then.
+
+    Examples
+    --------
+    >>> Retract(speed=10e-6, to=AtDepth(depth=-2e-6))
+    Retract(speed=1e-05, to=AtDepth(depth=-2e-06))
     """
 
     speed: Speed
@@ -193,15 +223,20 @@ class Retract:
 
 @dataclass(frozen=True)
 class MoveTo:
-    """Move the drive to a depth in a time: a stretch of any piecewise linear history.
+    """Move the drive linearly to a depth in a given time, for piecewise linear histories.
 
     Parameters
     ----------
     depth : float
-        Depth of the drive at the end [m; h_0 when dimensionless], positive into the solid. Without
-        a spring it is the depth of the indenter.
+        Depth of the drive at the end [m; h_0 when dimensionless], positive into the solid. With a
+        rigid machine it equals the depth of the indenter.
     duration : float
-        Time it takes [s; the time unit when dimensionless]; positive.
+        Duration [s; the time unit when dimensionless], positive.
+
+    Examples
+    --------
+    >>> MoveTo(depth=3e-6, duration=0.5)
+    MoveTo(depth=3e-06, duration=0.5)
     """
 
     depth: Annotated[float, Quantity("m", "D", "depth of the drive at the end", measure="depth")]
@@ -213,15 +248,20 @@ class MoveTo:
 
 @dataclass(frozen=True)
 class Dwell:
-    """Wait.
+    """Hold the drive, the depth or the force constant for a time.
 
     Parameters
     ----------
     duration : float
-        How long [s; the time unit when dimensionless]; positive.
+        Duration [s; the time unit when dimensionless], positive.
     hold : {"drive", "depth", "force"}
-        What stays as it is: the drive, the depth of the indenter (the same without a spring), or
-        the force. A contact held at a tensile force may let go; the run then ends there.
+        Quantity held constant: the drive, the depth of the indenter (the same for a rigid machine),
+        or the force. A contact held at a tensile force may detach; the run then ends.
+
+    Examples
+    --------
+    >>> Dwell(duration=60.0)
+    Dwell(duration=60.0, hold='drive')
     """
 
     duration: Duration
@@ -235,15 +275,20 @@ class Dwell:
 
 @dataclass(frozen=True)
 class LoadTo:
-    """Bring the force to a value in a time, under load control.
+    """Change the force linearly to a value in a given time, under load control.
 
     Parameters
     ----------
     force : float
         Force at the end [N; 1.5 pi R Delta-gamma_0 when dimensionless], positive in compression.
-        A tensile one beyond what the contact can bear pulls it off.
+        A tension above the strength of the contact detaches it.
     duration : float
-        Time it takes [s; the time unit when dimensionless]; positive.
+        Duration [s; the time unit when dimensionless], positive.
+
+    Examples
+    --------
+    >>> LoadTo(force=-1e-3, duration=2.0)
+    LoadTo(force=-0.001, duration=2.0)
     """
 
     force: Annotated[
@@ -262,31 +307,31 @@ Move = Approach | Retract | MoveTo | Dwell | LoadTo
 
 def _check_end(to: object, name: str) -> None:
     if not isinstance(to, Start):
-        raise InputError(f"{name} ends AtDepth, AtForce or AtRadius, got {to!r}")
+        raise InputError(f"{name} must end at AtDepth, AtForce or AtRadius, got {to!r}")
 
 
 @dataclass(frozen=True)
 class Retraction:
-    """Pull away at a constant speed, from a state at rest and after what the machine did before.
+    """A test: a state at rest, optional moves, and a retraction at constant speed.
 
     Parameters
     ----------
     start : AtDepth, AtForce, AtRadius or Apart
-        The state at rest in which the test begins: a relaxed contact, or surfaces apart.
+        State at rest at the beginning: a relaxed contact, or surfaces apart.
     speed : float or None
-        Speed of the final retraction [m/s]; positive. The drive goes until the surfaces are apart.
-        None if the test ends with the last of the moves.
+        Speed of the final retraction [m/s], positive; it lasts until the surfaces have separated.
+        None if the test ends with the last move.
     moves : tuple of Approach, Retract, MoveTo, Dwell and LoadTo
-        What the machine does before; usually nothing.
+        Motions before the retraction; by default none.
     stiffness : float or None
-        Stiffness of the machine between drive and indenter [N/m]; positive. None for a rigid one.
+        Stiffness of the machine between drive and indenter [N/m], positive. None for a rigid one.
 
     Examples
     --------
     >>> Retraction(start=AtForce(force=1.5e-3), speed=100e-6).speed
     0.0001
 
-    Press to 1.5 mN, wait for a minute, pull:
+    Approach to 1.5 mN, dwell for a minute, retract:
 
     >>> protocol = Retraction(
     ...     start=Apart(gap=20e-6),
@@ -313,16 +358,16 @@ class Retraction:
 
 
 def check_number_of_moves(number: int) -> None:
-    """Refuse a test of so many moves."""
+    """Raise an error if a test has too many moves."""
     if number > MOST_MOVES:
         raise InputError(
-            f"a test has at most {MOST_MOVES:,} moves, got {number:,}; leave out rows of its "
-            "history, make fewer cycles, or part it into several tests"
+            f"a test has at most {MOST_MOVES:,} moves, got {number:,}; remove rows of its "
+            "history, use fewer cycles, or split it into several tests"
         )
 
 
 def check_moves(moves: tuple[Move, ...], speed: float | None, name: str) -> None:
-    """Refuse moves that are none or too many, and a test in which nothing moves."""
+    """Raise an error for invalid or too many moves, and for a test without motion."""
     check_number_of_moves(len(moves))
     for move in moves:
         if not isinstance(move, Move):
@@ -330,12 +375,12 @@ def check_moves(moves: tuple[Move, ...], speed: float | None, name: str) -> None
                 f"moves must be Approach, Retract, MoveTo, Dwell or LoadTo, got {move!r}"
             )
     if speed is None and not moves:
-        raise InputError(f"a test without moves needs the {name} of its retraction")
+        raise InputError(f"a test without moves needs the {name} of a retraction")
 
 
 @dataclass(frozen=True)
 class Units:
-    """What one unit of each number of a protocol is, in other units."""
+    """Scale factors from one system of units of a protocol to another."""
 
     depth: float
     force: float
@@ -349,7 +394,7 @@ class Units:
         moves: tuple[Move, ...],
         stiffness: float | None,
     ) -> Retraction:
-        """Return a test whose parts are given, in the other units."""
+        """Convert a test, given by its parts."""
         return Retraction(
             start=self.start(start),
             speed=self.speed(speed),
@@ -358,7 +403,7 @@ class Units:
         )
 
     def start(self, start: Start | Apart) -> Start | Apart:
-        """Return a start in the other units."""
+        """Convert a start."""
         match start:
             case AtDepth():
                 return AtDepth(start.depth * self.depth)
@@ -370,15 +415,15 @@ class Units:
                 return Apart(start.gap * self.depth)
 
     def speed(self, speed: float | None) -> float | None:
-        """Return a speed in the other units."""
+        """Convert a speed."""
         return None if speed is None else speed * self.depth / self.time
 
     def stiffness(self, stiffness: float | None) -> float | None:
-        """Return a stiffness in the other units."""
+        """Convert a stiffness."""
         return None if stiffness is None else stiffness * self.force / self.depth
 
     def moves(self, moves: tuple[Move, ...]) -> tuple[Move, ...]:
-        """Return moves in the other units."""
+        """Convert moves."""
         return tuple(self._move(move) for move in moves)
 
     def _move(self, move: Move) -> Move:
@@ -394,7 +439,7 @@ class Units:
 
 
 def states(protocol: Retraction) -> list[Start]:
-    """Return the states that a test goes through, each as if it were relaxed."""
+    """Return the states at the ends of the moves, interpreted as relaxed states."""
     found = [] if isinstance(protocol.start, Apart) else [protocol.start]
     for move in protocol.moves:
         match move:

@@ -1,4 +1,4 @@
-"""Moves and starts of a test in short words: "approach 10 um/s to 1.5 mN", "dwell 60 s"."""
+"""Text form of moves and starts: "approach 10 um/s to 1.5 mN", "dwell 60 s"."""
 
 import os
 import re
@@ -28,7 +28,7 @@ from . import (
     Start,
 )
 
-# What the words of a sphere in SI, of a punch in SI, and of dimensionless numbers are in.
+# Units expected for a sphere in SI, a punch in SI, and dimensionless numbers.
 SPHERE_UNITS = {"depth": "m", "force": "N", "radius": "m", "speed": "m/s", "time": "s"}
 PUNCH_UNITS = SPHERE_UNITS | {"force": "Pa"}
 PURE_NUMBERS = dict.fromkeys(SPHERE_UNITS, "1")
@@ -61,23 +61,23 @@ _SHAPES = {
 
 
 def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) -> Move:
-    """Return the move that a few words say.
+    """Parse a move from text.
 
     Parameters
     ----------
     words : str or mapping
         One of "approach SPEED to WHERE", "retract SPEED to WHERE", "move to DEPTH in TIME",
         "load to FORCE in TIME", "dwell TIME" and "hold drive|depth|force TIME". WHERE is a depth, a
-        force or a radius and begins with that word; the word may be left out where the unit tells.
-        A mapping is its keys and values in their order: {"approach": "10 um/s", "to": "1 mN"}.
+        force or a radius and begins with that word, which may be omitted if the unit identifies it.
+        A mapping is joined in its order: {"approach": "10 um/s", "to": "1 mN"}.
     units : mapping
-        What depth, force, radius, speed and time are in: :data:`SPHERE_UNITS`,
+        Units of depth, force, radius, speed and time: :data:`SPHERE_UNITS`,
         :data:`PUNCH_UNITS`, or :data:`PURE_NUMBERS`.
 
     Raises
     ------
     ValueError
-        If the words are no move, or a quantity is impossible or in the wrong unit.
+        If the text is not a move, or a quantity is invalid or has the wrong unit.
 
     Examples
     --------
@@ -91,10 +91,10 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
     words = " ".join(str(words).split())
     kind = words.partition(" ")[0]
     if kind not in _PATTERNS:
-        raise InputError(f"{words!r} is no move; write {', or '.join(_SHAPES.values())}")
+        raise InputError(f"{words!r} is not a move; write {', or '.join(_SHAPES.values())}")
     found = re.fullmatch(_PATTERNS[kind], words)
     if found is None:
-        raise InputError(f"{words!r} is not understood; write {_SHAPES[kind]}")
+        raise InputError(f"cannot parse {words!r}; write {_SHAPES[kind]}")
     said = found.groupdict()
     try:
         return _move(kind, said, units)
@@ -103,7 +103,7 @@ def move_from_words(words: str | Mapping[str, Any], units: Mapping[str, str]) ->
 
 
 def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
-    """Return the state at rest in which a test begins: "apart 20 um", "force 1.5 mN".
+    """Parse the state at rest at the beginning of a test: "apart 20 um", "force 1.5 mN".
 
     Examples
     --------
@@ -113,7 +113,7 @@ def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
     kind, _, value = str(words).strip().partition(" ")
     if kind not in _STARTS:
         raise InputError(
-            f"{words!r} is no start; write apart, depth, force or radius and a quantity"
+            f"{words!r} is not a start; write apart, depth, force or radius and a quantity"
         )
     return _STARTS[kind](parse(value, units["depth" if kind == "apart" else kind]))
 
@@ -121,7 +121,7 @@ def start_from_words(words: str, units: Mapping[str, str]) -> Start | Apart:
 def history_from_file(
     path: str | os.PathLike[str], equilibrium_gap: float
 ) -> tuple[Start | Apart, tuple[MoveTo, ...]]:
-    """Return the start and the moves of a drive whose displacement is a table.
+    """Read the start and the moves of a drive from a table of displacement over time.
 
     Parameters
     ----------
@@ -130,12 +130,12 @@ def history_from_file(
         ``time_s,displacement_um``. The displacement is the depth of the drive, positive into the
         solid, zero where the undeformed surfaces are at their equilibrium gap.
     equilibrium_gap : float
-        Of the interface [m].
+        Equilibrium gap h0 of the interface [m].
 
     Returns
     -------
     AtDepth or Apart, tuple of MoveTo
-        The first row as a state at rest (apart where it is above the surface), and a stretch for
+        First row as a state at rest (apart if it is above the surface), and a move for
         every further row.
 
     Raises
@@ -147,7 +147,8 @@ def history_from_file(
     time, displacement = columns["time"], columns["displacement"]
     if len(time) < 2 or np.any(np.diff(time) <= 0):
         raise InputError(
-            f"{path}: a history has at least two rows, and its times ascend; a step takes a time"
+            f"{path}: a history needs at least two rows with ascending times; give a step a "
+            "finite duration"
         )
     first = displacement[0]
     start = AtDepth(first) if first >= 0 else Apart(equilibrium_gap - first)
@@ -182,7 +183,9 @@ def _where(words: str, units: Mapping[str, str]) -> Start:
     if kind in ("depth", "force", "radius"):
         return _STARTS[kind](parse(value, units[kind]))
     if units["depth"] == units["force"]:
-        raise InputError(f"say whether {words} is a depth, a force or a radius")
+        raise InputError(
+            f"state whether {words} is a depth, a force or a radius, for example 'depth {words}'"
+        )
     try:
         return AtForce(parse(words, units["force"]))
     except ValueError:

@@ -1,4 +1,4 @@
-"""What a simulation returns, its numbers, and how it is kept."""
+"""Results of simulations: series, events, observables, cycles, and files."""
 
 from .energies import Energies
 from .result import (

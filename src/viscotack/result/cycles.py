@@ -1,4 +1,4 @@
-"""What each cycle of a test did: snap-in, peak compression, pull-off, work and hysteresis."""
+"""Cycles of a test: snap-in, peak compression, pull-off, work and hysteresis of each."""
 
 import csv
 import io
@@ -19,34 +19,35 @@ from .parts import Span, spans
 
 @dataclass(frozen=True)
 class Cycle:
-    """One cycle: the machine closes the contact and opens it; dimensionless as in `Result`.
+    """One cycle of closing and opening, from :func:`cycles`; dimensionless as in `Result`.
 
-    The first one may begin in contact, and the last one may not open; a test that only pulls is
-    one cycle. nan is what a cycle has not.
+    The first cycle may begin in contact, and the last one may not open; a pure retraction is
+    one cycle. Undefined numbers are nan.
 
     Attributes
     ----------
     begin, end : float
-        When it begins and ends.
+        Time at the beginning and at the end.
     snap_in_depth : float
-        Depth at which contact is made: after the jump where there is one.
+        Depth at which contact is made, after the jump if there is one.
     snap_in_force : float
-        Largest tension of the closing part from there on, a positive number; 0 where there is none.
+        Largest tension of the closing part after snap-in, positive; 0 without tension.
     peak_force : float
-        Peak compression, the largest force; 0 where nothing is pressed.
+        Largest compression; 0 without compression.
     pull_off_force, depth_at_pull_off : float
-        Force minimum of the opening part, a positive number, and where.
+        Force minimum of the opening part, as a positive number, and its depth.
     work_to_pull_off : float
-        Integral of -force from the last zero crossing of the opening part to that minimum.
+        Integral of -force over depth, from the last zero crossing of the opening part to that
+        minimum.
     hysteresis : float
-        Loop integral of F d(indenter depth); from apart to apart without the change of the
-        interface energy across the gap. nan where the loop is open.
+        Loop integral of F d(indenter depth); for loops that begin and end apart, without the change
+        of the interface energy across the gap. nan if the loop is open.
     hysteresis_error : float
-        Its estimated error, relative; nan where it is not known.
+        Estimated relative error of the hysteresis; nan if unknown.
     loop : Loop
-        In which state the loop closed.
+        State in which the loop closed.
     time_to_detachment : float
-        How long the contact bore a held force before it let go, :mod:`.dead_load`.
+        Time from the start of a force hold to detachment, see :mod:`.dead_load`.
     """
 
     begin: float
@@ -66,14 +67,24 @@ class Cycle:
 
 
 def cycles(result: Result) -> tuple[Cycle, ...]:
-    """Return what each cycle of a test did.
+    """Return the cycles of a test.
 
-    A cycle begins where the machine turns to close the contact again.
+    A cycle begins where the machine reverses to close the contact again.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    tuple of Cycle
+        In order of time.
 
     Raises
     ------
     ValueError
-        If the run stopped.
+        If the run failed.
 
     Examples
     --------
@@ -99,7 +110,7 @@ def cycles(result: Result) -> tuple[Cycle, ...]:
 
 
 def pull_offs(result: Result) -> list[PullOff | None]:
-    """Return the state at the pull-off of each cycle, None where it has none."""
+    """Return the state at the pull-off of each cycle, or None."""
     found: list[PullOff | None] = []
     for span in spans(result):
         try:
@@ -110,10 +121,10 @@ def pull_offs(result: Result) -> list[PullOff | None]:
 
 
 def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
-    """Return the cycles with names and units of the geometry, in SI as well where the problem is.
+    """Return the cycles as rows with the names and units of the geometry, and in SI if possible.
 
-    Names and signs are those of :mod:`viscotack.problem.outputs`; None is what a cycle has not.
-    `loop` is one of the words of :class:`.loops.Loop`.
+    Names and signs are those of :mod:`viscotack.problem.outputs`; undefined numbers are None.
+    `loop` is one of the values of :class:`.loops.Loop`.
     """
     outputs, scales = result.problem.outputs.cycles, result.scales
     rows = []
@@ -133,7 +144,27 @@ def cycle_rows(result: Result) -> list[dict[str, float | str | None]]:
 
 
 def write_cycles(result: Result, path: Target) -> None:
-    """Write `cycle_rows` as a comma-separated table, whole or not at all; empty is not known."""
+    """Write `cycle_rows` as a comma-separated table, atomically; undefined numbers are empty.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+    path : path or binary file
+        Output file.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> import io
+    >>> file = io.BytesIO()
+    >>> write_cycles(result, file)
+    >>> file.getvalue().decode().split(",")[:3]
+    ['cycle', 'begin', 'end']
+    """
     rows, text = cycle_rows(result), io.StringIO()
     table = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     table.writeheader()
@@ -167,7 +198,7 @@ def _cycle(result: Result, span: Span, found: PullOff | None, error: float) -> C
 
 
 def _snap_in(result: Result, span: Span) -> tuple[float, float]:
-    """Return the depth at which contact is made in the closing part, and the tension it brings."""
+    """Return the depth at snap-in in the closing part, and the tension after it."""
     edge = np.isfinite(result.contact_radius[span.closing])
     made = np.flatnonzero(edge[1:] & ~edge[:-1])
     if not made.size:
@@ -179,7 +210,7 @@ def _snap_in(result: Result, span: Span) -> tuple[float, float]:
 
 def _time_held(result: Result, span: Span) -> float:
     if span.last < len(result.time) - 1:
-        return float("nan")  # a run ends where a held contact lets go
+        return float("nan")  # a run ends when a held contact detaches
     try:
         return time_held(result)
     except ValueError:

@@ -1,4 +1,4 @@
-"""How long a contact bears a dead load."""
+"""Time to detachment of a contact under a dead load."""
 
 import numpy as np
 
@@ -7,35 +7,34 @@ from viscotack.errors import InputError
 from . import Outcome, Result
 from .parts import move_numbers, moves_of, waits
 
-# Where a result does not know its moves, the hold begins where the force is this near to the one
-# held, beside it and the unit of force.
+# For results without recorded moves: the hold begins where the force is within this fraction of the
+# held force, relative to the held force and the unit of force.
 _HELD = 1e-3
 
 
 def time_to_detachment(result: Result) -> float:
-    """Return how long a dwell at constant force held until the contact let go.
+    """Return the time from the start of a hold at constant force to detachment.
 
     Parameters
     ----------
     result : Result
-        Of a test that ended in a ``Dwell(duration, hold="force")``, usually its last move.
+        Test that ends with a ``Dwell(duration, hold="force")`` as its last move.
 
     Returns
     -------
     float
-        Time from the beginning of the hold to the jump out of contact: in seconds for a problem in
-        SI, in its time unit for groups.
+        Time to the jump out of contact: in seconds for a problem in SI, in the time unit for
+        groups.
 
     Raises
     ------
     ValueError
-        If the test ends otherwise, or the contact let go before, or still bore the load at the
-        end of the dwell.
+        If the test ends otherwise, or the contact detached before the hold, or not at all.
 
     Notes
     -----
-    A load below the elastic pull-off force is borne for ever; one above the glassy one not at all.
-    Between them the edge creeps as a slow crack, and the time depends steeply on the load.
+    A load below the elastic pull-off force is held for ever; one above the glassy pull-off force
+    not at all. Between them the edge is a slow crack, and the time depends strongly on the load.
 
     Examples
     --------
@@ -56,13 +55,13 @@ def time_to_detachment(result: Result) -> float:
 
 
 def time_held(result: Result) -> float:
-    """Return the same without dimensions, in the time unit of the groups."""
+    """Return the dimensionless time, in the time unit of the groups."""
     moves, number = moves_of(result), move_numbers(result)
     last, gone = int(number[-1]), result.outcome in (Outcome.JUMPED, Outcome.DETACHED)
     if not waits(moves[last], "force"):
         if gone and any(waits(move, "force") for move in moves[last:]):
             raise InputError(
-                "the contact let go before the force was held; hold less, or load more slowly"
+                "the contact detached before the hold; reduce the force, or load more slowly"
             )
         raise InputError(
             "the test must end with a dwell at constant force: Dwell(duration, hold='force') as "
@@ -70,8 +69,8 @@ def time_held(result: Result) -> float:
         )
     if not gone:
         raise InputError(
-            f"the contact has not let go, the run ended: {result.status}; dwell longer, or pull "
-            "harder than the elastic pull-off force"
+            f"the contact did not detach, and the run ended: {result.status}; dwell longer, or "
+            "increase the tension above the elastic pull-off force"
         )
     if result.move is None:
         held = float(result.force[-1])

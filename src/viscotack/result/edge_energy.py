@@ -1,15 +1,15 @@
-r"""The energy that an edge takes against the speed it had: read off a simulated retraction.
+r"""Energy per area of the contact edge over its speed, from a simulated retraction.
 
-A contact that recedes from rest carries the pressure of the relaxed solid at some hereditary depth,
-whatever its bulk remembers (:mod:`viscotack.theory.crack.contact`). So force and radius alone tell
-the energy at the edge, as JKR has it for the relaxed solid,
+The pressure in a contact that recedes from rest equals that of the relaxed solid at some hereditary
+depth, for any memory of the bulk (:mod:`viscotack.theory.crack.contact`). Therefore force and
+radius determine the energy at the edge, by the JKR formula for the relaxed solid,
 
 .. math:: \frac{G}{\Delta\gamma_0} = \frac{1}{2 \pi a}
           \left( \frac{2 a^2}{3} - \frac{P}{2 a} \right)^2
 
-with a in :math:`(R^2 \Delta\gamma_0/E_0^*)^{1/3}` and P in R dg, compression positive; and the
-simulation tells the speed of the edge, for which fits stand in elsewhere (Eq. 4.24 of Maghami, PhD
-thesis (2025)). The steady crack of the law at rest says which part of it the bulk takes.
+with a in :math:`(R^2 \Delta\gamma_0/E_0^*)^{1/3}` and P in R dg, compression positive. The
+simulation gives the speed of the edge, which others take from fits (Eq. 4.24 of Maghami, PhD
+thesis (2025)). The steady crack of the law at rest gives the contribution of the bulk.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from viscotack.traction import grows
 
 from . import Outcome, Result
 
-# Zones that an edge must have gone for its crack to be steady, and how far beyond the force minimum
-# it is read: while the radius is this part of that at the pull-off.
+# Zone lengths of travel until the crack is steady, and the range evaluated beyond the force
+# minimum: radii above this fraction of that at pull-off.
 _ZONES, _BEYOND = 3.0, 0.5
-# Strain at the edge above which a linear solid is doubtful.
+# Strain at the edge above which linear viscoelasticity is doubtful.
 LARGEST_STRAIN = 0.1
 _ROOT, _LOAD = np.pi ** (1 / 3), 1.5 * np.pi
 _FEWEST = 8
@@ -42,24 +42,25 @@ _FEWEST = 8
 
 @dataclass(frozen=True, eq=False)
 class EdgeEnergy:
-    """What the edge of a contact takes, against its speed.
+    """Energy of the edge of a contact over its speed, from :func:`edge_energy`.
 
     Attributes
     ----------
     speed : ndarray
-        Of the edge [m/s]; of a dimensionless problem in (R^2 dg/E0*)^(1/3) per time unit.
+        Speed of the edge [m/s]; for a dimensionless problem in (R^2 dg/E0*)^(1/3) per time unit.
     amplification : ndarray
-        Energy at the edge over the work of adhesion, by force and radius.
+        Energy at the edge over the work of adhesion, from force and radius.
     bulk : ndarray
-        What the steady crack of the law at rest takes at that speed.
+        Energy of the steady crack of the law at rest at that speed, over the work of adhesion.
     interface : ndarray
-        The rest as a factor, amplification over bulk: 1 for a law of the gap alone, about.
+        Factor of the interface, amplification over bulk: about 1 for a law of the gap alone.
     reference_speed, exponent : float
-        Of the Gent-Schultz relation 1 + (v/v0)^n through the amplification, v0 as `speed`.
+        Fit of the Gent-Schultz relation 1 + (v/v0)^n to the amplification, with v0 in the unit of
+        `speed`.
     strain : float or None
-        Largest slope of the surface at the edge at the pull-off; None without scales.
+        Largest slope of the surface at the edge at pull-off; None for a dimensionless problem.
     words : tuple of str
-        What is to be said of it.
+        Sentences on the result.
     """
 
     speed: Array
@@ -73,17 +74,22 @@ class EdgeEnergy:
 
 
 def edge_energy(result: Result) -> EdgeEnergy:
-    """Return the energy at the edge of a sphere that is pulled off, against its simulated speed.
+    """Compute the energy at the edge of a sphere over its simulated speed.
 
     Parameters
     ----------
     result : Result
-        A retraction of a sphere from a relaxed contact, without moves before it.
+        Retraction of a sphere from a relaxed contact, without moves before it.
+
+    Returns
+    -------
+    EdgeEnergy
+        Speeds [m/s] and dimensionless energies.
 
     Raises
     ------
     ValueError
-        If it is another test, a run that failed, or an edge that was never steady.
+        If it is another test, a failed run, or the edge never became a steady crack.
 
     Examples
     --------
@@ -103,8 +109,8 @@ def edge_energy(result: Result) -> EdgeEnergy:
         steady = _steady(result, a, rest.zone_length / groups.tabor**2) & (energy > 1)
     if np.count_nonzero(steady) < _FEWEST:
         raise InputError(
-            "the edge was hardly ever a steady crack that opens: it went too few zones; begin "
-            "deeper, pull faster, or take forces of shorter range"
+            "the edge was hardly ever a steady opening crack, because it travelled too few zone "
+            "lengths; start deeper, retract faster, or use forces of shorter range"
         )
     speed, gamma = result.edge_speed[steady], energy[steady]
     bulk = np.asarray(rest.amplification(speed * groups.tabor**2 * groups.material.time_unit))
@@ -120,16 +126,16 @@ def _checked(result: Result) -> Groups:
     groups = result.groups
     if not isinstance(groups.geometry, Sphere) or not isinstance(groups.body, HalfSpace):
         raise InputError(
-            "the energy at an edge is read of spheres on a half-space, got a "
+            "the energy at an edge is available for spheres on a half-space, got a "
             f"{groups.geometry.word} on a {groups.body.word}"
         )
     if groups.moves or groups.rate is None or isinstance(groups.start, Apart):
         raise InputError(
-            "the energy at an edge is read of a retraction from a relaxed contact, without moves "
-            "before it"
+            "the energy at an edge is available for a retraction from a relaxed contact, without "
+            "moves before it"
         )
     if result.outcome is Outcome.STOPPED:
-        raise InputError(f"the run failed and has no energies: {result.status}")
+        raise InputError(f"the run failed, so there are no energies: {result.status}")
     return groups
 
 
@@ -138,7 +144,7 @@ def _at_rest(law: Any) -> Any:
 
 
 def _steady(result: Result, a: Array, zone: float) -> npt.NDArray[np.bool_]:
-    """Return where the edge is a crack that opens and has gone so many zones."""
+    """Return a mask of the steps at which the edge is a steady opening crack."""
     lowest = int(np.argmin(result.force))
     gone = a[0] - a > _ZONES * zone
     near = (np.arange(a.size) <= lowest) | (a > _BEYOND * a[lowest])
@@ -146,7 +152,7 @@ def _steady(result: Result, a: Array, zone: float) -> npt.NDArray[np.bool_]:
 
 
 def _gent_schultz(speed: Array, gamma: Array) -> tuple[float, float]:
-    """Return reference speed and exponent of 1 + (v/v0)^n through energies."""
+    """Fit reference speed and exponent of 1 + (v/v0)^n to energies."""
     log_v, log_g = np.log(speed), np.log(gamma)
     middle = float(np.median(log_v))
 
@@ -158,7 +164,7 @@ def _gent_schultz(speed: Array, gamma: Array) -> tuple[float, float]:
 
 
 def _strain(result: Result, crack: SteadyCrack, speed: Array, steady: npt.NDArray) -> float:
-    """Return the largest slope of the surface at the pull-off: gap over length, in SI."""
+    """Return the largest slope of the surface at pull-off: gap over length, in SI."""
     groups, problem = result.groups, result.problem
     assert isinstance(problem, Problem)
     at = int(np.argmin(result.force[steady]))
@@ -171,13 +177,14 @@ def _strain(result: Result, crack: SteadyCrack, speed: Array, steady: npt.NDArra
 
 def _words(gamma: float, bulk: float, strain: float | None, grown: bool) -> tuple[str, ...]:
     said = [
-        f"the edge takes up to {gamma:.3g} works of adhesion, of which the bulk explains {bulk:.3g}"
+        f"the energy of the edge is up to {gamma:.3g} works of adhesion; the bulk accounts for "
+        f"{bulk:.3g}"
     ]
     if grown:
-        said.append(f"the interface multiplies them by {gamma / bulk:.3g}")
+        said.append(f"the interface contributes a factor of {gamma / bulk:.3g}")
     if strain is not None and strain > LARGEST_STRAIN:
         said.append(
-            f"the surface is as steep as {strain:.2g} at the edge: above {LARGEST_STRAIN:g} a "
+            f"the slope of the surface at the edge is {strain:.2g}: above {LARGEST_STRAIN:g} a "
             "linear solid is doubtful"
         )
     return tuple(said)

@@ -1,4 +1,4 @@
-"""The books of a run: where the work of the drive has gone, at every step."""
+"""Energy balance of a run at every step."""
 
 from dataclasses import dataclass, field, fields
 
@@ -9,7 +9,9 @@ from viscotack.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class Energies:
-    """Energies over a run, in the unit of work [1.5 pi R Delta-gamma_0 h_0; a punch sigma_0 h_0].
+    """Energies over a run, in units of 1.5 pi R Delta-gamma_0 h_0 (for a punch sigma_0 h_0).
+
+    Stored by :func:`viscotack.solve` in the `energy` of a result.
 
     Drive work = change of spring, elastic and interface energy + heat + interface heat + jumps +
     transfer.
@@ -17,20 +19,21 @@ class Energies:
     Attributes
     ----------
     drive : ndarray, shape (n,)
-        Work of the drive so far.
+        Cumulative work of the drive.
     elastic, interface, spring : ndarray, shape (n,)
-        Stored in the solid, across the gap (negative in contact, 0 far apart), in the machine.
+        Energy stored in the solid, across the gap (negative in contact, 0 far apart), and in the
+        machine.
     heat : ndarray, shape (n,)
-        Made in the solid so far, summed from its modes.
+        Cumulative dissipation in the solid, summed over its modes.
     jumps, transfer : ndarray, shape (n,)
-        Lost so far in jumps, and in moving from mesh to mesh.
+        Cumulative loss in jumps, and in transfers between meshes.
     mode_time, mode_heat : ndarray, shape (m,)
-        Retardation time of each mode [time unit], and the heat it made in all.
+        Retardation time of each mode [time unit], and its total dissipation.
     interface_heat : ndarray, shape (n,)
-        Made so far in an interface that grows with the opening speed, summed from its tensions.
+        Cumulative dissipation in an interface whose tension grows with the opening speed.
     mode_weight : ndarray, shape (m,)
-        Compliance of each mode over that of the relaxed solid; nan in older results. The rest to 1
-        is that of the instantaneous response.
+        Compliance of each mode over that of the relaxed solid; nan in older results. The
+        instantaneous response has the remainder to 1.
     """
 
     drive: Array
@@ -42,7 +45,7 @@ class Energies:
     transfer: Array
     mode_time: Array
     mode_heat: Array
-    interface_heat: Array = field(default_factory=lambda: np.empty(0))  # of older results
+    interface_heat: Array = field(default_factory=lambda: np.empty(0))  # missing in older results
     mode_weight: Array = field(default_factory=lambda: np.empty(0))
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Numbers of a result: what a tack test would report. All dimensionless."""
+"""Observables of a result, as reported by a tack test. All are dimensionless."""
 
 import warnings
 from collections.abc import Callable, Iterable, Mapping
@@ -30,23 +30,42 @@ __getattr__ = earlier_names(
     },
 )
 
-# A work to pull-off whose stated error is larger than this part of it means nothing.
+# Relative error of the work to pull-off above which it is rejected.
 _MEANINGLESS = 0.5
 
 
 def pull_off(result: Result) -> PullOff:
-    """Return the state at the force minimum of the retraction; of several, that of the last one.
+    """Return the state at the force minimum of the last retraction.
 
-    The minimum is that of a cubic through the four steps around the lowest one (a parabola where
-    there are three), so its value is of fourth and its place of third order in the steps. Where
-    the machine turns, stops or holds a force, the force is no minimum of the contact.
-    :func:`viscotack.result.cycles.cycles` has the pull-offs of all cycles.
+    The minimum is that of a cubic through the four steps around the lowest one (a parabola for
+    three steps), so its value is of fourth and its place of third order in the step. Where the
+    machine reverses, stops or holds a force, the lowest force does not count as a pull-off.
+    :func:`viscotack.result.cycles.cycles` returns the pull-offs of all cycles.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    PullOff
+        Force, depth, time, contact radius and crack speed.
 
     Raises
     ------
     ValueError
-        If the surfaces were never in contact, the force is nowhere tensile, or it has no minimum:
-        it still falls where a run ended without a jump, or was what the machine set.
+        If the surfaces were never in contact, the force is nowhere tensile, or it has no minimum,
+        because it still decreases where the run ends without a jump, or was set by the machine.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{pull_off(result).force:.2f} at {pull_off(result).depth:.2f} h0"
+    '3.98 at 4.27 h0'
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no observables: {result.status}")
@@ -54,16 +73,35 @@ def pull_off(result: Result) -> PullOff:
 
 
 def peaks(result: Result) -> tuple[PullOff, ...]:
-    """Return the states at all peaks of the tension in the last retraction, in time.
+    """Return the states at all peaks of the tension in the last retraction, in order of time.
 
-    A fast pull from a deep start may have two: one while the bulk is glassy, and one after it has
-    relaxed. The largest is the pull-off. Between two of them the tension falls by 3 % of the
-    smaller one, and of the unit of force, at least.
+    A fast retraction from a deep start may have two: one while the bulk is glassy, and one after it
+    has relaxed. The largest is the pull-off. Peaks are separate if the tension between them falls
+    by at least 3 % of the smaller one, and of the unit of force.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    tuple of PullOff
+        Empty without tension.
 
     Raises
     ------
     ValueError
         If the run failed, or the surfaces were never in contact.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> [f"{peak.force:.2f}" for peak in peaks(result)]
+    ['3.98']
     """
     if result.outcome is Outcome.STOPPED:
         raise InputError(f"the run failed and has no observables: {result.status}")
@@ -71,24 +109,24 @@ def peaks(result: Result) -> tuple[PullOff, ...]:
 
 
 def other_peak(result: Result) -> PullOff:
-    """Return the state at the largest peak of the tension beside the pull-off.
+    """Return the state at the second-largest peak of the tension.
 
     Raises
     ------
     ValueError
-        If there is no pull-off, or no other peak.
+        If there is no pull-off, or only one peak.
     """
     found = pull_off(result)
     others = [peak for peak in peaks(result) if peak.time != found.time]
     if not others:
-        raise InputError("the force has one peak only")
+        raise InputError("the force has only one peak")
     return max(others, key=lambda peak: peak.force)
 
 
 def other_peak_force(result: Result) -> float:
     """Return the tension at the other peak, positive [1.5 pi R Delta-gamma_0]; ValueError if none.
 
-    For a punch it is a stress.
+    For a punch it is a stress [sigma_0].
     """
     return other_peak(result).force
 
@@ -104,12 +142,12 @@ def work_to_other_peak(result: Result) -> float:
 
 
 def work_to(result: Result, peak: PullOff) -> float:
-    """Return the work of the drive from zero force to a peak, in the unit of works."""
+    """Return the work of the drive from zero force to a peak, in the unit of work."""
     return _given(result, tension_work(result, spans(result)[-1], peak, until=-peak.depth))
 
 
 def equal_peak(result: Result) -> PullOff | None:
-    """Return the other peak where the stated error of the force leaves open which is larger."""
+    """Return the other peak if it equals the pull-off within the stated error, or None."""
     error = (result.error_estimate or {}).get("force", 0.0)
     try:
         found, other = pull_off(result), other_peak(result)
@@ -122,12 +160,51 @@ def pull_off_force(result: Result) -> float:
     """Return the pull-off force, the positive number -min(force) [1.5 pi R Delta-gamma_0].
 
     For a punch it is the pull-off stress.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        [1.5 pi R Delta-gamma_0], for a punch [sigma_0].
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{pull_off_force(result):.2f}"
+    '3.98'
     """
     return pull_off(result).force
 
 
 def depth_at_pull_off(result: Result) -> float:
-    """Return the depth at the force minimum [h_0], positive into the solid."""
+    """Return the depth at the force minimum [h_0], positive into the solid.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        [h_0].
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{depth_at_pull_off(result):.2f}"
+    '4.27'
+    """
     return pull_off(result).depth
 
 
@@ -135,6 +212,25 @@ def contact_radius_at_pull_off(result: Result) -> float:
     """Return the contact radius at the force minimum [(pi R^2 Delta-gamma_0/E_0*)^(1/3)].
 
     For a punch it is the half length of the contact [a_0].
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        [(pi R^2 Delta-gamma_0/E_0*)^(1/3)], for a punch [a_0].
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{contact_radius_at_pull_off(result):.2f}"
+    '1.47'
     """
     return pull_off(result).contact_radius
 
@@ -166,9 +262,28 @@ def crack_speed_at_pull_off(result: Result) -> float:
     """Return the speed of the receding edge at the force minimum, positive.
 
     Its unit is (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit, without the pi of the radius unit; for
-    a punch h_0 per time unit. Where the edge of a punch is gone within a few steps after, place and
-    speed are those of a cubic of the travel by the place, in its last four; nan where it was gone
-    more than a step before.
+    a punch h_0 per time unit. If the edge of a punch vanishes within a few steps after the minimum,
+    place and speed are those of a cubic of the travel as a function of the place, through its last
+    four points; nan if it vanished more than a step before.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        Positive while the contact shrinks.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{crack_speed_at_pull_off(result):.1f}"
+    '1.6'
     """
     factor = result.problem.outputs.of("edge_speed").factor(result.groups)
     return pull_off(result).crack_speed * factor
@@ -177,42 +292,61 @@ def crack_speed_at_pull_off(result: Result) -> float:
 def work_to_pull_off(result: Result) -> float:
     """Return the work of the drive from zero force to the force minimum.
 
-    The integral of -force over the depth that is left, from the last zero crossing of the force in
-    retraction, or from the start where that is in tension already, to the minimum
-    [1.5 pi R Delta-gamma_0 h_0; for a punch Delta-gamma_0, of unit area]. Jumps add nothing. The
-    minimum is flat, so this number is less certain than the pull-off force.
+    This is the integral of -force over the decreasing depth, from the last zero crossing of the
+    force in retraction, or from a start in tension, to the minimum [1.5 pi R Delta-gamma_0 h_0; for
+    a punch Delta-gamma_0, per unit area]. Jumps contribute nothing. The minimum is flat, so this
+    number is less certain than the pull-off force.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        Positive.
 
     Raises
     ------
     ValueError
-        If there is no pull-off, or the work means nothing: a retraction that begins next to the
-        force minimum does next to no work on its way there, and the stated error is half of it or
-        more; or two peaks of the force are equal within its stated error, each with its own work.
+        If there is no pull-off, or the work is not determined: the retraction begins next to the
+        force minimum, so that the stated error is half of the work or more; or two peaks of the
+        force are equal within its stated error, each with its own work.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{work_to_pull_off(result):.1f}"
+    '16.6'
     """
     found = pull_off(result)
     work = work_to(result, found)
     if other := equal_peak(result):
         raise InputError(
             f"two peaks of the force, {found.force:.4g} and {other.force:.4g}, are equal within "
-            f"its error: the work is {work:.4g}, to a depth of {found.depth:.4g} h0, or "
-            f"{work_to(result, other):.4g}, to {other.depth:.4g} h0; ask for a better accuracy"
+            f"its error, so the work is either {work:.4g}, to a depth of {found.depth:.4g} h0, or "
+            f"{work_to(result, other):.4g}, to {other.depth:.4g} h0; request a better accuracy"
         )
     error = (result.error_estimate or {}).get("work", 0.0)
     if error > _MEANINGLESS:
         raise InputError(
-            f"the work to pull-off, {work:.2g}, is not known to half of it, as where the "
-            "retraction begins at the force minimum or next to it; ask for a better accuracy, or "
+            f"the error of the work to pull-off, {work:.2g}, is half of it or more, because the "
+            "retraction begins near the force minimum; request a better accuracy, or "
             "start deeper"
         )
     return work
 
 
 def work_lost(result: Result, force_error: float) -> float:
-    r"""Return the work to pull-off that an error of the force may take or add, in its unit.
+    r"""Return the change of the work to pull-off caused by an error of the force, in its unit.
 
-    Where the force :math:`P` is least its slope is zero. An error :math:`\epsilon P` that changes
-    over a length :math:`\ell` has a slope, and moves the minimum by that over the curvature of the
-    force; at the end of the way the drive works with the whole pull-off force:
+    At the minimum of the force :math:`P` its slope is zero. An error :math:`\epsilon P` that
+    changes over a length :math:`\ell` has a slope, and shifts the minimum by this slope over the
+    curvature of the force. Over this shift the drive works against the whole pull-off force:
 
     .. math:: \Delta W = P \cdot \frac{\epsilon P / \ell}{P''}
 
@@ -226,22 +360,23 @@ def work_lost(result: Result, force_error: float) -> float:
     Returns
     -------
     float
-        Zero where the minimum is no valley: the first step, or the last one before a jump.
+        Zero if the minimum is not a smooth valley: at the first step, or the last one before a
+        jump.
     """
     return _given(result, force_error * lost_beside(result, spans(result)[-1]))
 
 
 def depth_shift(result: Result, force_error: float) -> float:
-    """Return by how much that error moves the force minimum [h_0]: its slope over the curvature.
+    """Return the shift of the force minimum [h_0] by that error: its slope over the curvature.
 
-    Zero where the minimum is no valley, as for :func:`work_lost`.
+    Zero if the minimum is not a smooth valley, as for :func:`work_lost`.
     """
     found = pull_off(result)
     return force_error * lost_beside(result, spans(result)[-1]) / found.force
 
 
 def fold_shift(result: Result, force_error: float) -> float:
-    """Return by how much an error of the force moves a pull-off under a growing load [h0].
+    """Return the shift of a pull-off under growing load [h_0] by an error of the force.
 
     Parameters
     ----------
@@ -253,27 +388,46 @@ def fold_shift(result: Result, force_error: float) -> float:
     Returns
     -------
     float
-        Zero where the machine sets no load: :func:`depth_shift` has what an error does there.
+        Zero unless the machine sets the load; otherwise see :func:`depth_shift`.
     """
     return force_error**0.5 * reach_of_fold(result, spans(result)[-1])
 
 
 def work_of_separation(result: Result) -> float:
-    """Return the work of the drive from zero force to full separation, in that unit.
+    """Return the work of the drive from zero force to full separation, in the unit of work.
 
-    Like `work_to_pull_off`, to the end of the run and beyond: the drive must still pay the energy
-    of the interface that is left at the end. It is added when the result has the interface energy
-    with its zero at infinity, so negative at the start; without it the far tail is missing, about
+    Like `work_to_pull_off`, but to the end of the run, plus the remaining energy of the
+    interface, which the drive must still supply. It is added if the result contains the interface
+    energy relative to infinity (negative at the start); otherwise the far tail is missing, about
     1.8 over the last gap in h_0 for a sphere.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        Positive, in the unit of :func:`work_to_pull_off`.
 
     Raises
     ------
     ValueError
         If the run did not end in separation.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="detached", accuracy=0.02, estimate_error=False)
+    >>> f"{work_of_separation(result):.1f}"
+    '37.3'
     """
     if result.outcome not in (Outcome.DETACHED, Outcome.JUMPED):
         raise InputError(
-            f"the surfaces have not separated, the run ended: {result.status}; "
+            f"the surfaces have not separated; the run ended: {result.status}; "
             "solve with until='detached'"
         )
     interface = np.zeros(1) if result.energy is None else result.energy.interface
@@ -285,20 +439,64 @@ def work_of_separation(result: Result) -> float:
 def pull_off_stress(result: Result) -> float:
     """Return the pull-off stress of a punch, the largest mean tension over its area [sigma_0].
 
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        [sigma_0], positive.
+
     Raises
     ------
     ValueError
-        If the result is not that of a punch; a sphere has a pull-off force.
+        If the result is not that of a punch; use the pull-off force for other indenters.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, FlatPunch, Groups, Layer, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(
+    ...     tabor=None, cohesion=0.05, geometry=FlatPunch(20.0), body=Layer(3.0),
+    ...     material=solid, start=AtDepth(1.0), rate=1.0,
+    ... )
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{pull_off_stress(result):.3f}"
+    '0.886'
     """
     result.problem.outputs.check_has("pull_off_stress")
     return pull_off(result).force
 
 
 def ligament_at_pull_off(result: Result) -> float:
-    """Return the part of the half width of a punch that is in contact at pull-off, a_c/a.
+    """Return the fraction of the half width of a punch that is in contact at pull-off, a_c/a.
 
-    Where the contact opens all at once it is the ligament just before; nan where there never was
+    If the whole contact opens simultaneously it is the ligament just before; nan if there never was
     one.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        In [0, 1].
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, FlatPunch, Groups, Layer, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(
+    ...     tabor=None, cohesion=0.05, geometry=FlatPunch(20.0), body=Layer(3.0),
+    ...     material=solid, start=AtDepth(1.0), rate=1.0,
+    ... )
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{ligament_at_pull_off(result):.2f}"
+    '0.84'
     """
     size, found = _punch(result).geometry.half_width, pull_off(result)
     half_length = found.contact_radius
@@ -310,24 +508,51 @@ def ligament_at_pull_off(result: Result) -> float:
 
 
 def effective_surface_energy(result: Result) -> float:
-    r"""Return the surface energy that the pull-off stress of a punch stands for [Delta-gamma_0].
+    r"""Return the effective surface energy from the pull-off stress of a punch [Delta-gamma_0].
 
     .. math:: \frac{\Delta\gamma_{eff}}{\Delta\gamma_0} = \frac{\pi}{4 \zeta}
               \hat\sigma_{po}^2 \frac{b}{a_0} \left(\frac{a}{a_c}\right)^2
 
-    Eq. 3.30 of Maghami, PhD thesis (2025). For layers thinner than :math:`b_1 = 4 \zeta a/\pi`;
-    with a thicker one it gives a ``UserWarning``, and
-    :func:`viscotack.theory.punch.curve.surface_energy` has what holds there.
+    Eq. 3.30 of Maghami, PhD thesis (2025). Valid for layers thinner than :math:`b_1 = 4 \zeta
+    a/\pi`; thicker layers cause a ``UserWarning``, and
+    :func:`viscotack.theory.punch.curve.surface_energy` should be used.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    float
+        [Delta-gamma_0].
+
+    Raises
+    ------
+    ValueError
+        If the body is not a layer, or a bonded one with a Poisson ratio of 0.5.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, FlatPunch, Groups, Layer, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(
+    ...     tabor=None, cohesion=0.05, geometry=FlatPunch(20.0), body=Layer(3.0),
+    ...     material=solid, start=AtDepth(1.0), rate=1.0,
+    ... )
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{effective_surface_energy(result):.2f}"
+    '2.59'
     """
     groups = _punch(result)
     if not isinstance(groups.body, Layer):
-        raise InputError(f"the thin-layer formula is one of a layer, got a {groups.body.word}")
+        raise InputError(f"the thin-layer formula needs a layer, got a {groups.body.word}")
     if groups.body.base.foundation == 0:
         raise InputError(
-            "a bonded layer with a Poisson ratio of 0.5 cannot be stretched without flowing "
-            "sideways, and the thin-layer formula has no answer for it"
+            "the thin-layer formula does not apply to a bonded layer with a Poisson ratio of 0.5, "
+            "which stretches only by sideways flow"
         )
-    # with sigma_0 and a_0 for units, E_0* times Delta-gamma_0 is 2/pi
+    # in units of sigma_0 and a_0, E_0* times Delta-gamma_0 is 2/pi
     energy = thin_layer_surface_energy(
         pull_off(result).force,
         thickness=groups.body.thickness,
@@ -339,32 +564,32 @@ def effective_surface_energy(result: Result) -> float:
     return float(energy)
 
 
-# What summaries and rows of campaigns say beside the observables.
+# Names in summaries and rows of campaigns besides the observables.
 _TAKEN = frozenset(
-    "status outcome cycles accuracy_met error_estimate error_estimate_work "
-    "error_estimate_depth energy_residual "
-    "shallow_start events wall_time_s "
-    "statistics problem run_id versions name tabor modulus_ratio exponent rate profile_exponent "
-    "size thickness cohesion preload preload_force preload_radius steps nodes modes "
+    "status outcome cycles accuracy_met error_estimate error_estimate_work error_estimate_depth "
+    "energy_residual shallow_start events wall_time_s statistics problem run_id versions name "
+    "tabor modulus_ratio exponent rate profile_exponent size thickness cohesion preload "
+    "preload_force preload_radius steps nodes modes "
     "newton_iterations jumps travel_to_pull_off accuracy until method".split()
 )
 
 
 @dataclass(frozen=True)
 class Observable:
-    """A number of a result, of the user's own: ``summary(result, also=(mine,))``.
+    """A user-defined number of a result: ``summary(result, also=(mine,))``.
 
     Attributes
     ----------
     name : str
-        Its key in summaries and its column in campaigns.
+        Key in summaries and column in campaigns.
     words : str
-        What it is, for people.
+        Description.
     measure : str
-        What it measures: "force", "depth", "radius", "speed", "work", "time" or "1". The geometry
-        says the unit, and what that is in SI.
+        Measured quantity: "force", "depth", "radius", "speed", "work", "time" or "1". It defines
+        the unit for the geometry, and the SI unit.
     function : callable
-        Returns it of a `Result`, dimensionless in that unit; ValueError where it was not reached.
+        Computes the number from a `Result`, dimensionless in that unit; raises ValueError if
+        undefined.
 
     Examples
     --------
@@ -383,8 +608,8 @@ class Observable:
         taken = self.name in {*_OBSERVABLES, *_TAKEN, *older.OUTPUTS}
         if not self.name.isidentifier() or taken or "_at_" in self.name:
             raise InputError(
-                f"name must be a new one such as 'rise_time', got {self.name!r}; summaries and "
-                "campaigns have that themselves, or it says _at_"
+                f"name must be a new one without _at_, such as 'rise_time', got {self.name!r}, "
+                "which summaries and campaigns already use or reserve"
             )
         measures = ("force", "depth", "radius", "speed", "work", "time", "1")
         if self.measure not in measures:
@@ -392,12 +617,38 @@ class Observable:
 
 
 def summary(result: Result, also: Iterable[Observable] = ()) -> dict[str, Any]:
-    """Return the observables and how the run went, ready for JSON.
+    """Return the observables and the statistics of a run, ready for JSON.
 
-    Dimensionless, with the names and units of :mod:`viscotack.problem.outputs`; for a problem in SI
-    the same names with a unit in addition. A number that the result does not contain is None. Every
-    key is there in every summary of the same kind, and those of `also` after them. `cycles` has a
-    row for each cycle of the test, see :mod:`viscotack.result.cycles`.
+    Numbers are dimensionless, with the names and units of :mod:`viscotack.problem.outputs`; for a
+    problem in SI they are repeated under names that end in the unit. Undefined numbers are None.
+    All summaries of one kind of problem have the same keys, followed by those of `also`. `cycles`
+    has a row per cycle of the test, see :mod:`viscotack.result.cycles`.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+    also : iterable of Observable
+        Additional numbers.
+
+    Returns
+    -------
+    dict
+        Numbers, texts, lists and None.
+
+    Raises
+    ------
+    ValueError
+        If an additional observable fails.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> f"{summary(result)['pull_off_force']:.2f}, {summary(result)['outcome']}"
+    '3.98, still in contact'
     """
     kind, scales = result.problem.outputs, result.scales
     answer: dict[str, Any] = {"status": result.status, "outcome": str(result.outcome)}
@@ -467,7 +718,7 @@ _OBSERVABLES: dict[str, Callable[[Result], float]] = (
 def _number(
     observable: Callable[[Result], float], result: Result
 ) -> tuple[float | None, str | None]:
-    """Return an observable and what is to be said of it; None where it was not reached."""
+    """Return an observable and its note; None if it is undefined."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", UserWarning)
         try:
@@ -482,7 +733,7 @@ def _punch(result: Result) -> Any:
     groups = result.groups
     if not groups.in_plane_strain:
         raise InputError(
-            "the observable is one of a punch, and the result that of another indenter"
+            "this observable is defined for a punch, but the result belongs to another indenter"
         )
     return groups
 
@@ -501,7 +752,7 @@ def _step_at(result: Result, found: PullOff) -> int:
 
 
 def _given(result: Result, work: float) -> float:
-    """Return a work in the unit of its kind of problem."""
+    """Convert a work to the unit of its kind of problem."""
     return work * result.problem.outputs.energy_factor(result.groups)
 
 

@@ -1,7 +1,7 @@
-"""The opening part of a cycle as a curve: its force minimum, and the work that it takes.
+"""Opening part of a cycle as a curve: its force minimum and work.
 
-The curve between two steps is a cubic; where it breaks, at a jump, it is not drawn across. So the
-force minimum and the zero crossing are located between steps, and a jump adds no work.
+The curve between two steps is a cubic, interrupted at jumps. The force minimum and the zero
+crossing are located between steps, and a jump adds no work.
 """
 
 from dataclasses import dataclass
@@ -17,30 +17,30 @@ from viscotack.protocol import Dwell, LoadTo
 from . import Event, Outcome, Result
 from .parts import Span, move_numbers, moves_of, touches, waits
 
-# Steps of equal length are equal but for round-off.
+# Tolerance for equal step lengths.
 _EQUAL = 1 + 1e-9
-# A force that has risen by this part of its minimum and of the unit of force has left it.
+# Rise of the force that ends a minimum, relative to the minimum and to the unit of force.
 _RISEN = 0.03
-# A force of the march is rough by about this part of itself.
+# Relative numerical noise of a simulated force.
 _ROUGH = 1e-3
-# Steps after the pull-off within which an edge that is gone counts as running out.
+# Number of steps after the pull-off within which the edge may vanish.
 _GONE = 3
 
 
 @dataclass(frozen=True)
 class PullOff:
-    """A force minimum of a retraction, located between steps; dimensionless as in `Result`.
+    """Force minimum of a retraction, from :func:`viscotack.pull_off`; dimensionless.
 
     Attributes
     ----------
     force : float
-        Tension there, a positive number: the pull-off force at the lowest minimum.
+        Tension, positive; at the lowest minimum the pull-off force.
     depth, time : float
-        Where and when.
+        Depth and time of the minimum.
     contact_radius : float
-        Contact radius there; nan without an edge.
+        Contact radius; nan without an edge.
     crack_speed : float
-        Speed at which the edge recedes there, positive; nan without an edge.
+        Receding speed of the edge, positive; nan without an edge.
     """
 
     force: float
@@ -52,11 +52,11 @@ class PullOff:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """Steps over which the depth falls without a break.
+    """Steps over which the depth decreases without interruption.
 
-    A force that is least at its end is a minimum where it `snaps` there, and one that is least
-    at its beginning where it `starts` there: with the test itself, behind dwells at its relaxed
-    start, or after a jump that left some contact. Where the machine turns or stops, it is not.
+    A smallest force at its end is a minimum if the contact `snaps` there; one at its beginning if
+    it `starts` there: with the test itself, after dwells at the relaxed start, or after a jump that
+    left some contact. It is not a minimum where the machine reverses or stops.
     """
 
     steps: npt.NDArray[np.intp]
@@ -65,7 +65,7 @@ class _Piece:
     held: bool
 
     def has_minimum(self, lowest: int) -> bool:
-        """Return whether the force minimum of the contact can be at one of its steps."""
+        """Return whether the contact's force minimum can be at one of its steps."""
         begins, ends = lowest == 0, lowest == len(self.steps) - 1
         free = not self.held
         return free and (self.starts or not begins) and (self.snaps or not ends)
@@ -77,17 +77,17 @@ def pull_off_in(result: Result, span: Span) -> PullOff:
     Raises
     ------
     ValueError
-        If there is none: nothing is pulled in it, or the force was lowest where the machine turned
-        or stopped, or was itself what the machine set.
+        If there is none: there is no tension, or the force was lowest where the machine reversed
+        or stopped, or was set by the machine.
     """
     return _located(result, *_valley_of(result, span))
 
 
 def peaks_in(result: Result, span: Span) -> tuple[PullOff, ...]:
-    """Return the states at all peaks of the tension in the opening part of a cycle, in time.
+    """Return the states at all tension peaks of the opening part of a cycle, in order of time.
 
-    Between two of them the tension falls by 3 % of the smaller one, and of the unit of force, at
-    least. A jump ends a peak as a smooth maximum does.
+    Peaks are separate if the tension between them falls by at least 3 % of the smaller one, and of
+    the unit of force. A jump ends a peak like a smooth maximum.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def peaks_in(result: Result, span: Span) -> tuple[PullOff, ...]:
 
 def _located(result: Result, steps: npt.NDArray[np.intp], lowest: int) -> PullOff:
     """Return the state at a force minimum, between the steps around the lowest one of a piece."""
-    # The motion is a retraction without a break: travel, minus the depth, orders the steps.
+    # The motion is an uninterrupted retraction, so the travel (minus the depth) orders the steps.
     x = -result.depth[steps]
     smooth = _smooth(move_numbers(result)[steps], lowest)
     if smooth is None:
@@ -121,10 +121,10 @@ def _located(result: Result, steps: npt.NDArray[np.intp], lowest: int) -> PullOf
 
 
 def lost_beside(result: Result, span: Span) -> float:
-    """Return the square of the least force over its curvature; 0 where it is least in no valley.
+    """Return the square of the smallest force over its curvature; 0 unless it is a smooth valley.
 
-    What the drive does in vain, or saves, where the slope of the force is wrong by a part of the
-    least force is this times that part: the minimum moves by slope over curvature.
+    An error of the slope of the force, relative to the smallest force, times this number is the
+    error of the work, because the minimum shifts by slope over curvature.
     """
     steps, i = _valley_of(result, span)
     x, force = -result.depth[steps], result.force[steps]
@@ -134,16 +134,16 @@ def lost_beside(result: Result, span: Span) -> float:
 
 
 def reach_of_fold(result: Result, span: Span) -> float:
-    r"""Return over which depths a growing load finds a contact on the brink [h0].
+    r"""Return the range of depths near a fold under growing load [h0].
 
-    Under a load that grows the contact lets go at a fold, where the force :math:`P` of equilibrium
-    has no slope over the depth. A march with an error :math:`\epsilon P` ends anywhere where the
-    force is that near to the largest one:
+    Under a growing load the contact detaches at a fold, where the equilibrium force :math:`P` has
+    zero slope over the depth. A simulation with an error :math:`\epsilon P` may end anywhere with a
+    force this close to the extreme one:
 
     .. math:: \Delta \delta = \sqrt{2 \epsilon P / P''}
 
-    Returned for :math:`\epsilon = 1`, with the curvature of the last three steps; 0 where the
-    contact does not let go under such a load.
+    The result holds for :math:`\epsilon = 1`, with the curvature of the last three steps; it is 0
+    if the contact does not detach under such a load.
     """
     steps, i = _valley_of(result, span)
     moves, number = moves_of(result), move_numbers(result)
@@ -160,26 +160,27 @@ def _curvature(x: Array, y: Array, i: int) -> float:
 
 
 def _smooth(moves: npt.NDArray[np.intp], lowest: int) -> slice | None:
-    """Return the part of a piece in which one move led on from the lowest step, around it.
+    """Return the steps of the single move around the lowest step of a piece.
 
-    None where that move ended there: the next one may bend the curve.
+    None if the move ended there, because the next one may have a kink.
     """
     within = np.flatnonzero(moves == moves[lowest])
     first, last = int(within[0]), int(within[-1])
     if lowest == last < len(moves) - 1:
         return None
-    # a move begins at the last step of the one before
+    # a move begins at the last step of the previous one
     return slice(max(first - 1, 0), last + 1)
 
 
-# Steps of a piece, and which of them is the lowest of a valley.
+# Steps of a piece, and the index of the lowest one of a valley.
 _Valley = tuple[npt.NDArray[np.intp], int]
 
 
 def _valley_of(result: Result, span: Span) -> _Valley:
     """Return the lowest valley of the force in the opening part of a cycle.
 
-    A piece that is lowest where it ends without a minimum has none: the force falls further.
+    A piece that is lowest at its end without a minimum has none, because the force decreases
+    further.
     """
     found, pieces = None, _opening(result, span)
     for piece in pieces:
@@ -193,7 +194,7 @@ def _valley_of(result: Result, span: Span) -> _Valley:
 
 
 def _valleys(result: Result, span: Span) -> list[_Valley]:
-    """Return all valleys of the force in tension, in time."""
+    """Return all valleys of the force in tension, in order of time."""
     found: list[_Valley] = []
     for piece in _opening(result, span):
         for lowest in _minima(result.force[piece.steps]):
@@ -208,7 +209,7 @@ def _valleys(result: Result, span: Span) -> list[_Valley]:
 
 def _opening(result: Result, span: Span) -> list[_Piece]:
     if not touches(result, span):
-        raise InputError("the surfaces were never in contact, there is no pull-off")
+        raise InputError("the surfaces were never in contact, so there is no pull-off")
     return _pieces(result, span)
 
 
@@ -226,7 +227,7 @@ def _force_of(result: Result, valley: _Valley) -> float:
 
 
 def _apart(result: Result, one: _Valley, other: _Valley) -> bool:
-    """Return whether the force rises between two valleys, and so much that they are two."""
+    """Return whether the force rises enough between two valleys to separate them."""
     first, last = one[0][one[1]], other[0][other[1]]
     higher = max(_force_of(result, one), _force_of(result, other))
     top = min(float(result.force[first : last + 1].max()), 0.0)
@@ -234,9 +235,9 @@ def _apart(result: Result, one: _Valley, other: _Valley) -> bool:
 
 
 def _minima(force: Array) -> list[int]:
-    """Return the lowest steps before each rise of the force that is not noise, and the last one.
+    """Return the lowest steps before each significant rise of the force, and the last one.
 
-    The lowest of all is among them.
+    The global minimum is among them.
     """
     found, low, high, rising = [], 0, 0, False
     for i, now in enumerate(force):
@@ -256,32 +257,34 @@ def _why_none(result: Result, span: Span, pieces: list[_Piece]) -> str:
     steps = np.arange(span.turn, span.last + 1)
     ended = f"the run ended: {result.status}"
     if not span.opens:
-        return f"nothing is pulled in the test, there is no pull-off; {ended}"
+        return f"the test has no retraction, so there is no pull-off; {ended}"
     if not np.any(result.force[steps] < 0):
-        return f"the force is nowhere tensile, there is no pull-off; {ended}"
+        return f"the force is nowhere tensile, so there is no pull-off; {ended}"
     if any(p.held for p in pieces):
-        return "the force is what the machine held, there is no pull-off force"
+        return "the machine held the force, so there is no pull-off force"
     lowest = steps[int(np.argmin(result.force[steps]))]
     if lowest == len(result.force) - 1:
         return (
-            f"the force still falls at the end of the run ({result.status}), the pull-off is not "
-            "in it; run further"
+            f"the force still decreases at the end of the run ({result.status}), so the pull-off "
+            "is not reached; run further"
         )
-    return f"the force was least where the machine turned or stopped, not at a pull-off; {ended}"
+    return (
+        f"the force was smallest where the machine reversed or stopped, not at a pull-off; {ended}"
+    )
 
 
 def tension_work(result: Result, span: Span, found: PullOff, *, until: float) -> float:
-    """Return the integral of -force over the travel in tension around the pull-off."""
+    """Integrate -force over the travel in tension around the pull-off."""
     total, tension = 0.0, True
-    # Backwards from the end, so that the first crossing met before the minimum is the last one.
+    # Go backwards from the end to find the last zero crossing before the minimum.
     parts = [part for piece in _pieces(result, span) for part in _moves_of(result, piece.steps)]
     for steps in reversed(parts):
         if len(steps) < 2:
-            continue  # a single step between two jumps spans no work
+            continue  # a single step between two jumps has no work
         x, force = -result.depth[steps], result.force[steps]
         before = x < -found.depth
         if before.any() and force[before][-1] > 0 and x[-1] < -found.depth:
-            tension = False  # the crossing was the jump behind this piece
+            tension = False  # the crossing was the jump after this piece
         if not tension:
             break
         begin = x[0]
@@ -297,9 +300,9 @@ def tension_work(result: Result, span: Span, found: PullOff, *, until: float) ->
 
 
 def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[np.intp]]:
-    """Return the steps of a piece move by move: where the speed changes, the curve has a kink.
+    """Split the steps of a piece by moves, because the curve has a kink where the speed changes.
 
-    A move begins at the last step of the one before.
+    A move begins at the last step of the previous one.
     """
     ends = np.flatnonzero(np.diff(move_numbers(result)[steps])) + 1
     begins = np.maximum(ends - 1, 0)
@@ -308,37 +311,37 @@ def _moves_of(result: Result, steps: npt.NDArray[np.intp]) -> list[npt.NDArray[n
 
 
 def _pieces(result: Result, span: Span) -> list[_Piece]:
-    """Return the opening part of a cycle as runs of steps between jumps, stops and turns."""
+    """Split the opening part of a cycle into runs of steps between jumps, stops and reversals."""
     part = np.arange(span.turn, span.last + 1)
     depth = result.depth
     first = span.turn + int(np.flatnonzero(depth[part] == depth[part].max())[-1])
     moves, number = moves_of(result), move_numbers(result)
     waiting = np.array([waits(move) for move in moves])[number]
-    # Of each step but the last: whether the next one is behind a break, a jump, or another move.
+    # For each step but the last: whether a break, a jump or a new move follows.
     broken = np.diff(depth) >= 0
     jumped = np.zeros(len(broken), dtype=bool)
     for event in result.events:
         if event.kind.startswith("jump"):
             jumped |= _jump(result, event)
-    # where the drive goes on, and only the clock stands still, it is a jump as well
+    # motion of the drive at constant time is a jump as well
     goes_on = np.append(np.diff(depth)[1:] < 0, False) & ~waiting[1:]
     jumped |= (np.diff(depth) == 0) & goes_on
     stopped = (number[1:] != number[:-1]) & (waiting[1:] | waiting[:-1])
     stopped[: first + 1] = False
     ends = [i for i in range(first, span.last) if broken[i] or jumped[i] or stopped[i]]
-    # a dwell at the relaxed start changes nothing: the test begins behind it
+    # a dwell at the relaxed start changes nothing: the test begins after it
     rested = all(waits(moves[i]) for i in np.unique(number[1 : first + 1]))
     pieces, begin, starts = [], first, rested and not jumped[:first].any()
     for end in [*ends, span.last]:
         over = end == len(depth) - 1
         snaps = result.outcome is Outcome.JUMPED if over else end < span.last and bool(jumped[end])
         if snaps and not over and isinstance(moves[number[end]], LoadTo | Dwell):
-            # where the machine sets the force, one that is borne on was no pull-off
+            # under load control, a force that the contact survives is no pull-off
             snaps = bool(np.isnan(result.contact_radius[end + 1]))
         held = end > begin and waits(moves[number[end]], "force")
         pieces.append(_Piece(np.arange(begin, end + 1), starts, snaps, held))
         if not over and end < span.last:
-            # a curve that a stop bends goes on from there; behind a break the next one begins
+            # after a stop the curve continues with a kink; after a break a new one begins
             bends = stopped[end] and not (broken[end] or jumped[end])
             begin = end + (not bends)
             starts = bool(jumped[end]) and bool(np.isfinite(result.contact_radius[begin]))
@@ -346,10 +349,10 @@ def _pieces(result: Result, span: Span) -> list[_Piece]:
 
 
 def _jump(result: Result, event: Event) -> npt.NDArray[np.bool_]:
-    """Return of each step but the last whether an event lies between it and the next one.
+    """Return a mask of the steps after which an event occurs.
 
-    Many steps may have the time of a jump to the last digit: the depth tells which one it led to.
-    A jump on the way to a step that is kept later has a time of its own.
+    Several steps may have the time of a jump to the last digit; the depth identifies the step after
+    it. A jump on the way to a later stored step has its own time.
     """
     time, depth = result.time, result.depth
     reached = (time[1:] == event.time) & (depth[1:] == event.depth)
@@ -357,18 +360,18 @@ def _jump(result: Result, event: Event) -> npt.NDArray[np.bool_]:
 
 
 def _nearest(x: Array, i: int) -> slice:
-    """Return the up to four entries around number i: its neighbours, and the nearer of the next."""
+    """Return up to four indices around i: its neighbours, and the nearer of the next ones."""
     low, high = max(i - 1, 0), min(i + 2, len(x))
     before = x[i] - x[low - 1] if low > 0 else np.inf
     after = x[high] - x[i] if high < len(x) else np.inf
     if min(before, after) < np.inf:
-        # of two equally far the earlier, and not that which round-off makes the nearer
+        # prefer the earlier of two equally distant ones, despite round-off
         low, high = (low - 1, high) if before <= after * _EQUAL else (low, high + 1)
     return slice(low, high)
 
 
 def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
-    """Return where the curve is lowest, near the lowest of its points i, and its value there."""
+    """Return place and value of the minimum of the curve near its lowest point i."""
     if 0 < i < len(x) - 1:
         scale = x[i + 1] - x[i - 1]
         for points in (_nearest(x, i), slice(i - 1, i + 2)):
@@ -384,10 +387,10 @@ def _minimum(x: Array, y: Array, i: int) -> tuple[float, float]:
 
 
 def least_between(x: Array, y: Array, i: int, place: float) -> float:
-    """Return the least value that a curve may have beside its lowest point i.
+    """Return a lower bound of the curve next to its lowest point i.
 
-    A valley lies above the line through the two points before the place. Where the force breaks off
-    behind the lowest step, a parabola or a cubic would go far below that line.
+    A valley lies above the line through the two points before the place. If the force breaks off
+    after the lowest step, a parabola or a cubic would be far below that line.
     """
     last = i if place > x[i] else i - 1
     if last < 1:
@@ -397,7 +400,7 @@ def least_between(x: Array, y: Array, i: int, place: float) -> float:
 
 
 def _valley(c: float, b: float, a: float = 0.0) -> float:
-    """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a; nan for none."""
+    """Return the minimum of c u + b u^2 + a u^3 without cancellation for small a, or nan."""
     root = b * b - 3 * a * c
     if root < 0 or (a == 0 and b <= 0):
         return np.nan
@@ -407,7 +410,7 @@ def _valley(c: float, b: float, a: float = 0.0) -> float:
 
 
 def _between(x: Array, y: Array, at: float) -> float:
-    """Return a value between two steps by a straight line; nan where one of them is unknown."""
+    """Interpolate linearly between two steps; nan if one of them is unknown."""
     i = int(np.searchsorted(x, at))
     if x[i] == at:
         return float(y[i])
@@ -415,11 +418,11 @@ def _between(x: Array, y: Array, at: float) -> float:
 
 
 def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, float] | None:
-    """Return place and speed of an edge that is gone within a few steps.
+    """Return place and speed of an edge that vanishes within a few steps.
 
-    It runs faster and faster, so that its place is no smooth function of the travel; but the travel
-    is one of the place: a cubic through the last four up to there. None where the edge goes on, or
-    has not moved.
+    The edge accelerates, so its place is not a smooth function of the travel, but the travel is
+    a smooth function of the place: a cubic through the last four points. None if the edge
+    continues, or has not moved.
     """
     i = int(np.searchsorted(x, at))
     known = np.isfinite(edge)
@@ -427,7 +430,7 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
     if last < 3 or np.all(known[last : i + 2 + _GONE]):
         return None
     points = slice(last - 3, last + 1)
-    # nan where there was no edge, which is no fall either
+    # nan where there was no edge, which does not count as a decrease
     if not np.all(np.diff(edge[points]) < 0):
         return None
     scale = edge[last - 3] - edge[last]
@@ -446,7 +449,7 @@ def _running_out(x: Array, edge: Array, time: Array, at: float) -> tuple[float, 
 
 
 def _curve(x: Array, y: Array) -> "scipy.interpolate.CubicHermiteSpline":
-    """Return the cubics through the points, with slopes of second order."""
+    """Return cubic interpolation through the points, with second-order slopes."""
     slope = np.gradient(y, x, edge_order=2 if len(x) > 2 else 1) if len(x) > 1 else np.zeros(1)
     return scipy.interpolate.CubicHermiteSpline(x, y, slope)
 

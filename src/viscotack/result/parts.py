@@ -1,8 +1,8 @@
-"""The parts of a test: its cycles, each a closing part and an opening one, and what held it when.
+"""Parts of a test: its cycles, each with a closing and an opening part.
 
-A cycle begins where the machine turns to close the contact again. Its closing part has all moves
-into the solid and the waiting before, between and after them; the opening part begins with the
-first move out of the solid and lasts until the next turn.
+A cycle begins where the machine reverses to close the contact again. Its closing part includes all
+moves into the solid and the dwells before, between and after them; the opening part begins with the
+first move out of the solid and lasts until the next reversal.
 """
 
 from dataclasses import dataclass
@@ -19,14 +19,14 @@ from . import Outcome, Result
 
 @dataclass(frozen=True)
 class Span:
-    """A cycle, by numbers of steps.
+    """A cycle, by step indices.
 
     Attributes
     ----------
     first, turn, last : int
-        The state in which it begins, that in which its opening begins, and the last one of it.
+        First state, first state of the opening part, and last state.
     closes, opens : bool
-        Whether the machine moves into the solid in it, and out of it.
+        Whether the machine moves into the solid, and out of it, during the cycle.
     """
 
     first: int
@@ -37,35 +37,34 @@ class Span:
 
     @property
     def states(self) -> slice:
-        """The states of the cycle, with those at both ends."""
+        """Slice of the states of the cycle, including both ends."""
         return slice(self.first, self.last + 1)
 
     @property
     def closing(self) -> slice:
-        """The states of the closing part, with those at both ends."""
+        """Slice of the states of the closing part, including both ends."""
         return slice(self.first, self.turn + 1)
 
     @property
     def opening(self) -> slice:
-        """The states of the opening part, with those at both ends."""
+        """Slice of the states of the opening part, including both ends."""
         return slice(self.turn, self.last + 1)
 
 
 def moves_of(result: Result) -> tuple[Move | None, ...]:
-    """Return the moves of a test; None is the retraction after them."""
+    """Return the moves of a test; None stands for the final retraction."""
     return all_moves(result.groups)
 
 
 def all_moves(groups: Groups) -> tuple[Move | None, ...]:
-    """Return the moves that a problem asks for; None is the retraction after them."""
+    """Return the moves of a problem; None stands for the final retraction."""
     return (*groups.moves, *((None,) if groups.rate is not None else ()))
 
 
 def move_numbers(result: Result) -> npt.NDArray[np.intp]:
-    """Return the number of the move that led to each step.
+    """Return the index of the move that led to each step.
 
-    A result that does not know has the last one for all: what came before it is then not told from
-    it.
+    For results without this record it is the last move, so earlier moves are not distinguished.
     """
     if result.move is None:
         return np.full(len(result.time), len(moves_of(result)) - 1)
@@ -73,12 +72,12 @@ def move_numbers(result: Result) -> npt.NDArray[np.intp]:
 
 
 def waits(move: Move | None, hold: str = "") -> bool:
-    """Return whether a move is a dwell, that holds what is named if something is."""
+    """Return whether a move is a dwell, optionally with a given held quantity."""
     return isinstance(move, Dwell) and hold in ("", move.hold)
 
 
 def touches(result: Result, span: Span) -> bool:
-    """Return whether there is contact in a cycle; a result without edges says it by its outcome."""
+    """Return whether there is contact in a cycle; without edges, according to the outcome."""
     known = np.isfinite(result.contact_radius)
     if not known.any():
         return result.outcome is not Outcome.NEVER
@@ -86,7 +85,7 @@ def touches(result: Result, span: Span) -> bool:
 
 
 def spans(result: Result) -> list[Span]:
-    """Return the cycles of a test; one that only pulls is one cycle."""
+    """Return the cycles of a test; a pure retraction is one cycle."""
     if result.move is None:
         end = len(result.depth) - 1
         deepest = int(np.flatnonzero(result.depth == result.depth.max())[-1])
@@ -98,7 +97,7 @@ def spans(result: Result) -> list[Span]:
 def spans_of(
     groups: Groups, number: npt.NDArray[np.intp], depth: Array, force: Array
 ) -> list[Span]:
-    """Return the cycles of a history, by the number of the move that led to each step."""
+    """Return the cycles of a history, from the index of the move that led to each step."""
     moves, end = all_moves(groups), len(number) - 1
     found, first, turn, closes = [], 0, -1, False
     for move in np.unique(number):
@@ -115,9 +114,9 @@ def spans_of(
 
 
 def _way(groups: Groups, move: Move | None, depth: float, force: float) -> float:
-    """Return a positive number for a move into the solid, a negative one for one out of it.
+    """Return a positive number for a move into the solid, a negative one for a move out of it.
 
-    Depth and force are those in which it begins.
+    Depth and force are those at the beginning of the move.
     """
     match move:
         case Approach():

@@ -1,13 +1,13 @@
-"""What a simulation returns; how it is saved and loaded.
+"""Result of a simulation, and its files.
 
 All numbers of a :class:`Result` are dimensionless, whatever the units of the problem: force in
 1.5 pi R Delta-gamma_0, positive in compression; depth in h_0, positive into the solid; contact
 radius in (pi R^2 Delta-gamma_0/E_0*)^(1/3); time in the material's time unit; edge speed in
 (R^2 Delta-gamma_0/E_0*)^(1/3) per time unit; work and energy in 1.5 pi R Delta-gamma_0 h_0;
-pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` has the factors to SI.
+pressure in Delta-gamma_0/h_0. ``result.problem.scales()`` gives the factors to SI.
 
-A punch has its mean stress for a force, in sigma_0 and positive in compression as well, and the
-half length of its contact in a_0 for a radius; energies are in sigma_0 h_0 of unit area. Tables
+For a punch, forces are mean stresses in sigma_0, positive in compression, contact radii are
+half lengths of the contact in a_0, and energies are in sigma_0 h_0 per unit area. Tables
 and summaries (:mod:`viscotack.problem.outputs`) give stress, ligament, crack speed and work of
 separation.
 """
@@ -37,7 +37,7 @@ from viscotack.result.energies import Energies
 from viscotack.units import finite
 
 _FORMAT, _FORMAT_VERSION = "viscotack result", 1
-# What NumPy, zlib and json raise for files that are cut, changed, or of another kind.
+# Errors of NumPy, zlib and json for truncated, changed or foreign files.
 _UNREADABLE = (
     ValueError,
     LookupError,
@@ -55,33 +55,33 @@ _OPTIONAL = {"move": int, "inner_radius": float, "rings": int}
 
 
 class Outcome(StrEnum):
-    """How a run ended; the status text of a result begins with one of these."""
+    """Ending of a run, at the beginning of the status text; see :func:`viscotack.solve`."""
 
     DETACHED = "detached"
     """The surfaces have separated."""
     IN_CONTACT = "still in contact"
-    """The run ended as asked while the surfaces touch, for example just past the pull-off."""
+    """The run ended as requested while the surfaces touch, for example just past the pull-off."""
     NEVER = "never in contact"
     """The surfaces did not touch in the whole test."""
     JUMPED = "jumped"
     """The equilibrium ended in a jump out of contact: "jumped at depth ..."."""
     STOPPED = "stopped"
-    """The solver could not go on: "stopped because ...; cure". The numbers are not complete."""
+    """The solver could not continue: "stopped because ...; cure". The series are incomplete."""
 
 
 @dataclass(frozen=True)
 class Event:
-    """Something sudden in a run.
+    """A sudden event in a run, usually a jump; see :func:`viscotack.solve`.
 
     Attributes
     ----------
     kind : str
-        Words such as "jump out of contact". A kind that begins with "jump" breaks the curve
-        there: the motion over the step that ends at its time adds no work.
+        Description such as "jump out of contact". A kind that begins with "jump" interrupts the
+        curve: the motion of the step that ends at its time adds no work.
     time, depth, force : float
-        Where it happened; force is the one just before.
+        State of the event; the force is the one just before.
     energy : float
-        Energy lost in it, not negative but for round-off.
+        Energy dissipated in the event, not negative except for round-off.
     """
 
     kind: str
@@ -97,19 +97,19 @@ class Event:
 
 @dataclass(frozen=True)
 class ShallowStart:
-    """Where a retraction was begun because the depth of its start no longer matters there.
+    """Replacement of a very deep start, whose depth has no effect, by a shallower one.
 
     Attributes
     ----------
     asked : float
-        Depth of the start that was asked for [h_0]; of one by force or radius the JKR depth.
+        Depth of the requested start [h_0]; for one by force or radius the JKR depth.
     depth : float
         Depth at which the series begin, at rest and at time 0 [h_0].
     force, work : float
-        What the deeper start might change force and work at pull-off by, relative; contained in
+        Bounds on the relative change of force and work at pull-off by the deeper start; included in
         the error estimate.
     shift : float
-        By how much it might shift the depth at pull-off [h_0].
+        Bound on the change of the depth at pull-off [h_0].
     """
 
     asked: float
@@ -138,53 +138,53 @@ class Result:
     Attributes
     ----------
     problem : Problem or Groups
-        What was solved.
+        The solved problem.
     time, depth, force : ndarray
-        Time from the start of the retraction, or of what was marched of it (`shallow_start`);
+        Time from the start of the retraction, or of its simulated part (`shallow_start`);
         depth and force at each step.
     contact_radius : ndarray
-        Outermost place where the gap is that of peak tension; nan where there is no edge.
+        Outermost place where the gap is that of peak tension; nan without an edge.
     edge_speed : ndarray
-        Speed at which the edge recedes, positive while the contact shrinks; nan without an edge.
+        Receding speed of the edge, positive while the contact shrinks; nan without an edge.
         Its unit of length has no pi, see :func:`receding_speed`.
     status : str
-        How the run ended, a sentence that begins with one of :class:`Outcome`.
+        Ending of the run, a sentence that begins with an :class:`Outcome`.
     events : tuple of Event
         Jumps, in order of time.
     statistics : dict
         Cost: steps, newton_iterations, nodes, modes, wall_time_s.
     accuracy : float or None
-        Relative error of the pull-off force that was asked for; None in results of version 0.1.
+        Requested relative error of the pull-off force; None in results of version 0.1.
     error_estimate : dict or None
-        Relative error of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
-        relative error of the ``time`` for which a load was borne; relative error of ``hysteresis``,
-        the largest of the cycles. None while there is no estimate.
+        Relative errors of ``force`` and ``work`` at pull-off, and error of its ``depth`` [h_0]; or
+        relative error of the ``time`` to detachment under a load; relative error of ``hysteresis``,
+        the largest of all cycles. None without an estimate.
     hysteresis_errors : tuple of float, or None
-        Estimated relative error of the hysteresis of each cycle, nan where its loop is open; the
-        largest is ``error_estimate["hysteresis"]``. None while there is no estimate.
+        Estimated relative error of the hysteresis of each cycle, nan for open loops; the
+        largest is ``error_estimate["hysteresis"]``. None without an estimate.
     energy : Energies or None
-        Where the work of the drive has gone, at every step.
+        Energy balance at every step.
     energy_residual : float or None
-        Largest imbalance of the energies over the largest term so far.
+        Largest imbalance of the energies over the largest cumulative term.
     fields : dict of ndarray, or None
         On request: time (m,), and radius, pressure, gap (m, n); pressure positive in compression.
     move : ndarray of int, or None
-        Number of the move that led to each step, from 0; the retraction is one more than the last
-        move. None in results of version 0.1.
+        Index of the move that led to each step, from 0; the final retraction is one more than the
+        last move. None in results of version 0.1.
     inner_radius : ndarray, or None
         Of a shape that may have several edges: the inner edge of the outermost part of the contact,
         0 where that is a disc around the axis, nan without a contact. Else None.
     rings : ndarray of int, or None
         Of such a shape: how many parts the contact has, each a ring or a disc at the axis.
     shallow_start : ShallowStart or None
-        Where the series begin if not at the start that was asked for, which was so deep that its
-        depth does not matter.
+        Actual start of the series, if the requested one was so deep that its depth has no
+        effect.
     method : str
-        "simulation"; "crack contact" where the range of the forces is too short to be simulated and
-        the theory of a contact whose edge is a steady crack answers (:func:`crack_contact`), its
-        band being the error of the force.
+        "simulation"; "crack contact" if the range of the forces is too short for a simulation and
+        the theory of a contact whose edge is a steady crack is used (:func:`crack_contact`), with
+        its band as the error of the force.
     versions : dict
-        Versions of this package, numpy and scipy that made it.
+        Versions of this package, numpy and scipy.
     """
 
     problem: Case
@@ -237,9 +237,9 @@ class Result:
                 raise InputError(f"the {name} of a result must be finite, got nan or infinity")
         move = self.move
         if move is not None and (move.shape != self.time.shape or np.any(np.diff(move) < 0)):
-            raise InputError("the moves of a result must be as many as its steps, and ascend")
+            raise InputError("the moves of a result must have one ascending index per step")
         if np.any(np.diff(self.time) < 0):
-            raise InputError("the time of a result must not go back")
+            raise InputError("the time of a result must not decrease")
         if not any(self.status.startswith(o) for o in Outcome):
             known = ", ".join(repr(str(o)) for o in Outcome)
             raise InputError(f"status must begin with one of {known}, got {self.status!r}")
@@ -250,25 +250,25 @@ class Result:
         return self.problem.groups()
 
     def posed(self, groups: Any) -> "Result":
-        """Return the result itself, which need not ask for its groups again."""
+        """Return the result with its groups already computed."""
         vars(self)["groups"] = groups
         return self
 
     @cached_property
     def scales(self) -> Scales | PunchScales | None:
-        """What one unit of each number is in SI; None where the problem is dimensionless."""
+        """SI value of one unit of each number; None for a dimensionless problem."""
         return self.problem.scales()
 
     @property
     def outcome(self) -> Outcome:
-        """The kind of ending that the status sentence begins with."""
+        """Outcome at the beginning of the status sentence."""
         return next(o for o in Outcome if self.status.startswith(o))
 
     @property
     def accuracy_met(self) -> bool | None:
-        """Whether the stated error is within the accuracy asked for; None where one is not known.
+        """Whether the stated error is within the requested accuracy; None if unknown.
 
-        That of the pull-off force, or of the time for which a load was borne.
+        The error is that of the pull-off force, or of the time to detachment under a load.
         """
         stated = self.error_estimate or {}
         error = stated.get("force", stated.get("time"))
@@ -278,8 +278,9 @@ class Result:
     def pull_off_force(self) -> float:
         """Largest tension of the last retraction, positive [1.5 pi R Delta-gamma_0].
 
-        For a punch it is `pull_off_stress`. This and the properties below are the functions of the
-        same names, with their errors; :func:`viscotack.summary` has all numbers, also in SI.
+        For a punch it is `pull_off_stress`. This and the following properties call the functions of
+        the same names and raise their errors; :func:`viscotack.summary` has all numbers, also in
+        SI.
         """
         from .observables import pull_off_force
 
@@ -287,7 +288,7 @@ class Result:
 
     @property
     def pull_off_stress(self) -> float:
-        """Of a punch, the largest mean tension of the last retraction, positive [sigma_0]."""
+        """Largest mean tension of the last retraction of a punch, positive [sigma_0]."""
         from .observables import pull_off_stress
 
         return pull_off_stress(self)
@@ -296,7 +297,7 @@ class Result:
     def work_to_pull_off(self) -> float:
         """Work of the drive from zero force to the pull-off [1.5 pi R Delta-gamma_0 h_0].
 
-        For a punch [Delta-gamma_0], of unit area.
+        For a punch [Delta-gamma_0], per unit area.
         """
         from .observables import work_to_pull_off
 
@@ -317,40 +318,60 @@ def _frozen(values: npt.ArrayLike, dtype: type = float) -> npt.NDArray[Any]:
 
 
 def receding_speed(time: npt.ArrayLike, edge: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    r"""Return the speed at which the edge recedes, from its place at uneven times.
+    r"""Return the receding speed of the edge, from its place at uneven times.
 
     .. math:: v = -da / dt
 
-    Second order in the steps, in the unit of the edge over that of the time. A sphere's radii are
-    given in (pi R^2 Delta-gamma_0/E_0*)^(1/3) and its speeds without the pi: multiply by pi^(1/3).
+    Second order in the steps, in the unit of the edge over that of the time. Radii of spheres are
+    in (pi R^2 Delta-gamma_0/E_0*)^(1/3) and speeds without the pi: multiply by pi^(1/3).
 
     Parameters
     ----------
     time : array_like, shape (n,)
-        Times, not decreasing; two equal ones mark a jump, over which there is no speed.
+        Times, not decreasing; two equal ones mark a jump, where the speed is undefined.
     edge : array_like, shape (n,)
         Contact radii, or halves of the width of a contact; nan without an edge.
 
     Returns
     -------
     ndarray, shape (n,)
-        Speed, positive while the contact shrinks; nan where it is not known.
+        Speed, positive while the contact shrinks; nan if undefined.
     """
     t, a = np.asarray(time, dtype=float), np.asarray(edge, dtype=float)
     speed = np.full_like(a, np.nan)
-    # A piece ends where the time stands still or the edge comes or goes.
+    # A piece ends where time does not advance, or the edge appears or vanishes.
     known = np.isfinite(a)
     starts = np.flatnonzero((np.diff(t, prepend=-np.inf) <= 0) | (known != np.roll(known, 1)))
     for piece in np.split(np.arange(t.size), starts):
         if piece.size > 1 and known[piece[0]]:
             order = 2 if piece.size > 2 else 1
-            way = a[piece] - a[piece[0]]  # so that an edge at rest has no speed at all
+            way = a[piece] - a[piece[0]]  # so that an edge at rest has exactly zero speed
             speed[piece] = -np.gradient(way, t[piece], edge_order=order)
     return speed
 
 
 def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
-    """Return the series by column name: dimensionless, then in SI with the unit in the name."""
+    """Return the series by column name: dimensionless, then in SI with the unit in the name.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n,)
+        Series by column name.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> list(columns(result))
+    ['time', 'depth', 'force', 'contact_radius', 'edge_speed']
+    """
     outputs, groups, scales = result.problem.outputs.series, result.groups, result.scales
     table = {n: getattr(result, o.source) * o.factor(groups) for n, o in outputs.items()}
     if scales is None:
@@ -365,7 +386,27 @@ def columns(result: Result) -> dict[str, npt.NDArray[np.float64]]:
 def write_csv(result: Result, path: Target) -> None:
     """Write the series as a comma-separated table with a row of column names; see `columns`.
 
-    To a file, whole or not at all, or to an open binary file such as ``sys.stdout.buffer``.
+    The target is a file, which is written atomically, or an open binary file such as
+    ``sys.stdout.buffer``.
+
+    Parameters
+    ----------
+    result : Result
+        Result of a simulation.
+    path : path or binary file
+        Output file.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> import io
+    >>> file = io.BytesIO()
+    >>> write_csv(result, file)
+    >>> file.getvalue().decode().split(",")[:3]
+    ['time', 'depth', 'force']
     """
     table, text = columns(result), io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
@@ -375,10 +416,31 @@ def write_csv(result: Result, path: Target) -> None:
 
 
 def save(result: Result, path: Target) -> None:
-    """Write a result to a file, whole or not at all; :func:`load` reads it.
+    """Write a result to a file, atomically; :func:`load` reads it.
 
-    The file is NumPy's .npz of plain arrays with a header in JSON; nothing in it is executed on
-    reading. Any name is possible; ``.npz`` is the usual ending.
+    The format is NumPy's .npz of plain arrays with a header in JSON; nothing in it is executed on
+    reading. Any file name is allowed; ``.npz`` is the usual ending.
+
+    Parameters
+    ----------
+    result : Result
+        Result to write.
+    path : path or binary file
+        Output file.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     save(result, Path(folder, "run.npz"))
+    ...     again = load(Path(folder, "run.npz"))
+    >>> bool((again.force == result.force).all())
+    True
     """
     header = {
         "format": _FORMAT,
@@ -410,28 +472,47 @@ def save(result: Result, path: Target) -> None:
 
 
 def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
-    """Read a result that :func:`save` wrote.
+    """Read a result written by :func:`save`.
 
     Parameters
     ----------
     path : path
-        The file, of this version or an older one.
+        File of this version or an older one.
     also : iterable of classes
-        Laws, materials and shapes of the user's own that the problem is made of.
+        User-defined laws, materials and shapes of the problem.
+
+    Returns
+    -------
+    Result
+        Equal to the one that was saved.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If the file is not a saved result, is damaged, or comes from a newer version.
+        If the file is not a saved result, is damaged, or was written by a newer version.
+
+    Examples
+    --------
+    >>> from viscotack import AtDepth, Groups, StandardSolid, solve
+    >>> solid = StandardSolid(rubbery_modulus=1, glassy_modulus=10, tau0=1, poisson_ratio=0)
+    >>> test = Groups(tabor=2.0, material=solid, start=AtDepth(10.0), rate=10.0)
+    >>> result = solve(test, until="pull-off", accuracy=0.02, estimate_error=False)
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     save(result, Path(folder, "run.npz"))
+    ...     again = load(Path(folder, "run.npz"))
+    >>> bool((again.force == result.force).all())
+    True
     """
     try:
         with open_regular(path) as file:
             arrays = read_arrays(file, _is_expected)
         header = json.loads(str(arrays.pop("header")))
         if header["format"] != _FORMAT:
-            raise InputError("its header is not one of viscotack")
+            raise InputError("its header is not that of a viscotack result")
         if header["format_version"] <= _FORMAT_VERSION:
             return _from_parts(header, arrays, also)
         writer = header["versions"]["viscotack"]
@@ -442,7 +523,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
     except _UNREADABLE as error:
         raise InputError(
             f"{os.fspath(path)} is not a readable result of viscotack (damaged, or another kind of "
-            f"file): {error}; give a file that viscotack.save or --save wrote"
+            f"file): {error}; give a file written by viscotack.save or --save"
         ) from error
     raise InputError(
         f"{os.fspath(path)} was written by viscotack {writer} in a newer format; update viscotack"
@@ -450,7 +531,7 @@ def load(path: str | os.PathLike[str], *, also: Iterable[Any] = ()) -> Result:
 
 
 def _is_expected(name: str) -> bool:
-    """Return whether a saved result may have an array of this name."""
+    """Return whether a saved result may contain an array of this name."""
     group, _, rest = name.partition("/")
     return name in ("header", *_SERIES, *_OPTIONAL) or (
         group in ("energy", "fields") and bool(rest)
@@ -465,7 +546,7 @@ def _from_parts(
         found = {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
         return found if header[name] else None
 
-    began = header.get("shallow_start")  # results of 0.1 have none
+    began = header.get("shallow_start")  # missing in results of 0.1
     errors = header.get("hysteresis_errors")
     return Result(
         problem=from_dict(header["problem"], also),

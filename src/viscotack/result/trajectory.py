@@ -1,8 +1,8 @@
-"""Where a trajectory is kept: 24 points from the start of a retraction to the pull-off.
+"""Sampling of a trajectory: 24 points from the start of a retraction to the pull-off.
 
-From a deep start to zero force it is long and its tension only a sliver of the travel, so the two
-parts have points of their own: the last 16 lie between zero force and pull-off. A start in tension
-has the second part only.
+From a deep start, the travel to zero force is long and the travel in tension short, so each part
+has its own points: the last 16 lie between zero force and pull-off. A start in tension has only the
+second part.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ PRESSED = POINTS - TENSILE
 
 
 def gathered(count: int) -> npt.NDArray[np.float64]:
-    """Return shares of a travel from 0 to 1, closer to each other at its end.
+    """Return fractions of a travel from 0 to 1, denser at its end.
 
     Examples
     --------
@@ -24,18 +24,18 @@ def gathered(count: int) -> npt.NDArray[np.float64]:
 
 
 def shares(zero: float) -> npt.NDArray[np.float64]:
-    """Return the shares of the travel to the pull-off at which a trajectory is kept, shape (24,).
+    """Return the fractions of the travel to the pull-off at which a trajectory is sampled, (24,).
 
     Parameters
     ----------
     zero : float
-        The share at which the force is zero for the last time; 0 where it starts in tension.
+        Fraction at which the force is zero for the last time; 0 for a start in tension.
 
     Returns
     -------
     ndarray
         Eight points from the start to zero force and sixteen from there to the pull-off, or all 24
-        in tension; closer to each other at the end of each part, :math:`1 - (1 - i/n)^2` of it.
+        in tension; denser at the end of each part, :math:`1 - (1 - i/n)^2` of it.
 
     Examples
     --------

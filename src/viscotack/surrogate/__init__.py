@@ -1,8 +1,9 @@
-"""Learned answers: what was learned from simulations, evaluated with NumPy alone.
+"""Surrogates: neural networks trained on simulations, evaluated with NumPy alone.
 
-``model`` has the one surrogate, ``contact`` what physics is plugged in: ``physics`` (spheres on
-power laws), ``linear_solids`` (on others), ``punch_physics`` and ``short_range``. ``network`` and
-``line`` have what is said with it, ``trust`` how sure it is; ``store`` reads and writes files, and
-has those of the package; ``onnx`` exports one to other programs. The repository trains them in its
-folder ``training``, which is not installed. Nothing here is imported by ``import viscotack``.
+``model`` has the surrogate class, and ``contact`` the interface to its physics: ``physics``
+(spheres on power laws), ``linear_solids`` (spheres on other solids), ``punch_physics`` and
+``short_range``. ``network`` and ``line`` evaluate the networks, ``trust`` their intervals;
+``store`` reads and writes files, including those of the package; ``onnx`` exports them. The folder
+``training`` of the repository, which is not installed, made them. ``import viscotack`` imports
+nothing from here.
 """

@@ -1,15 +1,16 @@
-r"""The power law that a solid is like around the times of a test.
+r"""Power law equivalent to a solid around the times of a test.
 
-A retraction at the speed v feels the creep of its solid around h0/v, some decades to both sides.
-There any solid is like one of the retardation power laws that simulations are known of,
+A retraction at the speed v depends on the creep of its solid around h0/v, within some decades.
+There the creep of any solid is approximated by one of the retardation power laws of the training
+data,
 
 .. math:: c(t) = k + (1 - k) F_n(t/\tau_0) ,
 
-with its own modulus ratio k and an exponent and a time that make the logarithms of the two creeps
-agree best. Creep is sampled at fifteen fixed multiples of h0/v, so that no rate and no temperature
-is an input: a solid that is slower, pulled slower, has the same samples. How much each of them
-counts, and where the search begins, is told by :mod:`viscotack.surrogate.linear_solids`; from there
-a few steps suffice. A power law is like itself.
+with its own modulus ratio k, and the exponent and time that minimise the difference of the
+logarithms of the two creeps. Creep is sampled at fifteen fixed multiples of h0/v, so rate and
+temperature are not inputs: a slower solid retracted more slowly has the same samples. The weights
+of the samples and the start of the search are computed by :mod:`viscotack.surrogate.linear_solids`;
+a few steps are sufficient. A power law is equivalent to itself.
 """
 
 from __future__ import annotations
@@ -24,26 +25,26 @@ from viscotack.materials import spectrum
 
 from . import physics
 
-# Where creep is sampled: times over h0/v, two a decade.
+# Times over h0/v at which creep is sampled, two per decade.
 DECADES = np.arange(-3.5, 3.6, 0.5)
 TIMES = 10.0**DECADES
-# Logarithms of exponents and of times at which the creep of power laws is tabulated; on steps of
-# the times the samples fall again.
+# Logarithms of exponents and of times at which the creep of power laws is tabulated; the samples
+# are multiples of the step of the times.
 _LN_N = np.linspace(np.log(0.1), np.log(3.0), 40)
 _STEP, _FIRST, _LAST = 0.1, -36.0, 8.0
 _LOG_T = _FIRST + _STEP * np.arange(round((_LAST - _FIRST) / _STEP) + 1)
 _STEP_N = _LN_N[1] - _LN_N[0]
-# All has crept by then, and the formula has no digits left.
+# Time above which all creep is over and the formula cancels.
 _CREPT = 5.9
-# Places in the table, counted along it, of the neighbours of all samples: 4 exponents, 15 samples,
-# 4 times.
+# Flat indices in the table of the neighbours of all samples, relative to a place: 4 exponents,
+# 15 samples, 4 times.
 _AROUND = np.arange(-1, 3)
 _NEAR = (
     _AROUND[:, None, None] * len(_LOG_T)
     + np.rint((DECADES - DECADES[0]) / _STEP).astype(int)[:, None]
     + _AROUND
 ).ravel()
-# Powers of a place between neighbours, to their weights in a cubic and to its derivatives.
+# From powers of a place between neighbours to their weights in a cubic and to its derivatives.
 _CUBIC = (
     np.array(
         [
@@ -55,16 +56,16 @@ _CUBIC = (
     ).reshape(4, 8)
     / 6
 )
-# What is sought: modulus ratio, exponent and rate; how many steps are taken at most, the longest
-# ones, and the part of the curvature by which the first is shortened.
+# Unknowns: modulus ratio, exponent and rate; largest number of steps, largest step lengths,
+# and the fraction of the curvature that damps the first step.
 SOUGHT = (physics.MODULUS_RATIO, physics.EXPONENT, physics.RATE)
 _MOST, _LONGEST, _SHORTER = 20, np.array([1.0, 0.5, 1.0]), 1e-2
-# A step shorter than this is the last one.
+# A step shorter than this ends the search.
 ENOUGH = 5e-3
 STIFFEST = np.log(physics.LIMITS["modulus_ratio"][1])
 ENDS = np.log(physics.LIMITS["exponent"]), np.log10(physics.LIMITS["rate"])
-# Where creep is as good as over, or has not begun, it tells no exponent; then it is this one. And
-# where it does not tell how stiff the glass is, the modulus ratio is that of the solid.
+# Prior values: if the creep is over or has not begun, it does not determine the exponent; if it
+# does not determine the glassy modulus, the modulus ratio is that of the solid.
 USUAL, DOUBTS = np.log(0.6), np.array([1e-5, 1e-6, 1e-9])
 _ROWS = 2000
 _ONE = np.eye(3)
@@ -72,19 +73,19 @@ _ONE = np.eye(3)
 
 @dataclass(frozen=True, eq=False)
 class Alike:
-    """Power laws that creep like solids around the times of their tests.
+    """Power laws equivalent to solids around the times of their tests.
 
     Attributes
     ----------
     groups : ndarray, shape (n, 5)
-        Of the tests on these power laws, in the order of ``physics.INPUTS``.
+        Inputs of the tests on these power laws, in the order of ``physics.INPUTS``.
     modulus_ratio : ndarray, shape (n,)
-        Of the solids.
+        Modulus ratios of the solids.
     over : ndarray, shape (n, 15)
-        What is left over at ``TIMES``: logarithm of the power law's creep less that of the solid's,
+        Residuals at ``TIMES``: logarithm of the power law's creep minus that of the solid's,
         over that of the modulus ratio.
     counts : ndarray, shape (n, 15)
-        How much each of the samples counted.
+        Weights of the samples.
     """
 
     groups: Array
@@ -94,12 +95,12 @@ class Alike:
 
     @property
     def unlike(self) -> Array:
-        """How unlike the solids are: root mean square of what is left over, shape (n,)."""
+        """Root mean square of the residuals, shape (n,)."""
         return np.sqrt(np.sum(self.counts * self.over**2, axis=1) / self.counts.sum(axis=1))
 
 
 def climbed(modulus_ratio: Array, creep: Array) -> Array:
-    """Return where between rubber (0) and glass (1) creep is, in the logarithm, shape (n, 15)."""
+    """Return ln(creep) on a scale from 0 (rubber) to 1 (glass), shape (n, 15)."""
     return np.log(creep) / np.log(modulus_ratio)[:, None]
 
 
@@ -111,24 +112,24 @@ def alike(
     *,
     enough: float = ENOUGH,
 ) -> Alike:
-    """Return the power laws that solids are like.
+    """Fit the power laws equivalent to solids.
 
     Parameters
     ----------
     tests : tuple of ndarray, shape (n,)
         Tabor number, modulus ratio and depth of the start.
     creep : ndarray, shape (n, 15)
-        Creep over the relaxed one, at ``TIMES`` in units of h0 over the speed.
+        Creep relative to the relaxed one, at ``TIMES`` in units of h0 over the speed.
     begun : ndarray, shape (n, 3)
-        Where the search begins: ln of modulus ratio and exponent, log10 of the rate.
+        Start of the search: ln of modulus ratio and exponent, log10 of the rate.
     counts : ndarray, shape (n, 15)
-        How much each sample counts.
+        Weights of the samples.
     enough : float
-        A step shorter than this is the last one.
+        A step shorter than this ends the search.
 
     Examples
     --------
-    A standard solid, whose creep is over within one decade, is steeper than any power law:
+    The creep of a standard solid is over within one decade, more steeply than any power law:
 
     >>> one = np.ones(1)
     >>> creep, counts = 1 - 0.9 * np.exp(-TIMES / 30)[None], np.exp(-(DECADES[None] ** 2))
@@ -151,9 +152,9 @@ def alike(
 def _sought(
     whole: Array, share: Array, begun: Array, counts: Array, enough: float
 ) -> tuple[Array, Array]:
-    """Return ln k, ln n and log10 of the rate of power laws, shape (n, 3), and what is left over.
+    """Return ln k, ln n and log10 of the rate of power laws, shape (n, 3), and the residuals.
 
-    Levenberg and Marquardt's steps; a number at its end stays there, and the others follow.
+    Uses Levenberg-Marquardt steps; an unknown at its bound is fixed while the others are updated.
 
     Parameters
     ----------
@@ -203,7 +204,7 @@ def _next(
     low: Array,
     high: Array,
 ) -> Array:
-    """Return where the next step leads, shape (n, 3)."""
+    """Return the next iterate, shape (n, 3)."""
     weighed = slopes * counts[:, None]
     bent = weighed @ slopes.transpose(0, 2, 1)
     own = DOUBTS + shorter[:, None] * np.einsum("nii->ni", bent)
@@ -221,7 +222,7 @@ def _next(
 
 
 def ends(whole: Array) -> tuple[Array, Array]:
-    """Return the least of what is sought, shape (n, 3), and the largest, shape (3,)."""
+    """Return the lower bounds of the unknowns, shape (n, 3), and the upper ones, shape (3,)."""
     least = [np.full_like(whole, end[0]) for end in ENDS]
     return np.concatenate([whole, *least], axis=1), np.array([STIFFEST, *(e[1] for e in ENDS)])
 
@@ -236,7 +237,7 @@ def _cost(counts: Array, over: Array, unusual: Array) -> Array:
 
 
 def left(x: Array, whole: Array, share: Array) -> tuple[Array, Array]:
-    """Return what power laws leave over, shape (n, 15), and its derivatives, shape (n, 3, 15)."""
+    """Return the residuals, shape (n, 15), and their derivatives, shape (n, 3, 15)."""
     k = np.exp(x[:, :1])
     log_f, by_n, by_rate = crept(x[:, 1], x[:, 2])
     part = np.exp(log_f)
@@ -248,9 +249,9 @@ def left(x: Array, whole: Array, share: Array) -> tuple[Array, Array]:
 
 
 def crept(ln_n: Array, rate: Array) -> tuple[Array, Array, Array]:
-    """Return the logarithm of what has crept at the samples, and its derivatives; (n, 15) each.
+    """Return ln of the finished creep at the samples, and its derivatives; (n, 15) each.
 
-    Cubics through four neighbours in the table, along both of its sides.
+    Uses cubic interpolation in the table, in both directions.
 
     Parameters
     ----------
@@ -272,13 +273,13 @@ def crept(ln_n: Array, rate: Array) -> tuple[Array, Array, Array]:
 
 @cache
 def _table() -> Array:
-    """Return the logarithm of the part of the creep of power laws that is over; made once."""
+    """Return ln of the finished fraction of the creep of power laws, computed once."""
     times = 10.0 ** np.minimum(_LOG_T, _CREPT)
     return np.log([spectrum.crept(np.exp(ln_n), times) for ln_n in _LN_N]).ravel()
 
 
 def _cubic(f: Array) -> Array:
-    """Return weights of the neighbours at -1, 0, 1 and 2 of places, and derivatives; (n, 4, 2)."""
+    """Return cubic weights of the neighbours at -1, 0, 1, 2, and derivatives; (n, 4, 2)."""
     square = f * f
     powers = np.stack([np.ones_like(f), f, square, square * f], axis=1)
     return (powers @ _CUBIC).reshape(-1, 4, 2)

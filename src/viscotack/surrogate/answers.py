@@ -1,4 +1,4 @@
-"""What a surrogate answers: numbers of many rows at once, and between what they are."""
+"""Vectorised predictions of a surrogate and their intervals."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -8,20 +8,20 @@ from viscotack.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class Answers:
-    """Predicted numbers of some rows, dimensionless; arrays of shape (n,).
+    """Predicted numbers, dimensionless; arrays of shape (n,).
 
     Attributes
     ----------
     pull_off_force : ndarray
         [1.5 pi R dg0], positive.
     work_to_pull_off : ndarray
-        [1.5 pi R dg0 h0], from zero force or from a start in tension; nan where none was learned.
+        [1.5 pi R dg0 h0], from zero force or from a start in tension; nan if not predicted.
     force_spread, work_spread : ndarray
-        Standard deviation of log10 among the networks.
+        Standard deviation of log10 between the networks.
     way, share : ndarray
-        From the slow limit of the force to the fast one, log10, and the part of it that is covered.
+        log10 of the fast over the slow limit of the force, and the fraction of it that is reached.
     more : mapping of str to ndarray
-        What else was learned of the contact (:meth:`.contact.Contact.further`).
+        Further outputs of the contact (:meth:`.contact.Contact.further`).
     """
 
     pull_off_force: Array
@@ -35,17 +35,17 @@ class Answers:
 
 @dataclass(frozen=True, eq=False)
 class Intervals:
-    """Between what the simulated numbers are.
+    """Intervals of the simulated numbers.
 
     Attributes
     ----------
     pull_off_force, work_to_pull_off : ndarray, shape (n, 2)
         As in :class:`Answers`.
     curve : ndarray, shape (n,)
-        How far forces in tension are off at worst, over the pull-off force, at the same travel from
+        Largest error of tensile forces over the pull-off force, at the same travel from
         zero force or from a start in tension.
     travel : ndarray, shape (n, 2)
-        From a pressed start to zero force, over what a curve has.
+        Travel from a compressed start to zero force, relative to that of the curve.
     """
 
     pull_off_force: Array

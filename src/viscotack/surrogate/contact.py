@@ -1,13 +1,15 @@
-r"""The physics of a contact, which is plugged into the one class of surrogates.
+r"""Physical baseline of a contact, used by the single class of surrogates.
 
-No network has a pull-off force as its output, but a share s of the way between two limits,
+The networks do not predict the pull-off force itself but a fraction s of the way between two
+limits,
 
 .. math:: \log \hat P = (1 - s) \log \hat P_\text{slow} + s \log \hat P_\text{fast} ,
           \qquad 0 < s < 1 ,
 
-so that no answer leaves them. A contact defines the limits, the inputs with their ranges, and the
-inputs of the networks: :mod:`.physics` (a sphere on a power law), :mod:`.linear_solids` (on any
-other linear solid), :mod:`.punch_physics` and :mod:`.short_range` (large Tabor numbers).
+so that every prediction lies between them. A contact defines the limits, the inputs with their
+ranges, and the inputs of the networks: :mod:`.physics` (a sphere on a power law),
+:mod:`.linear_solids` (on any other linear solid), :mod:`.punch_physics` and :mod:`.short_range`
+(large Tabor numbers).
 """
 
 from __future__ import annotations
@@ -28,13 +30,13 @@ from .line import Curves, curves
 from .network import Networks
 from .trust import error_inputs
 
-# A network's output is small where the share of the way between two limits is near one half.
+# A network's output is zero where the fraction is one half.
 STEEP = 4.0
 LEAST_WAY = 1e-4
 
 
 def share(output: Array) -> Array:
-    """Return the share s of the way between two limits that the output of a network stands for.
+    """Return the fraction s between two limits for an output of a network.
 
     Examples
     --------
@@ -45,12 +47,12 @@ def share(output: Array) -> Array:
 
 
 def between(low: Array, high: Array, output: Array) -> Array:
-    """Return the logarithm between two limits at the share that an output stands for."""
+    """Interpolate the logarithm between two limits at the fraction of an output."""
     return low + np.maximum(high - low, LEAST_WAY) * share(output)
 
 
 def scaled_logarithms(values: Array, low: Array, high: Array) -> Array:
-    """Return logarithms from -1 to 1 between those of two ends.
+    """Scale logarithms linearly to [-1, 1] between two ends.
 
     Parameters
     ----------
@@ -63,14 +65,14 @@ def scaled_logarithms(values: Array, low: Array, high: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Further:
-    """Corrections of force and work, None for none, and further outputs of a contact.
+    """Corrections of force and work (None if there are none), and further outputs of a contact.
 
     Attributes
     ----------
     force, work : ndarray, shape (n,)
-        Added to the output that places the force, and to log10 of work over force.
+        Added to the output that defines the fraction, and to log10 of work over force.
     more : mapping of str to ndarray
-        Other numbers, for the :class:`~.answers.Answers`.
+        Further numbers for the :class:`~.answers.Answers`.
     """
 
     force: Array | None = None
@@ -85,11 +87,11 @@ class Contact:
     Attributes
     ----------
     networks : mapping of str to Networks
-        The learned correction by name: ``force`` places the force between its limits; ``work`` says
+        The networks by name: ``force`` interpolates between the limits; ``work`` predicts
         log10 of work over force; ``start`` the relaxed start; ``give`` log10 of the travel to zero
-        force; ``line`` the shapes of a curve. Limits may be learned too.
+        force; ``line`` the shapes of a curve. Limits may be networks too.
     constants : mapping of str to ndarray
-        Numbers that were measured beside them.
+        Further fitted numbers.
     rows : ndarray, shape (n, inputs)
         Inputs of the tests in the order of ``inputs``.
     """
@@ -98,22 +100,22 @@ class Contact:
     constants: Mapping[str, Array]
     rows: Array
 
-    # Name in files, the inputs, least and largest of each, and log10 of the ends that are scaled to
-    # -1 and 1.
+    # Name in files, the inputs, smallest and largest value of each, and log10 of the ends that are
+    # scaled to -1 and 1.
     name: ClassVar[str]
     inputs: ClassVar[tuple[str, ...]]
     low: ClassVar[Array]
     high: ClassVar[Array]
     ends: ClassVar[tuple[Array, Array]]
-    # Inputs and outputs of each network; shapes of the constants; networks of the limits, of which
-    # there is one or as many as of the force; and those of the sphere on power laws, which a file
-    # leaves out.
+    # Inputs and outputs of each network; shapes of the constants; networks of the limits, either
+    # one or as many as for the force; and networks shared with the sphere on power laws, which are
+    # not stored in the file.
     shapes: ClassVar[Mapping[str, tuple[int, int]]]
     sizes: ClassVar[Mapping[str, tuple[int, ...]]] = {}
     limiting: ClassVar[tuple[str, ...]] = ()
     shared: ClassVar[tuple[str, ...]] = ()
-    # Columns that tell a relaxed start, its depth the last; among how many depths it is sought, and
-    # how often between two of these; what is said where there is none.
+    # Columns that define a relaxed start, its depth last; number of depths and of refinements of
+    # the search for it; error message if there is none.
     start_inputs: ClassVar[list[int]] = []
     search: ClassVar[tuple[int, int]]
     no_start: ClassVar[str]
@@ -126,8 +128,8 @@ class Contact:
     def of(
         cls, networks: Mapping[str, Networks], constants: Mapping[str, Array], given: Any
     ) -> Self:
-        """Return the tests with these inputs, rows of numbers."""
-        # what only stands for an array, as where formulas are exported, stays what it is
+        """Return the tests with these inputs, one per row."""
+        # keep traced arrays (used to export formulas) as they are
         stands = isinstance(given, NDArrayOperatorsMixin)
         rows: Any = given if stands else np.asarray(given, dtype=float)
         return cls(networks, constants, rows)
@@ -136,7 +138,7 @@ class Contact:
 
     @staticmethod
     def unit(rows: Array) -> Array | None:
-        """Return the units in which inputs have their ranges, shape (n, inputs); None for one."""
+        """Return the units of the inputs' ranges, shape (n, inputs); None for units of 1."""
         return None
 
     @cached_property
@@ -147,20 +149,20 @@ class Contact:
 
     @cached_property
     def scaled(self) -> Array:
-        """Logarithms of the inputs, from -1 to 1 over all rows learned from, shape (n, inputs)."""
+        """Logarithms of the inputs, scaled to [-1, 1] over the training range, (n, inputs)."""
         return scaled_logarithms(self.ranged, *self.ends)
 
     def inside(self) -> npt.NDArray[np.bool_]:
-        """Return which inputs lie in the range learned from, shape (n, inputs)."""
-        # the ends themselves, whichever way they were rounded
+        """Return a mask of the inputs inside the training range, shape (n, inputs)."""
+        # include the ends, whatever their rounding
         return (self.ranged >= self.low * (1 - 1e-9)) & (self.ranged <= self.high * (1 + 1e-9))
 
     def holds(self, said: Answers) -> npt.NDArray[np.bool_]:
-        """Return where in the range what was learned has an answer, shape (n,)."""
+        """Return a mask of the tests to which the surrogate applies, shape (n,)."""
         return np.ones(len(self.rows), dtype=bool)
 
     def deeper(self, factors: Array) -> Contact:
-        """Return the tests several times with their depths times factors, shape (times, n)."""
+        """Return copies of the tests with depths multiplied by factors, shape (times, n)."""
         rows = np.tile(self.rows, (len(factors), 1))
         rows[:, self.start_inputs[-1]] *= factors.ravel()
         return replace(self, rows=rows)
@@ -169,12 +171,12 @@ class Contact:
 
     @cached_property
     def slow(self) -> Array:
-        """log10 of the slow limit of the force, (n,), or (m, n) by as many networks."""
+        """log10 of the slow limit of the force, shape (n,), or (m, n) for m networks."""
         raise NotImplementedError
 
     @cached_property
     def fast(self) -> Array:
-        """log10 of the fast limit of the force, (n,), or (m, n) by as many networks."""
+        """log10 of the fast limit of the force, shape (n,), or (m, n) for m networks."""
         raise NotImplementedError
 
     @cached_property
@@ -211,11 +213,11 @@ class Contact:
         raise NotImplementedError
 
     def give(self, said: Array) -> Array:
-        """Return travel to zero force times radius over force, from the output of its networks."""
+        """Return (travel to zero force) * radius / force, from the output of its networks."""
         return 10**said
 
     def curves(self, answers: Answers) -> Curves:
-        """Return the unloading curves that belong to answers."""
+        """Return the unloading curves of predictions."""
         known = self.knowing(np.log10(answers.pull_off_force))
         with_work = np.column_stack([known, np.log10(answers.work_to_pull_off)])
         give = self.networks["give"](with_work if self.give_knows_work else known)

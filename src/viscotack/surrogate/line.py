@@ -1,17 +1,17 @@
-r"""The unloading curve of a prediction, from shape, force, work and start: it agrees with them.
+r"""Unloading curve of a prediction, consistent with its force, work and start.
 
 A curve has two parts. From zero force (or from a start in tension) to the pull-off it is a shape g
-from 0 to 1 over the shares :math:`t = 1 - (1 - u)^2` of that travel X, u at sixteen even steps,
+from 0 to 1 over the fractions :math:`t = 1 - (1 - u)^2` of that travel X, u at sixteen even steps,
 
 .. math:: -F = p + (P - p) g(t) , \qquad W = X \left[ p + (P - p) \int_0^1 g \, dt \right] ,
 
-p being the tension of the start, 0 if it is pressed. P and W are the predicted pull-off force
-and work: X follows from them, so the least force is the predicted one and the area the predicted
-work. The integral is taken by Simpson's 3/8 rule in u; the trapezoid over the points
-gives about 0.3 % less. From a pressed start to zero force the shape
-is :math:`F/F_0` over eight such shares of the travel :math:`T_0`, which is learned as
-:math:`T_0 \hat a_0 / F_0`, the inverse of a modulus; a network of its own says it, for a small part
-of a long way is much of the short way in tension.
+where p is the tension of the start, 0 for a compressed one. P and W are the predicted pull-off
+force and work, which determine X: the smallest force is the predicted one, and the area the
+predicted work. Simpson's 3/8 rule in u gives the integral; the trapezoidal rule over the points
+would be about 0.3 % lower. From a compressed start to zero force the shape
+is :math:`F/F_0` over eight such fractions of the travel :math:`T_0`. A separate network predicts
+:math:`T_0 \hat a_0 / F_0`, the inverse of a modulus, because a small relative error of this long
+travel is a large fraction of the short travel in tension.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.result.trajectory import POINTS, PRESSED, TENSILE, gathered
 
-# What a network says of a row: inner points of both shapes, and radii but the first over that.
+# Outputs of a network per row: inner points of both shapes, and all radii except the first.
 SHAPE = slice(0, TENSILE - 2)
 PRESSING = slice(SHAPE.stop, SHAPE.stop + PRESSED - 1)
 RADII = slice(PRESSING.stop, PRESSING.stop + POINTS - 1)
@@ -38,7 +38,7 @@ def _weights() -> Array:
 
 
 def _refining() -> Array:
-    """Return the matrix from values at 16 even steps to those at 24, by cubics through four."""
+    """Return the matrix from values at 16 even steps to those at 24, by cubic interpolation."""
     new = np.linspace(0.0, 1.0, POINTS) * (TENSILE - 1)
     first = np.clip(np.floor(new).astype(int) - 1, 0, TENSILE - 4)
     matrix = np.zeros((POINTS, TENSILE))
@@ -55,10 +55,11 @@ AREA, REFINE = _weights(), _refining()
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Unloading curves from the start to the pull-off, dimensionless; a row each of 24 points.
+    """Unloading curves from the start to the pull-off, dimensionless, with 24 points each.
 
-    From a pressed start eight points lead to zero force and sixteen from there to the pull-off; in
-    tension all 24 do. The least force is the pull-off force, and the area below zero the work.
+    For a compressed start eight points lead to zero force and sixteen from there to the pull-off;
+    for a start in tension all 24 do. The smallest force is the pull-off force, and the area below
+    zero the work.
 
     Attributes
     ----------
@@ -85,18 +86,18 @@ def curves(
     pull_off: Array,
     work: Array,
 ) -> Curves:
-    """Return the curves that a network's words, the start and the predicted numbers stand for.
+    """Compute the unloading curves from network outputs, start, pull-off force and work.
 
     Parameters
     ----------
     said : ndarray, shape (n, OUTPUTS)
-        In the order of this module's slices.
+        Network outputs in the order of this module's slices.
     give : ndarray, shape (n,)
-        Travel to zero force times radius over force of the start; not used for starts in tension.
+        (Travel to zero force) * radius / force of the start; ignored for starts in tension.
     preload, force, radius : ndarray, shape (n,)
         Depth, force and contact radius of the relaxed start.
     pull_off, work : ndarray, shape (n,)
-        Pull-off force and work to it.
+        Pull-off force and work to pull-off.
     """
     n = len(said)
     shape = np.column_stack([np.zeros(n), np.clip(said[:, SHAPE], 0.0, 1.0), np.ones(n)])
@@ -120,7 +121,7 @@ def curves(
 
     left = np.clip(said[:, RADII], 0.0, None)
     radii = np.column_stack([np.ones(n), left])
-    # in tension the radii of the sixteen points of the second part are what was learned
+    # in tension only the radii of the sixteen points of the second part are predicted
     tensile = np.column_stack([np.ones(n), left[:, PRESSED:]]) @ REFINE.T
     radii = np.where(pressed, radii, np.maximum(tensile, 0.0))
     return Curves(

@@ -1,21 +1,19 @@
-r"""Detachments from any linear solid: from the power law that it is like, and what it leaves over.
+r"""Surrogate for any linear solid: an equivalent power law and first-order corrections.
 
-Force, work and curve are those that the surrogate of power laws (:mod:`.physics`)
-says of the power law that creeps like the solid (:mod:`viscotack.surrogate.alike`), bent by what
-that one leaves over. How much a sample of the creep counts in the likeness is a bell with two
-widths,
+Force, work and curve are those of the surrogate of power laws (:mod:`.physics`) for the equivalent
+power law (:mod:`viscotack.surrogate.alike`), corrected for the residuals of its creep. The weights
+of the samples of the creep are a bell curve with two widths,
 
-.. math:: w_i = e^{-(x_i - c)^2/2 b_\pm^2} + w_0, \qquad x_i = \log_{10}(t_i v/h_0) ,
+.. math:: w_i = e^{-(x_i - c)^2/2 b_\pm^2} + w_0, \qquad x_i = \log_{10}(t_i v/h_0) .
 
-whose middle c and widths b are told, with the place where the search begins, by a small network
-from Tabor number, depth, modulus ratio and the samples.
+A small network predicts its centre c, its widths b and the start of the search from Tabor number,
+depth, modulus ratio and the samples.
 
-An answer is a functional of the logarithm of the creep, of which the samples are what a test
-feels. Where the power law leaves over :math:`d_i` of it, the answer is another by
-:math:`\sum_i K_i d_i` to first order; here the K of the force's place between its limits, and of
-work over force, are networks of the case and of d itself. So both limits, which hold for any linear
-solid, hold here; a power law has the same answer through either door; a solid that is slower,
-pulled slower, too.
+Every output is a functional of the logarithm of the creep. For residuals :math:`d_i` at the samples
+it changes by :math:`\sum_i K_i d_i` to first order. Here the K for the position of the force
+between its limits, and for work over force, are networks of the case and of d itself. Both limits
+are valid for any linear solid and are satisfied. A power law gives the same prediction as in the
+surrogate of power laws, and a slower solid retracted more slowly too.
 """
 
 from __future__ import annotations
@@ -39,32 +37,33 @@ from .physics import SphereContact
 from .trust import INPUTS, OF
 
 SAMPLES = len(DECADES)
-# What the network is told that says where a search begins and what counts, and what it says: three
-# numbers of a power law; the middle and the logarithms of the widths of the bell.
+# Inputs of the network for the start of the search and the weights, and its outputs: three
+# constants of a power law; the centre and the logarithms of the widths of the bell.
 BEGIN_INPUTS, BEGIN_OUTPUTS = SAMPLES + 3, 6
-# What the networks are told that say how an answer is bent: seven numbers of the case, and what is
-# left over.
+# Inputs of the networks of the corrections: seven numbers of the case, and the
+# residuals.
 BEND_INPUTS = 7 + SAMPLES
-# What the network of the errors is told: what it is of power laws; how unlike the solid is, how far
-# from those learned from, how far force and work were bent, and how far networks are apart in that.
+# Inputs of the network of the errors: those for power laws; dissimilarity of the solid, its
+# distance from the training data, size of the corrections of force and work, and their network
+# spread.
 TRUST_INPUTS = INPUTS + 6
-# Below these likenesses and bends tell nothing more.
+# Values below which dissimilarity and corrections have no effect.
 _LEAST_UNLIKE, _LEAST_BEND = 1e-4, 1e-4
-# Logarithms of widths of the bell [decades] that it may have.
+# Allowed logarithms of the widths of the bell [decades].
 WIDEST = 2.4
 
 
 @dataclass(frozen=True, eq=False)
 class SolidContact(SphereContact):
-    """A sphere on any linear solid: that on the power law that it is like, bent.
+    """A sphere on any linear solid, by its equivalent power law with corrections.
 
-    Networks beside those of power laws are ``begin``, for the beginning of the search for a power
-    law and the counts of the samples, and ``bend_force`` and ``bend_work``, for the corrections.
-    Constants are ``floor``, the least count of a sample; ``usual``, the root mean square of the
-    residuals; ``spread``, a matrix that makes the residuals of the solids learned from of order
-    one; and ``farthest``, the largest :attr:`.alike.Alike.unlike` and :attr:`far` of these. A
-    further output (:attr:`.answers.Answers.more`) is ``bends``, shape (n, 4): the sizes of the
-    corrections of force and work, and their deviations among the networks.
+    Networks in addition to those of power laws are ``begin``, for the start of the search for a
+    power law and the weights of the samples, and ``bend_force`` and ``bend_work``, for the
+    corrections. Constants are ``floor``, the smallest weight of a sample; ``usual``, the root mean
+    square of the residuals; ``spread``, a matrix that normalises the residuals of the training
+    data; and ``farthest``, their largest :attr:`.alike.Alike.unlike` and :attr:`far`. A further
+    output (:attr:`.answers.Answers.more`) is ``bends``, shape (n, 4): the sizes of the corrections
+    of force and work, and their standard deviations between the networks.
     """
 
     like: Alike
@@ -84,20 +83,20 @@ class SolidContact(SphereContact):
     def of(
         cls, networks: Mapping[str, Networks], constants: Mapping[str, Array], given: Any
     ) -> Self:
-        """Return the tests on solids that :func:`like` has compared with power laws."""
+        """Return the tests on solids that were fitted by :func:`like`."""
         return cls(networks, constants, given.groups, given)
 
     def deeper(self, factors: Array) -> Contact:
-        """Return tests on the power laws with their depths times factors; nothing bends them."""
+        """Return uncorrected tests on the power laws with their depths multiplied by factors."""
         return SphereContact(self.networks, self.constants, self.rows).deeper(factors)
 
     @cached_property
     def far(self) -> Array:
-        """How far out solids are among those that were learned from, shape (n,)."""
+        """Distance of the solids from the centre of the training data, shape (n,)."""
         return far(self.like, self.constants["spread"])
 
     def inside(self) -> npt.NDArray[np.bool_]:
-        """Return whether solids are as like power laws as those learned from, shape (n, 2)."""
+        """Return whether the solids are as similar to power laws as the training data, (n, 2)."""
         return np.stack([self.like.unlike, self.far], axis=1) <= self.constants["farthest"]
 
     def further(self, output: Array) -> Further:
@@ -121,16 +120,16 @@ class SolidContact(SphereContact):
 def like(
     made: Surrogate, tabor: Array, modulus_ratio: Array, preload: Array, creep: Array
 ) -> Alike:
-    """Return the power laws that stand for solids in tests.
+    """Fit the power laws equivalent to solids in tests.
 
     Parameters
     ----------
     made : Surrogate
-        Of solids.
+        Surrogate of solids.
     tabor, modulus_ratio, preload : ndarray, shape (n,)
-        Of the tests.
+        Inputs of the tests.
     creep : ndarray, shape (n, 15)
-        Creep over the relaxed one, at ``alike.TIMES`` in units of h0 over the speed.
+        Creep relative to the relaxed one, at ``alike.TIMES`` in units of h0 over the speed.
     """
     tests = tabor, modulus_ratio, preload
     said = made.networks["begin"](begin_inputs(tests, creep))[0]
@@ -138,12 +137,12 @@ def like(
 
 
 def far(like: Alike, spread: Array) -> Array:
-    """Return how far out solids are among those that were learned from, shape (n,)."""
+    """Return the distance of solids from the centre of the training data, shape (n,)."""
     return np.sqrt(np.mean((like.over @ spread) ** 2, axis=1))
 
 
 def begin_inputs(tests: tuple[Array, Array, Array], creep: Array) -> Array:
-    """Return what is told of where a search begins, of order one, shape (n, BEGIN_INPUTS).
+    """Return the normalised inputs of the network for the start of a search, (n, BEGIN_INPUTS).
 
     Parameters
     ----------
@@ -157,14 +156,14 @@ def begin_inputs(tests: tuple[Array, Array, Array], creep: Array) -> Array:
 
 
 def bell(said: Array, floor: float) -> Array:
-    """Return how much each sample counts, shape (n, 15).
+    """Return the weights of the samples, shape (n, 15).
 
     Parameters
     ----------
     said : ndarray, shape (n, 3)
-        Middle and logarithms of the widths below and above it.
+        Centre and logarithms of the widths below and above it.
     floor : float
-        What each counts at least.
+        Smallest weight.
     """
     away = DECADES - said[:, :1]
     below, above = np.exp(np.minimum(np.maximum(said[:, 1:], -WIDEST), WIDEST)).T[..., None]
@@ -172,30 +171,30 @@ def bell(said: Array, floor: float) -> Array:
 
 
 def scaled_over(like: Alike, usual: Array) -> Array:
-    """Return what is left over, of order one and large ones less than in proportion, (n, 15)."""
+    """Return normalised residuals, with large ones compressed, shape (n, 15)."""
     return np.arcsinh(like.over / usual)
 
 
 def felt(output: Array) -> Array:
-    """Return how much work feels the solid, from 0 at both limits of the force to 1, shape (n, 1).
+    """Return the sensitivity of the work to viscoelasticity: 0 at both limits, up to 1, (n, 1).
 
     Parameters
     ----------
     output : ndarray, shape (m, n)
-        What the networks of the force of power laws say.
+        Outputs of the networks of the force of power laws.
     """
     part = share(output).mean(axis=0)[:, None]
     return 4 * part * (1 - part)
 
 
 def features(like: Alike, output: Array) -> Array:
-    """Return what the networks of the bends are told of the cases, shape (n, 7).
+    """Return the inputs of the correction networks that describe the case, shape (n, 7).
 
     Parameters
     ----------
     like : Alike
     output : ndarray, shape (m, n)
-        What the networks of the force of power laws say.
+        Outputs of the networks of the force of power laws.
     """
     mu, k, n, depth, rate = like.groups.T
     return np.column_stack(

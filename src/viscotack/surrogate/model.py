@@ -1,6 +1,6 @@
-"""One surrogate for every contact: physics, a learned correction, intervals and their range.
+"""Surrogate of a contact: physical baseline, learned correction, intervals and their range.
 
-It is evaluated with NumPy alone. :mod:`viscotack.surrogate.contact` defines the physics.
+It needs NumPy only. :mod:`viscotack.surrogate.contact` defines the physical baseline.
 """
 
 from __future__ import annotations
@@ -25,24 +25,24 @@ from .trust import Trust
 
 @dataclass(frozen=True, eq=False)
 class Surrogate:
-    """Pull-off force, work and curve of a contact pulled from a relaxed start at a constant rate.
+    """Predict force, work and curve of a contact retracted from a relaxed start at constant speed.
 
     Attributes
     ----------
     contact : type of Contact
-        Its inputs with their ranges, limits of the force, and inputs of the networks.
+        Inputs with their ranges, limits of the force, and inputs of the networks.
     networks : mapping of str to Networks
-        The learned correction: where between its limits the force is, then work and curve.
+        Learned correction: position of the force between its limits, then work and curve.
     trust : Trust or None
-        Widths of the intervals; None where they were not measured.
+        Widths of the intervals; None if they were not measured.
     constants : mapping of str to ndarray
-        Numbers of the contact that were measured beside the networks.
+        Further fitted numbers of the contact.
 
     Notes
     -----
-    Methods take rows of inputs in the order of ``contact.inputs``, shape (n, inputs), of solids
-    that are no power laws what :func:`.linear_solids.like` returns, or :meth:`tests` of these.
-    :meth:`inside` and :meth:`holds` check the range that was learned from; the others do not.
+    Methods accept rows of inputs in the order of ``contact.inputs``, shape (n, inputs); for solids
+    other than power laws the output of :func:`.linear_solids.like`; or the :meth:`tests` of these.
+    :meth:`inside` and :meth:`holds` check the training range; the other methods do not.
     """
 
     contact: type[Contact]
@@ -51,28 +51,28 @@ class Surrogate:
     constants: Mapping[str, Array] = field(default_factory=dict)
 
     def tests(self, given: Any) -> Contact:
-        """Return tests, whose limits and starts are computed once for all methods."""
+        """Return the tests, whose limits and starts are computed once for all methods."""
         if isinstance(given, Contact):
             if given.networks is not self.networks:
-                raise InputError("these are tests of another surrogate; give their inputs")
+                raise InputError("these tests belong to another surrogate; give their inputs")
             return given
         return self.contact.of(self.networks, self.constants, given)
 
     def having(self, **networks: Networks) -> Surrogate:
-        """Return the surrogate with other networks, or more of them."""
+        """Return a copy with some networks replaced or added."""
         return replace(self, networks={**self.networks, **networks})
 
     # Where it ends --------------------------------------------------------------------------
 
     @property
     def limits(self) -> Mapping[str, tuple[float, float]]:
-        """Least and largest of each input that was learned from, in the units of its range."""
+        """Smallest and largest training value of each input, in the units of its range."""
         return _by_name(self.contact.inputs, self.contact.low, self.contact.high)
 
     def limits_of(self, row: Array) -> Mapping[str, tuple[float, float]]:
-        """Return least and largest of each input for a test whose other inputs are these.
+        """Return the range of each input for a test whose other inputs are given.
 
-        How deep the start of a punch may be depends on its size and on the layer.
+        The largest depth of a punch's start depends on its size and on the layer.
 
         Examples
         --------
@@ -87,21 +87,22 @@ class Surrogate:
         return _by_name(self.contact.inputs, *(ends if unit is None else ends * unit))
 
     def inside(self, given: Any) -> npt.NDArray[np.bool_]:
-        """Return which inputs lie in the range learned from, shape (n, inputs).
+        """Return a mask of the inputs inside the training range, shape (n, inputs).
 
-        Of solids that are no power laws two columns: how unlike one they are, and in which way.
+        For solids other than power laws two columns follow: size and direction of their
+        dissimilarity.
         """
         with np.errstate(invalid="ignore", divide="ignore"):
             return self.tests(given).inside()
 
     def holds(self, given: Any, said: Answers) -> npt.NDArray[np.bool_]:
-        """Return where in the range what was learned has an answer, shape (n,)."""
+        """Return a mask of the tests to which the surrogate applies, shape (n,)."""
         return self.tests(given).holds(said)
 
-    # What it answers ------------------------------------------------------------------------
+    # Evaluation -----------------------------------------------------------------------------
 
     def evaluate(self, given: Any) -> Answers:
-        """Return force and work."""
+        """Predict force and work."""
         tests = self.tests(given)
         slow, fast = tests.slow, tests.fast
         output = self.networks["force"](tests.told)[..., 0]
@@ -128,34 +129,34 @@ class Surrogate:
         )
 
     def curves(self, given: Any, answers: Answers) -> Curves:
-        """Return the unloading curves that belong to the answers to the same tests."""
+        """Return the unloading curves of the predictions of the same tests."""
         return self.tests(given).curves(answers)
 
     def intervals(self, given: Any, answers: Answers, *, confidence: float = 0.9) -> Intervals:
-        """Return intervals that held so many of the cases that were kept apart.
+        """Return intervals with a measured coverage on validation cases.
 
         Raises
         ------
         ValueError
-            If the confidence is not one of those that were measured.
+            If the coverage was not measured for this confidence.
         """
         if self.trust is None:
             raise InputError(f"no intervals were measured for a {self.contact.name}")
         return self.trust.intervals(self.tests(given).told_of_errors(answers), answers, confidence)
 
     def slopes(self, groups: npt.ArrayLike) -> tuple[Array, Array]:
-        """Return the derivatives of log force and log work by the logarithms of the inputs, exact.
+        """Return the exact derivatives of log force and log work by the logarithms of the inputs.
 
         Parameters
         ----------
         groups : array_like, shape (n, inputs)
-            Rows, not checked to lie inside.
+            Inputs, not checked to be inside the range.
 
         Returns
         -------
         force, work : ndarray, shape (n, inputs)
-            Part by which the answer changes for a part by which an input does; the derivative by
-            the input itself is this times answer over input.
+            Relative change of the prediction over relative change of the input; the derivative by
+            the input itself is this times prediction over input.
 
         Examples
         --------
@@ -182,25 +183,25 @@ class Surrogate:
     def start_depth(
         self, *known: float, force: float | None = None, contact_radius: float | None = None
     ) -> float:
-        """Return the depth [h0] of the relaxed start with a force or a contact radius.
+        """Find the depth [h0] of the relaxed start with a given force or contact radius.
 
-        Of contacts with the Lennard-Jones law and its range, as they were simulated; for forces of
+        Valid for the Lennard-Jones law with its finite range, as simulated; for forces of
         short range see :func:`viscotack.theory.elastic.relaxed.contact`.
 
         Parameters
         ----------
         *known : float
-            The inputs that tell a start beside its depth: Tabor number; of a punch size and
+            Inputs that define a start besides its depth: the Tabor number; for a punch size and
             thickness.
         force : float, optional
-            [1.5 pi R dg0], of a punch mean stress [sigma0]; compression positive.
+            [1.5 pi R dg0], for a punch mean stress [sigma0]; compression positive.
         contact_radius : float, optional
             [(pi R^2 dg0/E0*)^(1/3)]
 
         Raises
         ------
         ValueError
-            If no start in the range learned from has it.
+            If no start in the training range has this value.
         """
         if (force is None) == (contact_radius is None):
             raise InputError("give either the force or the contact radius of the start")
@@ -214,7 +215,7 @@ class Surrogate:
         i, found = 0, rows[:, preload]
         for look in range(looks):
             rows[:, preload] = np.geomspace(low, high, count)
-            # in tension and at large Tabor numbers it rises by less than the networks err
+            # in tension and at large Tabor numbers it rises by less than the error of the networks
             found = np.maximum.accumulate(self.relaxed(rows)[which])
             if look == 0 and not found[0] <= wanted <= found[-1]:
                 words = {"wanted": wanted, "least": found[0], "most": found[-1]}
@@ -231,17 +232,17 @@ class Surrogate:
     def with_start_doubt(
         self, given: Any, answers: Answers, held: Intervals, *, by: str, quantile: float
     ) -> Intervals:
-        """Return intervals that hold the doubt of the depths of their starts as well.
+        """Widen intervals by the uncertainty of the depths of the starts.
 
         Parameters
         ----------
         given, answers, held : ndarray, Answers, Intervals
-            Tests, what is said of them, and intervals without that doubt.
+            Tests, their predictions, and the intervals without this uncertainty.
         by : {"force", "contact_radius"}
-            What was told of the start; by how much its networks differ in it tells the doubt. One
-            network alone tells none.
+            Quantity that defined the start; its spread between the networks is the uncertainty. A
+            single network gives none.
         quantile : float
-            Standard deviations in half an interval.
+            Half-width of the intervals in standard deviations.
         """
         if len(self.networks["start"].weights[0]) == 1:
             return held
@@ -265,15 +266,15 @@ class Surrogate:
 
 
 def _start_doubt(tests: Contact, *, by: str, step: float = 1e-3) -> Array:
-    """Return standard deviations of log10 of the depths of starts, shape (n,)."""
+    """Return the standard deviation of log10 of the depths of starts, shape (n,)."""
     factors = np.power(10.0, step * np.arange(-1, 2))
     near = tests.deeper(np.repeat(factors[:, None], len(tests.rows), axis=1))
     said = near.said_of_start
-    # networks say log10 of the radius
+    # the networks predict log10 of the radius
     told = np.array([near.started(x)[0] for x in said]) if by == "force" else said[..., 1]
     before, here, after = np.split(told, 3, axis=1)
     rise = np.abs((after - before).mean(axis=0)) / (2 * step)
-    # where what was told hardly depends on the depth, it tells no depth
+    # if the given quantity hardly depends on the depth, the depth is undetermined
     return np.minimum(here.std(axis=0) / np.maximum(rise, 1e-30), 1.0)
 
 
@@ -282,5 +283,5 @@ def _by_name(names: tuple[str, ...], low: Array, high: Array) -> dict[str, tuple
 
 
 def _mean(limit: Array) -> Array:
-    """Return the mean over the networks, where there are several."""
+    """Average over the networks, if there are several."""
     return limit if limit.ndim == 1 else limit.mean(axis=0)

@@ -1,4 +1,4 @@
-"""Small networks side by side, evaluated with NumPy."""
+"""Ensembles of small neural networks, evaluated with NumPy."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-# Rows at a time: their hidden layers stay in the cache of the processor.
+# Rows per block, so that the hidden layers stay in the processor's cache.
 _ROWS = 500
 
 
 @dataclass(frozen=True, eq=False)
 class Networks:
-    """Networks of one shape: layers of hyperbolic tangents and a linear one at the end.
+    """Networks of one shape: tanh layers and a linear output layer.
 
     Attributes
     ----------
     weights : tuple of ndarray, shape (m, inputs, outputs)
-        Of each layer, for m networks.
+        Weights of each layer, for m networks.
     biases : tuple of ndarray, shape (m, 1, outputs)
-        Likewise.
+        Biases of each layer, for m networks.
     centre, spread : ndarray, shape (outputs,), or None
-        What outputs of order one stand for: this number of spreads from the centre.
+        Scale of the normalised outputs: output = centre + spread * normalised output.
 
     Examples
     --------
@@ -40,7 +40,7 @@ class Networks:
     spread: Array | None = None
 
     def __call__(self, inputs: Array) -> Array:
-        """Return what each of the networks says of each row.
+        """Evaluate all networks for all rows.
 
         Parameters
         ----------
@@ -55,7 +55,7 @@ class Networks:
         return self.centre + self.spread * self.plain(inputs)
 
     def plain(self, inputs: Array) -> Array:
-        """Return outputs of order one, shape (m, n, outputs)."""
+        """Return normalised outputs, shape (m, n, outputs)."""
         if len(inputs) <= _ROWS:
             return self._some(inputs)
         starts = range(0, len(inputs), _ROWS)
@@ -69,7 +69,7 @@ class Networks:
 
     @cached_property
     def blocks(self) -> tuple[Networks, ...]:
-        """Networks whose sum these are: hidden layers that tell each other nothing, apart."""
+        """Independent sub-networks whose sum this is: hidden layers without cross weights."""
         middle = self.weights[1:-1]
         width = middle[0].shape[1] if middle else 0
         if not middle or any(w.shape[1:] != (width, width) for w in middle):
@@ -83,7 +83,7 @@ class Networks:
         return tuple(self._block(place, i == 0) for i, place in enumerate(places))
 
     def _block(self, of: slice, with_bias: bool) -> Networks:
-        """Return the part of some nodes of each hidden layer; one part has the last bias."""
+        """Return the sub-network of some hidden nodes; one sub-network has the output bias."""
         weights = (
             self.weights[0][:, :, of],
             *(w[:, of, of] for w in self.weights[1:-1]),
@@ -94,13 +94,13 @@ class Networks:
         return Networks(tuple(map(np.ascontiguousarray, weights)), biases)
 
     def by_layers(self, x: Array) -> Array:
-        """Return outputs of order one, layer by layer."""
+        """Evaluate normalised outputs layer by layer."""
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = np.tanh(x @ weight + bias)
         return x @ self.weights[-1] + self.biases[-1]
 
     def arrays(self, before: str = "") -> dict[str, Array]:
-        """Return weights and biases by names for a file, with something before each name."""
+        """Return weights and biases by names for a file, with a prefix."""
         named = [("weight", self.weights), ("bias", self.biases)]
         found = {f"{before}{name}.{i}": a for name, some in named for i, a in enumerate(some)}
         scale = {f"{before}centre": self.centre, f"{before}spread": self.spread}
@@ -113,12 +113,12 @@ class Networks:
 
     @property
     def parameters(self) -> int:
-        """Number of weights and biases of all networks together."""
+        """Number of weights and biases of all networks."""
         return sum(a.size for a in (*self.weights, *self.biases))
 
 
 def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
-    """Return the networks whose :meth:`Networks.arrays` a file has.
+    """Reconstruct networks from the output of :meth:`Networks.arrays`.
 
     Examples
     --------
@@ -134,7 +134,7 @@ def from_arrays(arrays: Mapping[str, Array], before: str = "") -> Networks:
 
 
 def together(networks: list[Networks]) -> Networks:
-    """Return networks of the same shape, whose outputs are of order one, as one object.
+    """Stack networks of the same shape with normalised outputs into one object.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def together(networks: list[Networks]) -> Networks:
 
 
 def single(networks: Networks, number: int) -> Networks:
-    """Return one of several networks, its outputs of order one."""
+    """Return one of several networks, with normalised output."""
     some = slice(number, number + 1)
     return Networks(
         tuple(layer[some] for layer in networks.weights),
@@ -158,7 +158,7 @@ def single(networks: Networks, number: int) -> Networks:
 
 
 def added(one: Networks, other: Networks) -> Networks:
-    """Return networks that say the sum of what two say: their hidden layers side by side.
+    """Return networks whose output is the sum of two networks' outputs.
 
     Examples
     --------

@@ -1,22 +1,23 @@
-r"""A sphere: the limits of its force, its relaxed start, and how the inputs of networks are scaled.
+r"""A sphere on a power law: limits of the force, relaxed start, and scaling of the inputs.
 
-Inputs of a row are the five groups of a sphere on a power law by retardation, pulled from a relaxed
-start: Tabor number mu, modulus ratio k, exponent n, depth d [h0] and rate [h0/tau0].
+The inputs of a row are the five groups of a sphere on a power law by retardation, retracted from a
+relaxed start: Tabor number mu, modulus ratio k, exponent n, depth d [h0] and rate [h0/tau0].
 
-The two limits of the force are
+The force lies between two limits:
 
-.. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \hat G(\mu, k, d) , \qquad 0 < s < 1 ,
+.. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \hat G(\mu, k, d) , \qquad 0 < s < 1 .
 
-the elastic pull-off of the relaxed solid at the slow end and at the fast end that of a solid that
-does not relax at all, from the relaxed start; and that one is between the former and the fast limit
-of the largest contact, :math:`f(\mu k^{1/3})/k` (:mod:`viscotack.theory.sphere.bounds`). So no
-answer leaves these two, and slow, fast, JKR and Bradley limits come out right; G between them is
-learned, to 0.15 % where the solver knows it to 0.1 %. The force of the relaxed start is that of
-Hertz,
+The slow limit f is the elastic pull-off force of the relaxed solid. The fast limit G is that of a
+solid that does not relax, from the relaxed start; it lies between f and the fast limit of the
+largest contact, :math:`f(\mu k^{1/3})/k` (:mod:`viscotack.theory.sphere.bounds`). Therefore no
+prediction exceeds these limits, and the slow, fast, JKR and Bradley limits are satisfied. A network
+predicts G between them, to 0.15 %, where the solver is accurate to 0.1 %. The force of the relaxed
+start is the Hertz force,
 
 .. math:: \hat F_H = \frac{8}{9 \pi} \left( \frac{\hat d}{\mu} \right)^{3/2} ,
 
-and :math:`\sqrt{1 + \hat F_H}` times a network, for adhesion changes a deep contact by that power.
+plus :math:`\sqrt{1 + \hat F_H}` times a network, because adhesion changes a deep contact by that
+power.
 """
 
 from functools import cached_property
@@ -33,7 +34,8 @@ from .trust import OF
 
 INPUTS = ("tabor", "modulus_ratio", "exponent", "preload", "rate")
 TABOR, MODULUS_RATIO, EXPONENT, PRELOAD, RATE = range(5)
-# Of the set `broad`; the few deeper rows of `thesis` help, and are not enough to promise more.
+# Ranges of the set `broad`; the few deeper rows of `thesis` are used, but do not justify a wider
+# one.
 LIMITS = {
     "tabor": (0.01, 10.0),
     "modulus_ratio": (1e-4, 0.7),
@@ -42,14 +44,14 @@ LIMITS = {
     "rate": (0.01, 1e10),
 }
 LOW, HIGH = np.array(list(LIMITS.values())).T
-# Ends that are scaled to -1 and 1: with the deepest rows.
+# Ends that are scaled to -1 and 1, including the deepest rows.
 _LOW, _HIGH = np.log10(LOW), np.log10([*HIGH[:3], 550.0, HIGH[4]])
-# Which of the inputs the relaxed start and the fast limit depend on.
+# Inputs of the relaxed start and of the fast limit.
 START, FAST = [TABOR, PRELOAD], [TABOR, MODULUS_RATIO, PRELOAD]
 
 
 def scaled(groups: Array) -> Array:
-    """Return the logarithms of inputs, from -1 to 1 over all rows learned from; shape (n, 5)."""
+    """Return the logarithms of inputs, scaled to [-1, 1] over the training rows; shape (n, 5)."""
     return scaled_logarithms(groups, _LOW, _HIGH)
 
 
@@ -76,22 +78,22 @@ def start_force(groups: Array, output: Array) -> Array:
 
 
 def start_output(groups: Array, force: Array) -> Array:
-    """Return the output that stands for a force of the relaxed start."""
+    """Return the network output for a given force of the relaxed start."""
     without = hertz(groups)
     return (force - without) / np.sqrt(1 + without)
 
 
 def with_start(inputs: Array, force: Array, radius: Array, *logarithms: Array) -> Array:
-    """Return inputs for a network that is to know more of the case; shape (n, 8 + how many).
+    """Append start and further quantities to inputs of a network; shape (n, 8 + further).
 
     Parameters
     ----------
     inputs : ndarray, shape (n, 5)
-        As :func:`scaled` has them.
+        As from :func:`scaled`.
     force, radius : ndarray, shape (n,)
-        Of the relaxed start.
+        Force and contact radius of the relaxed start.
     logarithms : ndarray, shape (n,)
-        log10 of what else is known.
+        log10 of further quantities.
     """
     start = (np.arcsinh(force) / 5, np.tanh(force), np.log10(radius))
     return np.column_stack([inputs, *start, *logarithms])
@@ -118,12 +120,12 @@ class SphereContact(Contact):
 
     @cached_property
     def slow(self) -> Array:
-        """log10 of the elastic pull-off of the relaxed solid, shape (n,)."""
+        """log10 of the elastic pull-off force of the relaxed solid, shape (n,)."""
         return slow_limit(self.rows)
 
     @cached_property
     def fast(self) -> Array:
-        """log10 of the pull-off of a solid that does not relax, shape (m, n)."""
+        """log10 of the pull-off force of a solid that does not relax, shape (m, n)."""
         said = self.networks["fast"](self.scaled[:, FAST])[..., 0]
         return between(self.slow, largest_fast_limit(self.rows), said)
 

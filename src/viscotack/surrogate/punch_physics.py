@@ -1,32 +1,32 @@
-r"""What is known of a punch on a sliding layer without learning, and how its inputs are scaled.
+r"""A punch on a sliding layer: limits of the stress, relaxed start, and scaling of the inputs.
 
-Inputs of a row are half width a and thickness b [a0], modulus ratio k, depth d of the relaxed start
-[h0] and rate [h0/tau0]; the solid is a standard one.
+The inputs of a row are half width a and thickness b [a0], modulus ratio k, depth d of the relaxed
+start [h0] and rate [h0/tau0]; the solid is a standard solid.
 
-**The start.** A mean stress of sigma0 moves the punch by about :math:`C = \pi l/(2 \hat\sigma) +
+**Start.** A mean stress of sigma0 moves the punch by about :math:`C = \pi l/(2 \hat\sigma) +
 1/c` [h0], with the strength :math:`\hat\sigma` [dg0/h0] and the stiffness c [sigma0/h0] of the
 interface at rest, and the length
 
 .. math:: l = \frac{4 \hat a}{\pi} \ln \left( 1 + \frac{\pi \hat b}{4 \hat a} \right) ,
 
-which is b for a thin layer and goes with the logarithm of b/a for a thick one. So d/C is the mean
-stress of the start but for a quarter of it, and that is what networks are told: the same depth
-is nothing to a thick layer, and everything to a thin one.
+which is b for a thin layer and logarithmic in b/a for a thick one. So d/C equals the mean
+stress of the start within a quarter, and is an input of the networks: the same depth
+is negligible for a thick layer, and large for a thin one.
 
-**The limits.** A network never says a pull-off stress. It says where between its limits it is,
+**Limits.** The networks do not predict the pull-off stress itself, but its position between limits,
 
 .. math:: \log \hat\sigma = (1 - s) \log S(\hat a, \hat b)
-          + s \log F(\hat a, \hat b, k, d/C), \qquad 0 < s < 1 ,
+          + s \log F(\hat a, \hat b, k, d/C), \qquad 0 < s < 1 .
 
-that of the relaxed layer at the slow end, whatever the start, and that of a layer of which nothing
-relaxes once it is retracted at the fast end. These two lie in their turn between the strength, 1,
-and half of what a crack on a layer of the modulus E would ask for and the strength allows,
+The slow limit S is that of the relaxed layer, for any start; the fast limit F that of a layer that
+does not relax during retraction. Both lie between the strength, 1,
+and half of the smaller of crack stress (for a layer of modulus E) and strength, combined as
 
 .. math:: \frac{1}{2} \left( 1 + \frac{1}{g^2} \right)^{-1/2} , \qquad
           g^2 = \left( \frac{4}{\pi \hat b} + \frac{1}{\hat a} \right) \frac{E}{E_0} ,
 
-which has the thin layer, :math:`\sqrt{2 E \Delta\gamma/b}`, and the half-plane,
-:math:`\sqrt{\pi E \Delta\gamma/2a}`, in it.
+which includes the thin layer, :math:`\sqrt{2 E \Delta\gamma/b}`, and the half-plane,
+:math:`\sqrt{\pi E \Delta\gamma/2a}`.
 """
 
 from dataclasses import replace
@@ -48,16 +48,16 @@ SIZE, THICKNESS, MODULUS_RATIO, PRELOAD, RATE = range(5)
 STRENGTH = LennardJones(1.0, 1.0).strength
 # Slope of the traction at rest, 16 dg0/h0^2, in sigma0/h0.
 _CONTACT = 16 / STRENGTH
-# Of size, thickness, modulus ratio, the start's depth over the compliance, and rate.
+# Ranges of size, thickness, modulus ratio, start's depth over the compliance, and rate.
 LOW = np.array([1.0, 0.1, 1e-3, 1.5e-3, 1e-3])
 HIGH = np.array([200.0, 1000.0, 0.7, 10.0, 1e6])
 _ENDS = np.log10(LOW), np.log10(HIGH)
-# Which of the inputs the limits and the start depend on.
+# Inputs of the limits and of the start.
 SLOW, FAST, START = [SIZE, THICKNESS], [SIZE, THICKNESS, MODULUS_RATIO, PRELOAD], [0, 1, PRELOAD]
 
 
 def compliance(groups: Array) -> Array:
-    """Return how far a mean stress of sigma0 moves a relaxed punch, about [h0], shape (n,).
+    """Return the approximate displacement of a relaxed punch by a mean stress sigma0 [h0], (n,).
 
     Examples
     --------
@@ -70,42 +70,42 @@ def compliance(groups: Array) -> Array:
 
 
 def unit(rows: Array) -> Array:
-    """Return the units in which inputs have their ranges: depths of starts in the compliance."""
+    """Return the units of the inputs' ranges; depths of starts are relative to the compliance."""
     found = np.ones_like(rows)
     found[:, PRELOAD] = compliance(rows)
     return found
 
 
 def scaled(groups: Array) -> Array:
-    """Return the logarithms of the inputs, from -1 to 1 over the range; shape (n, 5)."""
+    """Return the logarithms of the inputs, scaled to [-1, 1] over the range; shape (n, 5)."""
     return scaled_logarithms(groups / unit(groups), *_ENDS)
 
 
 def least(groups: Array, stiffer: Array | float = 1.0) -> Array:
-    """Return log10 of a stress [sigma0] below every pull-off of an elastic layer, shape (n,).
+    """Return log10 of a lower bound of the pull-off stress of elastic layers [sigma0], (n,).
 
     Parameters
     ----------
     groups : ndarray, shape (n, 5)
     stiffer : ndarray or float, shape (n,)
-        Modulus of the layer over the relaxed one.
+        Modulus of the layer relative to the relaxed one.
     """
     crack = (4 / (np.pi * groups[:, THICKNESS]) + 1 / groups[:, SIZE]) * stiffer
     return -0.5 * np.log10(1 + 1 / crack) - np.log10(2)
 
 
 def least_fast(groups: Array) -> Array:
-    """Return log10 of a stress below every pull-off of a layer that does not relax, shape (n,)."""
+    """Return log10 of a lower bound of the pull-off stress without relaxation, shape (n,)."""
     return least(groups, 1 / groups[:, MODULUS_RATIO])
 
 
 def told(inputs: Array, slow: Array, stress: Array) -> Array:
-    """Return what networks are told that know the slow limit and the stress, shape (n, 7).
+    """Return the inputs of networks that depend on the slow limit and the stress, shape (n, 7).
 
     Parameters
     ----------
     inputs : ndarray, shape (n, 5)
-        As :func:`scaled` has them.
+        As from :func:`scaled`.
     slow, stress : ndarray, shape (n,)
         log10 of the slow limit of the stress and of the stress itself.
     """
@@ -128,10 +128,10 @@ class PunchContact(Contact):
     }
     limiting, start_inputs, search = ("slow", "fast"), START, (24, 3)
     no_start = (
-        "preload_force is {wanted:.4g} sigma0, and {least:.4g} to {most:.4g} sigma0 was learned "
-        "from for this size and thickness"
+        "preload_force is {wanted:.4g} sigma0, outside the training range of {least:.4g} to "
+        "{most:.4g} sigma0 for this size and thickness"
     )
-    # works are in dg0, and areas below curves in sigma0 h0
+    # works are in dg0, areas below curves in sigma0 h0
     give_knows_work, work_unit = False, STRENGTH
     unit = staticmethod(unit)
 
@@ -157,13 +157,13 @@ class PunchContact(Contact):
         return told(self.scaled, self.slow.mean(axis=0), force)
 
     def give(self, said: Array) -> Array:
-        """Return travel to zero stress times size over stress; its part of the depth is learned."""
+        """Return (travel to zero stress) * size / stress, from the output of its networks."""
         stress, size = self.start
         return self.rows[:, PRELOAD] * 10**said * size / stress
 
     def curves(self, answers: Answers) -> Curves:
         """Return the unloading curves: depths in h0, stresses in sigma0, the edge in a0."""
         found = super().curves(answers)
-        # no contact is wider than its punch
+        # the contact is at most as wide as the punch
         edge = np.minimum(found.contact_radius, self.rows[:, [SIZE]])
         return replace(found, contact_radius=edge)

@@ -1,4 +1,4 @@
-"""What was learned in a file: arrays in NPZ, words in JSON, a checksum over them; no pickle."""
+"""Files of surrogates: arrays in NPZ, metadata in JSON, with a checksum and without pickle."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _WORDS = "words.json"
 def write(
     path: str | os.PathLike[str], arrays: Arrays, form: str, facts: Mapping[str, Any]
 ) -> None:
-    """Write arrays, and beside them their form, their checksum and what is to be known of them."""
+    """Write arrays with their format name, checksum and metadata."""
     words = {"form": form, "sha256": checksum(arrays), **facts}
     text = np.frombuffer(json.dumps(words).encode(), dtype=np.uint8)
     buffer = io.BytesIO()
@@ -41,39 +41,39 @@ def write(
 def opened(
     path: str | os.PathLike[str], forms: Collection[str], what: str, most: float
 ) -> Iterator[tuple[dict[str, npt.NDArray[Any]], dict[str, Any]]]:
-    """Give the arrays and words of a file that :func:`write` wrote.
+    """Yield the arrays and metadata of a file written by :func:`write`.
 
     Parameters
     ----------
     path : path
     forms : collection of str
-        One of which it must have, the newest first.
+        Accepted format names, the newest first.
     what : str
-        What it should be, in words.
+        Description of the expected content, for error messages.
     most : float
-        Largest file that is taken [bytes unpacked].
+        Largest accepted size [bytes unpacked].
 
     Raises
     ------
     InputError
-        If the file is of none of these forms, is damaged, or what is made of it in the ``with``
+        If the file has another format, is damaged, or the body of the ``with`` statement
         fails.
     """
     try:
-        # opened here, for NumPy leaves a damaged file open
+        # open the file here, because NumPy does not close damaged files
         with open_regular(path) as stream:
             arrays = read_arrays(stream, lambda _: True, most)
         words = json.loads(arrays.pop(_WORDS).tobytes())
         if words["form"] not in forms:
             known = ", ".join(map(repr, forms))
-            raise InputError(f"it has the form {words['form']!r}, this version reads {known}")
+            raise InputError(f"its format is {words['form']!r}, but this version reads {known}")
         if words["sha256"] != checksum(arrays):
-            raise InputError("its arrays do not have the checksum beside them")
+            raise InputError("the checksum of its arrays differs from the stored one")
         yield arrays, words
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
-        raise InputError(f"{path} is not {what}, or damaged: {error}") from None
+        raise InputError(f"{path} is not {what}, or is damaged: {error}") from None
 
 
 def checksum(arrays: Arrays) -> str:

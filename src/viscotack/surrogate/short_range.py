@@ -1,19 +1,19 @@
-r"""Contacts of large Tabor numbers, learned from the theory whose edge is a steady crack.
+r"""Surrogate for large Tabor numbers, trained on the theory of a steady crack at the edge.
 
-From a Tabor number of ten on forces reach hardly beyond the edge, and the theory of
-:mod:`viscotack.methods.by_crack` answers in a tenth of a second, and some seconds for a new solid.
-What it says of spheres on power laws by retardation, pulled from relaxed starts, is learned here:
-where the force is between its slowest and its fastest limit,
+Above a Tabor number of ten the forces hardly extend beyond the edge. The theory of
+:mod:`viscotack.methods.by_crack` takes a tenth of a second, and some seconds for a new solid.
+This surrogate approximates it for spheres on power laws by retardation, retracted from relaxed
+starts. It predicts the position of the force between its slowest and its fastest limit,
 
 .. math:: \log \hat P = (1 - s) \log f(\mu) + s \log \frac{f(\mu k^{1/3})}{k} ,
 
-how much energy the crack takes at the pull-off, and how many of its zones it has gone: what the
-band of the theory is made of. Where that theory has no answer there is none here.
+the energy of the crack at pull-off, and its travel in zone lengths, which determine the band of the
+theory. It does not apply where the theory does not.
 
-The networks are told, beside the inputs, what a crack would take whose zone creeps for as long as
-it takes to cross it, :math:`\Gamma_s = 1/c(l \Gamma_s/(\mu r))` with the creep c of the solid over
-its relaxed one and the rate r, and how far the bulk creeps meanwhile: with these two they tell
-other solids from fewer of them.
+Further inputs of the networks are the energy of a crack whose zone creeps during the time to cross
+it, :math:`\Gamma_s = 1/c(l \Gamma_s/(\mu r))`, with the creep c of the solid relative to the
+relaxed one and the rate r, and the creep of the bulk during that time. With these two, fewer
+training solids are sufficient.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ from .answers import Answers
 from .contact import Contact, Further
 
 # Tabor number, modulus ratio and exponent; the start's depth over the Tabor number, in heights of a
-# contact beta^2/R; and the rate over it, in these heights a time of the material.
+# contact beta^2/R; and the rate over it, in these heights per time of the material.
 LOW, HIGH = np.array([10.0, 1e-4, 0.15, 0.1, 1e-6]), np.array([1e6, 0.5, 2.0, 1000.0, 1e6])
 _ENDS = np.log10(LOW), np.log10(HIGH)
-# Of Gamma - 1, below which it says nothing.
+# Values of Gamma - 1 below this have no effect.
 LEAST = 1e-3
-# The theory holds from an effective Tabor number of 2 and 1.5 zones on; so much above them the
-# networks may be off.
+# The theory holds from an effective Tabor number of 2 and 1.5 zones; margin for the error of the
+# networks.
 _LEAST_TABOR, _LEAST_ZONES, _SLOW = 2.2, 1.8, 1.1
-# Length of a zone in crossing times that tells most, halvings of its energy's logarithm, and the
-# largest energy's decades.
+# Best length of a zone in crossing times, number of bisections of its energy's logarithm, and the
+# decades of the largest energy.
 _ZONE, _HALVINGS, _DECADES = 0.3, 25, 4.0
 
 
 def creep_of(groups: Array) -> Callable[[Array], Array]:
-    """Return the creep of the solids over the last one as a function of times [tau0], shape (n,).
+    """Return the creep over the relaxed one as a function of time [tau0], shape (n,).
 
     Examples
     --------
@@ -60,14 +60,14 @@ def creep_of(groups: Array) -> Callable[[Array], Array]:
     def creep(time: Array) -> Array:
         with np.errstate(invalid="ignore", over="ignore"):
             left = front * time**half * scipy.special.kv(n, 2 * np.sqrt(time))
-        # at no time nothing has crept, and K is infinite
+        # no creep at time zero, where K is infinite
         return 1 - glassy * np.where(np.isfinite(left), np.minimum(left, 1.0), 1.0)
 
     return creep
 
 
 def crack_alone(groups: Array) -> Array:
-    """Return ln of the energy of a crack whose zone creeps while it crosses it, shape (n,)."""
+    """Return ln of the energy of a crack whose zone creeps while crossing it, shape (n,)."""
     creep, speed = creep_of(groups), groups[:, physics.TABOR] * groups[:, physics.RATE]
     low = np.zeros(len(groups))
     high = -np.log(groups[:, physics.MODULUS_RATIO])
@@ -79,13 +79,13 @@ def crack_alone(groups: Array) -> Array:
 
 
 class ShortRangeContact(Contact):
-    """A sphere of a large Tabor number on a power law, as the theory of a crack at its edge has it.
+    """A sphere of large Tabor number on a power law, by the theory of a crack at its edge.
 
     Further outputs, in :attr:`.answers.Answers.more`, are ``amplification``, the energy of the
-    crack at the pull-off over the work of adhesion; ``zones``, the way of the edge to the pull-off
-    in zones of the crack; and ``effective``, the Tabor number of an elastic contact whose zone is
-    as large beside it. The constant ``error`` is the part of the force by which the networks differ
-    from the theory in 9 and in 98 of 100 cases of solids that they had not learned from.
+    crack at pull-off over the work of adhesion; ``zones``, the travel of the edge to the pull-off
+    in zones of the crack; and ``effective``, the effective Tabor number of the zone. The constant
+    ``error`` is the relative difference between networks and theory in 9 and in 98 of 100 cases of
+    solids that are not in the training data.
     """
 
     name, inputs, low, high, ends = "short range", physics.INPUTS, LOW, HIGH, _ENDS
@@ -129,7 +129,7 @@ class ShortRangeContact(Contact):
         )
 
     def further(self, output: Array) -> Further:
-        """Return energy and zones at the pull-off."""
+        """Return energy and zones at pull-off."""
         state = 10 ** self.networks["state"](self.told)[0]
         most = 1 / self.rows[:, physics.MODULUS_RATIO] - 1
         energy = np.clip(state[:, 0] - LEAST, 0.0, most) + 1
@@ -137,6 +137,6 @@ class ShortRangeContact(Contact):
         return Further(more={"amplification": energy, "zones": state[:, 1], "effective": effective})
 
     def holds(self, said: Answers) -> npt.NDArray[np.bool_]:
-        """Return where the theory has an answer, by what was learned of it, shape (n,)."""
+        """Return a mask of the tests to which the theory applies, as predicted, shape (n,)."""
         steady = (said.more["zones"] >= _LEAST_ZONES) | (said.more["amplification"] <= _SLOW)
         return steady & (said.more["effective"] >= _LEAST_TABOR)

@@ -1,12 +1,12 @@
-"""Derivatives of formulas of NumPy, exact, found while they run.
+"""Exact derivatives of NumPy formulas by forward differentiation.
 
-A :class:`Sloped` is an array and its derivatives by some inputs. NumPy hands it every operator and
-function it meets in a formula (NEP 13, NEP 18), and each does to the derivatives what the chain
-rule says (forward differentiation). So a formula is stated once, where it belongs. Its parts may be
+A :class:`Sloped` object is an array with its derivatives by some inputs. NumPy passes to it every
+operator and function of a formula (NEP 13, NEP 18), and each applies the chain rule to the
+derivatives. So every formula exists once. Its parts may be
 arrays of the graph of :mod:`viscotack.surrogate.onnx`, so that derivatives are exported as well. A
-function whose derivative is not known here is refused.
+function without a known derivative raises an error.
 
-At corners, of clipped numbers say, the derivative is that of the side that NumPy takes.
+At kinks, for example of clipped numbers, the derivative is the one-sided one of NumPy's branch.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-# Derivatives of functions of one number, from the argument x and the value y.
+# Derivatives of functions of one variable, from the argument x and the value y.
 _OF_ONE: dict[Any, Callable[[Any, Any], Any]] = {
     np.negative: lambda x, y: -1.0,
     np.absolute: lambda x, y: np.sign(x),
@@ -40,7 +40,7 @@ class Sloped(NDArrayOperatorsMixin):
     value : ndarray
         The array.
     slopes : sequence of ndarray
-        Of its shape, one for each input.
+        Derivatives of the same shape, one per input.
 
     Examples
     --------
@@ -107,7 +107,7 @@ def by_logarithms(groups: Any) -> Sloped:
 
 
 def _sum(a: Any, b: Any, sign: float = 1.0) -> Any:
-    """Return the sum of derivatives of which one may be none."""
+    """Add derivatives, one of which may be None."""
     if b is None:
         return a
     second = b if sign > 0 else -b
@@ -156,12 +156,12 @@ _OF_TWO: dict[Any, Callable[..., Any]] = {
 
 
 def _same(slope: Any, value: Any) -> Any:
-    """Return a derivative with the shape of the array it belongs to."""
+    """Broadcast a derivative to the shape of its array."""
     return slope if slope.shape == value.shape else slope + value * 0.0
 
 
 def _parts(x: Any, count: int) -> tuple[Any, ...]:
-    """Return the derivatives of what may be constant."""
+    """Return the derivatives of an array that may be constant."""
     return x.slopes if isinstance(x, Sloped) else (x * 0.0,) * count
 
 

@@ -1,4 +1,4 @@
-"""A surrogate in a file: arrays in NPZ and words in JSON, no pickle."""
+"""Read and write surrogates: arrays in NPZ and metadata in JSON, without pickle."""
 
 import os
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ from .short_range import ShortRangeContact
 from .trust import CONFIDENCES, OF, Trust
 
 _FOLDER = Path(__file__).parent
-# Those of the package, by the names of their contacts.
+# Files of the package, by the names of their contacts.
 FILES = {
     "sphere": _FOLDER / "shipped.npz",
     "solids": _FOLDER / "solids.npz",
@@ -34,7 +34,7 @@ _CONTACTS: dict[str, type[Contact]] = {
     each.name: each for each in (SphereContact, SolidContact, PunchContact, ShortRangeContact)
 }
 _FORM = "viscotack surrogate 3"
-# Forms before it, each of one contact, and beginnings of names that were others in them.
+# Earlier formats, each of one contact, and prefixes of names that have changed since.
 _BEFORE = {
     "viscotack surrogate 2": ("sphere", {}),
     "viscotack solids 2": ("solids", {"force.": "bend_force.", "work.": "bend_work."}),
@@ -44,26 +44,26 @@ _BEFORE = {
         {"centre": "state.centre", "spread": "state.spread"},
     ),
 }
-# Largest file that is taken [bytes unpacked]: the largest that is shipped has less than one
+# Largest accepted file [bytes unpacked]; the largest one of the package has less than one
 # megabyte.
 _MOST = 50e6
 Arrays = Mapping[str, npt.NDArray[Any]]
 
 
 def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str, Any]) -> None:
-    """Write a surrogate, and beside its arrays what is to be known of it.
+    """Write a surrogate with metadata.
 
-    Networks that a contact shares with the sphere on power laws are not in the file; it says which
-    they were.
+    Networks that a contact shares with the sphere on power laws are not stored; the file contains
+    their checksum.
 
     Parameters
     ----------
     surrogate : Surrogate
-        What to write.
+        Surrogate to write.
     path : path
-        Ends in .npz.
+        Output file, ending in .npz.
     facts : mapping
-        How it was made and what it is worth; JSON.
+        Metadata on training and validation, in JSON types.
     """
     contact, trust = surrogate.contact, surrogate.trust
     arrays: dict[str, Any] = dict(surrogate.constants)
@@ -79,19 +79,19 @@ def save(surrogate: Surrogate, path: str | os.PathLike[str], facts: Mapping[str,
 
 
 def load(path: str | os.PathLike[str]) -> Surrogate:
-    """Return the surrogate of a file, of whatever contact.
+    """Read a surrogate of any contact from a file.
 
     Raises
     ------
     ValueError
-        If the file is not one that :func:`save` wrote, is damaged, or goes with another surrogate
+        If the file was not written by :func:`save`, is damaged, or belongs to another surrogate
         of power laws than that of the package.
     """
     return _read(path)[0]
 
 
 def shipped(contact: str = "sphere") -> Surrogate:
-    """Return the surrogate of a contact that comes with the package, read once.
+    """Return the surrogate of a contact from the package; it is read once.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def _shipped(contact: str) -> Surrogate:
 
 
 def facts(path: str | os.PathLike[str] = SHIPPED) -> dict[str, Any]:
-    """Return what the file says of how the surrogate was made and what it is worth."""
+    """Return the metadata of a file on training and validation."""
     return _read(path)[1]
 
 
@@ -132,13 +132,13 @@ def _read(path: str | os.PathLike[str]) -> tuple[Surrogate, dict[str, Any]]:
         if contact.shared:
             whole = shipped().networks
             if words["power law"] != _checksum(whole, contact.shared):
-                raise InputError("it corrects another surrogate of power laws; learn it again")
+                raise InputError("it corrects another surrogate of power laws; train it again")
             networks |= {name: whole[name] for name in contact.shared}
         return Surrogate(contact, networks, trust, constants), words
 
 
 def _upgraded(arrays: Arrays, words: dict[str, Any]) -> tuple[Arrays, dict[str, Any]]:
-    """Return arrays and words of a file of any form under the names of today."""
+    """Rename arrays and metadata of a file of an earlier format to the current names."""
     if words["form"] == _FORM:
         return arrays, words
     contact, renamed = _BEFORE[words["form"]]
@@ -151,7 +151,7 @@ def _upgraded(arrays: Arrays, words: dict[str, Any]) -> tuple[Arrays, dict[str, 
 
 
 def _checksum(networks: Mapping[str, Networks], names: tuple[str, ...]) -> str:
-    """Return the checksum of some networks; intervals are apart."""
+    """Return the checksum of some networks, without intervals."""
     arrays: dict[str, Any] = {}
     for name in names:
         arrays |= networks[name].arrays(f"{name}.")
@@ -165,20 +165,22 @@ def _check_numbers(arrays: Arrays) -> None:
 
 
 def _check_layers(name: str, networks: Networks, inputs: int, outputs: int) -> None:
-    """Refuse layers that do not lead from so many inputs to so many outputs."""
+    """Raise an error if layers do not connect the given numbers of inputs and outputs."""
     if not networks.weights:
-        raise InputError(f"it has no layers of {name}")
+        raise InputError(f"layers of {name} are missing")
     width, count = inputs, len(networks.weights[0])
     for i, (weight, bias) in enumerate(zip(networks.weights, networks.biases, strict=True)):
         _check_shape(f"layer {i} of {name}", weight, (count, width, weight.shape[-1]))
         _check_shape(f"biases of layer {i} of {name}", bias, (count, 1, weight.shape[-1]))
         width = weight.shape[-1]
     if width != outputs:
-        raise InputError(f"layers of {name} lead from {inputs} inputs to {width}, not {outputs}")
+        raise InputError(
+            f"layers of {name} have {width} outputs for {inputs} inputs, expected {outputs}"
+        )
     scale = {"centre": networks.centre, "spread": networks.spread}
     known = {part: each for part, each in scale.items() if each is not None}
     if len(known) == 1:
-        raise InputError(f"{name} has a {next(iter(known))} alone; give centre and spread")
+        raise InputError(f"{name} has only a {next(iter(known))}; give both centre and spread")
     for part, each in known.items():
         _check_shape(f"{name}.{part}", each, (outputs,))
 
@@ -188,8 +190,8 @@ def _check_members(contact: type[Contact], networks: Mapping[str, Networks]) -> 
         count, wanted = (len(networks[n].weights[0]) for n in (name, "force"))
         if count not in (1, wanted):
             raise InputError(
-                f"it has {count} networks of the {name} limit for {wanted} of the force; give one, "
-                "or one for each"
+                f"the number of networks of the {name} limit must be 1 or {wanted}, as for the "
+                f"force, got {count}"
             )
 
 

@@ -1,10 +1,10 @@
-r"""How wide an interval is: as far as errors reach there, times what was measured to hold.
+r"""Widths of intervals: a predicted local error size times a calibrated factor.
 
-A network of its own says how far errors of log10 of force, of work, of the curve in tension and of
-log10 of the travel to zero force reach around a case, all but one in fifty, from its inputs, from
-how far the networks are apart and from how steeply the force climbs between its limits there
-(:mod:`training.calibration`). It is smooth, so that widths are. An interval is
-as many times that wide as held the wanted share of cases from which no network had learned.
+A separate network predicts the 98 % quantile of the errors around a case, of log10 of the force, of
+log10 of the work, of the curve in tension and of log10 of the travel to zero force. Its inputs are
+those of the case, the spread of the networks, and the slope of the force between its limits
+(:mod:`training.calibration`). It is smooth, so the widths are too. The factor is chosen such that
+the interval includes the desired fraction of cases outside the training data.
 """
 
 from __future__ import annotations
@@ -20,34 +20,34 @@ from .answers import Answers, Intervals
 from .network import Networks
 
 CONFIDENCES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98)
-# What the network says of, and how many inputs it has: five groups, how near they are to ends of
-# their ranges, the spreads of two answers, and where between its limits the force is, and how
-# steep.
+# Outputs of the network, and number of its inputs: five groups, their proximity to the ends of
+# their ranges, the spreads of two predictions, and position and slope of the force between its
+# limits.
 OF, INPUTS = ("force", "work", "curve", "travel"), 10
-# How far from an end an input counts as near it, in halves of its range.
+# Distance from an end below which an input is near it, relative to half its range.
 _NEAR = 0.03
-# Spreads of log10 below this tell nothing more, and their logarithms are of order one.
+# Spreads of log10 below this have no effect; their logarithms are of order one.
 _LEAST_SPREAD, _DECADES = 1e-5, 2.0
-# Parts of the way this near to its ends are as good as there, and so are as small climbs.
+# Smallest distinguished distance of the fraction from 0 and 1, and smallest slope.
 _LEAST_SHARE = 1e-6
 
 
 def error_inputs(scaled: Array, answers: Answers) -> Array:
-    """Return what the network of the errors is told of cases, shape (n, INPUTS).
+    """Return the inputs of the network of the errors, shape (n, INPUTS).
 
-    An error of the output of a network that says where between its limits the force is changes
-    the force by as much as s (1 - s) times the way between them.
+    An error of the output of the network for the fraction s changes the force by s (1 - s) times
+    the distance between its limits.
 
     Parameters
     ----------
     scaled : ndarray, shape (n, 5)
-        Inputs of the cases, each from -1 to 1 over its range.
+        Inputs of the cases, each scaled to [-1, 1] over its range.
     answers : Answers
-        What is said of them.
+        Predictions for the cases.
     """
     spreads = answers.force_spread, answers.work_spread
     apart = [np.log10((s + _LEAST_SPREAD) / _LEAST_SPREAD) / _DECADES - 1 for s in spreads]
-    # beyond a face there is no row, and networks know less of what is there
+    # there are no training rows beyond a face, so networks are less accurate there
     near = np.exp((np.abs(scaled) - 1) / _NEAR)
     faces = sum(near[:, i] for i in range(1, scaled.shape[1])) + near[:, 0]
     share = np.minimum(np.maximum(answers.share, _LEAST_SHARE), 1 - _LEAST_SHARE)
@@ -58,33 +58,33 @@ def error_inputs(scaled: Array, answers: Answers) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Trust:
-    """Half widths of intervals.
+    """Half-widths of intervals.
 
     Attributes
     ----------
     reach : Networks
-        log10 of how far errors of ``OF`` reach, shape (m, n, 4) for m networks; their mean counts.
-        Errors of a curve are parts of the pull-off force, the others of log10.
+        log10 of the error sizes of ``OF``, shape (m, n, 4) for m networks; their mean is used.
+        Errors of a curve are relative to the pull-off force, the others are in log10.
     levels : ndarray, shape (4, confidences)
-        How many times as wide half an interval is.
+        Calibrated factors on the half-widths.
     """
 
     reach: Networks
     levels: Array
 
     def widths(self, inputs: Array, confidence: float) -> tuple[Array, ...]:
-        """Return the half widths of the intervals of ``OF``, arrays of shape (n,).
+        """Return the half-widths of the intervals of ``OF``, arrays of shape (n,).
 
         Parameters
         ----------
         inputs : ndarray
-            As :func:`error_inputs` has them.
+            As from :func:`error_inputs`.
         confidence : float
             One of ``CONFIDENCES``.
         """
         if confidence not in CONFIDENCES:
             raise InputError(
-                f"the confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
+                f"confidence must be one of {', '.join(map(str, CONFIDENCES))}, for which "
                 f"intervals were measured; got {confidence!r}"
             )
         usual = 10.0 ** self.reach(inputs).mean(axis=0)
@@ -92,13 +92,13 @@ class Trust:
         return tuple(usual[:, i] * level[i] for i in range(len(OF)))
 
     def intervals(self, inputs: Array, answers: Answers, confidence: float) -> Intervals:
-        """Return intervals around answers, so wide where the network is told these inputs."""
+        """Return intervals around predictions, from the inputs of the network of the errors."""
         *halves, curve, travel = self.widths(inputs, confidence)
         values = answers.pull_off_force, answers.work_to_pull_off
         force, work = (
             np.column_stack([v / 10**half, v * 10**half])
             for v, half in zip(values, halves, strict=True)
         )
-        with np.errstate(over="ignore"):  # what is hardly known has no end that a number holds
+        with np.errstate(over="ignore"):  # an uncertain prediction may overflow
             travels = np.column_stack([10**-travel, 10**travel])
         return Intervals(force, work, curve, travels)

@@ -1,15 +1,15 @@
 """Closed forms and implicit laws of adhesive contact and of the viscoelastic crack.
 
-Everywhere below: SI units; force positive in compression, depth positive into the solid,
+Conventions: SI units; force positive in compression, depth positive into the solid,
 pressure positive in compression; the sphere is rigid, of radius R, and the half-space has the
-contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` sits on a layer, in plane strain,
-and counts stress positive in tension. The varying quantity comes first and may be an array, then
-what a formula is about, if that has an object (``CrackLaw``, ``punch.Pad``); the parameters are
+contact modulus E* = E / (1 - nu^2). The flat punch of ``punch`` is on a layer, in plane strain,
+with stress positive in tension. The varying quantity is the first argument and may be an array,
+followed by an object if there is one (``CrackLaw``, ``punch.Pad``); the parameters are
 keywords, and arrays of them broadcast. A scalar gives a float. A value outside the domain of a
 formula, in any element, raises ``ValueError``.
 
-Four wings, each of which knows itself and those before it: ``elastic``, ``crack``, ``sphere``,
-``punch``. The modules of the first three are here by their own names as well: ``theory.jkr``.
+Four rooms, each of which imports only itself and earlier ones: ``elastic``, ``crack``, ``sphere``,
+``punch``. The modules of the first three are also available directly, as ``theory.jkr``.
 """
 
 from . import crack, elastic, punch, sphere

@@ -1,4 +1,4 @@
-"""Domain checks shared by the theories: words in, arrays out, errors that help."""
+"""Validation of arguments shared by the theories."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from viscotack.errors import InputError
 
-# What a formula takes and what it returns: a number or an array of them.
+# Type of arguments and results: a number or an array.
 Values = npt.ArrayLike
 Number = float | npt.NDArray[np.float64]
 
@@ -31,14 +31,14 @@ UNITS = {
     "stress": " Pa",
     "pull_off_stress": " Pa",
 }
-# A table with a wider gap, in decades, leaves open what the solid does in between.
+# Widest gap of a table, in decades; a wider one leaves the solid undetermined in between.
 WIDEST_GAP = 1.0
-# A limit computed by one formula and passed to another may miss it by the last digits.
+# Tolerance for limits that are computed by one formula and passed to another.
 ROUND_OFF = 16 * np.finfo(float).eps
 
 
 def positive(**quantities: Values) -> Any:
-    """Return the quantities as float arrays, all positive and finite; one alone is not a list."""
+    """Return the quantities as float arrays; raise an error unless all are positive and finite."""
     found = []
     for name, value in quantities.items():
         x = np.asarray(value, dtype=float)
@@ -52,7 +52,7 @@ def positive(**quantities: Values) -> Any:
 
 
 def at_least(lower: Values, hint: str, **quantity: Values) -> Any:
-    """Return the quantity as a finite float array that is nowhere below the lower limit."""
+    """Return the quantity as a finite float array; raise an error if it is below the limit."""
     ((name, value),) = quantity.items()
     x, low = np.asarray(value, dtype=float), np.asarray(lower, dtype=float)
     bad = ~(np.isfinite(x) & (x >= low - ROUND_OFF * np.abs(low)))
@@ -67,17 +67,17 @@ def at_least(lower: Values, hint: str, **quantity: Values) -> Any:
 
 
 def ratio(modulus_ratio: Values) -> Any:
-    """Return the modulus ratio as a float array in (0, 1]."""
+    """Return the modulus ratio as a float array; raise an error unless it is in (0, 1]."""
     k = positive(modulus_ratio=modulus_ratio)
     if np.any(k > 1):
         raise InputError(
-            f"modulus_ratio is rubbery over glassy modulus, in (0, 1], got {np.max(k)}"
+            f"modulus_ratio (rubbery over glassy modulus) must lie in (0, 1], got {np.max(k)}"
         )
     return k
 
 
 def ascending(places: npt.NDArray[np.float64], name: str, unit: str, remedy: str) -> None:
-    """Refuse places of the rows of a table that do not ascend, or leave a gap of over a decade."""
+    """Raise an error if table rows do not ascend, or have a gap of more than a decade."""
     for before, now in zip(places[:-1].tolist(), places[1:].tolist(), strict=True):
         if now <= before:
             raise InputError(

@@ -1,4 +1,4 @@
-"""Roots of functions of arrays, each element with a root of its own."""
+"""Vectorised root finding, one root per element."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-# Halves that bring bounds a hundred apart together to round-off.
+# Bisections that reduce a bracket of a hundred to round-off.
 _HALVINGS = 64
 _ROUNDS = 150
 
 
 def halved(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
-    """Find where a falling function is zero between two bounds, by bisection; an end for none."""
+    """Find the zero of a decreasing function by bisection; return an end if there is none."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         above = function(middle) > 0
@@ -22,7 +22,7 @@ def halved(function: Callable[[Any], Any], low: Any, high: Any) -> Any:
 
 
 def regula_falsi(function: Callable[[Any], Any], low: Any, high: Any, *, noise: Any) -> Any:
-    """Find where a rising function is zero, to values below `noise`; every fourth step halves."""
+    """Find the zero of an increasing function to values below `noise`."""
     below, above = function(low), function(high)
     x, before = low, np.zeros(np.shape(low))
     for round_ in range(_ROUNDS):
@@ -34,7 +34,7 @@ def regula_falsi(function: Callable[[Any], Any], low: Any, high: Any, *, noise: 
         if np.all(np.abs(found) <= noise):
             break
         side = np.where(found < 0, -1.0, 1.0)
-        # an end that stays twice is given half of its weight (Illinois)
+        # an end that stays twice gets half of its weight (Illinois)
         again = np.where(side == before, 0.5, 1.0)
         below, above = (
             np.where(side < 0, found, below * again),

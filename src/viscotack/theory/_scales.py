@@ -1,4 +1,4 @@
-"""The scales of an elastic adhesive sphere, Eq. 4.16, in one place."""
+"""Scales of an elastic adhesive sphere, Eq. 4.16."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""Forces across the gap: traction laws, and the surface energy they come from.
+"""Traction laws: stress between the surfaces as a function of the gap, and its energy.
 
-Traction is positive in TENSION (the surfaces attract) and is a function of the gap, of growing laws
-of the speed at which it opens as well. Pressure in a result is its negative. A law's energy
-vanishes at infinite gap, so contact has a negative one.
-docs/traction-laws.md shows how a law is added.
+Traction is positive in TENSION (attraction). It is a function of the gap; for growing laws also
+of the opening speed. Pressure in a result is its negative. The energy
+vanishes at infinite gap and is negative in contact.
+docs/traction-laws.md shows how to add a law.
 """
 
 from viscotack.traction.dugdale import Dugdale
@@ -13,8 +13,8 @@ from viscotack.traction.law import Traction, effective_range, softening
 from viscotack.traction.lennard_jones import LennardJones
 from viscotack.traction.tabulated import Tabulated
 
-# Word in a file or a flag -> law. Every constant beside work and gap is a pure number, but for
-# the reference speed of a law that grows.
+# Word in a file or option -> law. Every constant except work, gap and the reference speed of a
+# growing law is dimensionless.
 LAWS = {
     law.word: law for law in (LennardJones, Dugdale, Exponential, Tabulated, GentSchultz, Eyring)
 }

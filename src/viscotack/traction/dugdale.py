@@ -1,4 +1,4 @@
-"""The Dugdale law: a constant tension over a range, as smooth as a contact needs it."""
+"""Dugdale law: constant tension over a range, smoothed for numerical contact."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,34 +13,34 @@ from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 @dataclass(frozen=True)
 class Dugdale:
-    r"""Dugdale law: constant tension over a range, a wall below it, and nothing beyond.
+    r"""Dugdale law: constant tension over a finite range, with a stiff wall at contact.
 
     With :math:`u = h/h_0` the ideal law has the tension
-    :math:`\sigma_0 = \Delta\gamma_0/h_0` for :math:`1 < u < 2`, so that the range is h_0 and the
-    energy is the work of adhesion; surfaces touch at u = 1. A contact needs a tension without
-    leaps: here it rises from 0 at u = 1 to :math:`\sigma_0` along a parabola of width r (``rise``),
-    and falls to 0 along the two parabolas of a smooth step of width f (``fall``) around
-    u = 2 + r/3, which keeps the energy. Below u = 1 the wall is a spring of stiffness
-    :math:`2 \sigma_0/(r h_0)`.
+    :math:`\sigma_0 = \Delta\gamma_0/h_0` for :math:`1 < u < 2`, so the range is h_0 and the
+    energy is the work of adhesion; surfaces touch at u = 1. Simulations need a continuous
+    tension: here it rises from 0 at u = 1 to :math:`\sigma_0` along a parabola of width r
+    (``rise``), and falls to 0 along two parabolas of total width f (``fall``) around u = 2 + r/3,
+    which preserves the energy. Below u = 1 the wall is a spring of stiffness :math:`2 \sigma_0/(r
+    h_0)`.
 
     Parameters
     ----------
     work_of_adhesion : float
         Delta-gamma_0, work to separate unit area from the equilibrium gap [J/m^2]; positive.
     equilibrium_gap : float
-        h_0 [m], positive: both the gap of touching surfaces and the range of the tension beyond it,
-        work of adhesion over strength.
+        h_0 [m], positive: both the gap of touching surfaces and the range of the tension,
+        equal to work of adhesion over strength.
     rise, fall : float
-        Widths r and f over h_0, in (0, 0.5] and (0, 1]; the smaller, the nearer to Dugdale.
+        Widths r in (0, 0.5] and f in (0, 1], relative to h_0; smaller values are closer to Dugdale.
 
     Notes
     -----
-    With this h_0 the Tabor number mu and the parameter of Maugis are one number:
-    lambda = (9/(2 pi))^(1/3) mu = 1.127 mu. A contact with it has Maugis' force to about 1 in 1000
-    where the fall is 0.5 and the wall gives way by little beside the depth: a rise of 1e-4 serves
-    for lambda from 0.5 on, and a tenth of that at 0.05. With a fall of 1 forces are off by up to
-    3 in 1000. A fall smaller than the change of the gap from node to node makes the edge jump
-    from node to node; the nodes are finer with a better accuracy.
+    With this h_0 the Tabor number mu and the Maugis parameter are related by
+    lambda = (9/(2 pi))^(1/3) mu = 1.127 mu. The force of a simulated contact agrees with
+    Maugis' within about 1 in 1000 for a fall of 0.5 if the wall is stiff enough: a rise of 1e-4
+    is sufficient for lambda above 0.5, and a tenth of that at 0.05. With a fall of 1 the error is
+    up to 3 in 1000. If the fall is smaller than the change of the gap between nodes, the edge jumps
+    from node to node; a higher accuracy setting refines the nodes.
 
     References
     ----------
@@ -77,7 +77,7 @@ class Dugdale:
         return self.strength * (up - down)
 
     def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the energy of unit area [J/m^2] at a gap [m]: 0 far apart, the lowest at h_0."""
+        """Return the energy per area [J/m^2] at a gap [m]: 0 at infinity, minimum at h_0."""
         r, f = self.rise, self.fall
         wall, rising, risen = self._up(gap)
         early, late, gone = self._down(gap)
@@ -88,7 +88,8 @@ class Dugdale:
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; 0 beyond the range.
 
-        Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
+        Multiplied by 2 pi R it is the energy of a sphere's flank that begins at this gap
+        (Derjaguin).
         """
         so_far = self._energy_until(np.minimum(checked_gap(gap), self._end))
         left = self._energy_until_end - so_far
@@ -104,12 +105,12 @@ class Dugdale:
 
     @property
     def strength(self) -> float:
-        """The constant tension [Pa], work of adhesion over range."""
+        """Constant tension [Pa], work of adhesion over range."""
         return self.work_of_adhesion / self.equilibrium_gap
 
     @property
     def edge_gap(self) -> float:
-        """Gap at which the tension is full [m]; the contact edge is there."""
+        """Gap at which the tension is first constant [m]; defines the contact edge."""
         return (1 + self.rise) * self.equilibrium_gap
 
     def reduced(self) -> "Dugdale":
@@ -118,7 +119,7 @@ class Dugdale:
 
     @property
     def _end(self) -> float:
-        """The gap beyond which there is nothing [m]."""
+        """Gap above which the tension is zero [m]."""
         return self.equilibrium_gap * (2 + self.rise / 3 + self.fall / 2)
 
     @cached_property
@@ -126,18 +127,18 @@ class Dugdale:
         return float(self._energy_until(self._end))
 
     def _up(self, gap: npt.ArrayLike) -> tuple[npt.NDArray, npt.NDArray, npt.NDArray]:
-        """Return how far a gap is into the wall (not positive), up the rise, beyond it [h_0]."""
+        """Return how far a gap is into the wall (not positive), up the rise and beyond [h_0]."""
         x = checked_gap(gap) / self.equilibrium_gap - 1
         return np.minimum(x, 0), np.clip(x, 0, self.rise), np.maximum(x - self.rise, 0)
 
     def _down(self, gap: npt.ArrayLike) -> tuple[npt.NDArray, npt.NDArray, npt.NDArray]:
-        """Return how far a gap is down either half of the fall, and beyond it [h_0]."""
+        """Return how far a gap is down the two halves of the fall, and beyond it [h_0]."""
         half = self.fall / 2
         y = checked_gap(gap) / self.equilibrium_gap - 2 - self.rise / 3
         return np.clip(y + half, 0, half), np.clip(y, 0, half), np.maximum(y - half, 0)
 
     def _energy_until(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the integral of the energy from h_0 to a gap, without units."""
+        """Return the integral of the energy from h_0 to a gap, dimensionless."""
         r, f = self.rise, self.fall
         wall, rising, risen = self._up(gap)
         early, late, gone = self._down(gap)

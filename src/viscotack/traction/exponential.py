@@ -1,4 +1,4 @@
-"""The exponential law: adhesion that decays over a length of its own."""
+"""Exponential law: adhesion that decays over an independent length."""
 
 from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar
@@ -12,7 +12,7 @@ from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
 @dataclass(frozen=True)
 class Exponential:
-    r"""Exponential law: linear through the equilibrium gap, and an exponential tail.
+    r"""Exponential law: linear near the equilibrium gap, with an exponential tail.
 
     With the decay length :math:`\ell = d\,h_0`
 
@@ -25,13 +25,13 @@ class Exponential:
     equilibrium_gap : float
         h_0, the gap of zero traction [m]; positive.
     decay : float
-        Decay length d over h_0; positive. 0.25 is as stiff at h_0 as Lennard-Jones, 0.358 is as
-        strong.
+        Decay length d over h_0; positive. 0.25 gives the stiffness at h_0 of Lennard-Jones, 0.358
+        the strength.
 
     Notes
     -----
-    Holds for every gap > 0. The peak tension is Delta-gamma_0/(e l), at h_0 + l. At small gaps the
-    repulsion stays finite: a decay above about 0.5 lets surfaces that are pressed hard come far
+    Valid for every gap > 0. The peak tension is Delta-gamma_0/(e l), at h_0 + l. At small gaps the
+    repulsion is finite: with a decay above about 0.5, strongly compressed surfaces come far
     below h_0.
 
     References
@@ -60,7 +60,7 @@ class Exponential:
         return self.work_of_adhesion / self._length * x * fading
 
     def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the energy of unit area [J/m^2] at a gap [m]: 0 far apart, the lowest at h_0."""
+        """Return the energy per area [J/m^2] at a gap [m]: 0 at infinity, minimum at h_0."""
         x, fading = self._opening(gap)
         return -self.work_of_adhesion * (1 + x) * fading
 
@@ -75,7 +75,8 @@ class Exponential:
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; negative far apart.
 
-        Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
+        Multiplied by 2 pi R it is the energy of a sphere's flank that begins at this gap
+        (Derjaguin).
         """
         x, fading = self._opening(gap)
         return -self.work_of_adhesion * self._length * (2 + x) * fading
@@ -92,7 +93,7 @@ class Exponential:
 
     @property
     def edge_gap(self) -> float:
-        """Gap of the largest tension [m], h_0 + l; the contact edge is there."""
+        """Gap of the largest tension [m], h_0 + l; defines the contact edge."""
         return self.equilibrium_gap + self._length
 
     def reduced(self) -> "Exponential":
@@ -104,6 +105,6 @@ class Exponential:
         return self.decay * self.equilibrium_gap
 
     def _opening(self, gap: npt.ArrayLike) -> tuple[npt.NDArray, npt.NDArray]:
-        """Return how far a gap is open beyond h_0 [decay lengths], and what has not faded there."""
+        """Return the opening beyond h_0 [decay lengths], and the exponential factor there."""
         x = (checked_gap(gap) - self.equilibrium_gap) / self._length
         return x, np.exp(-x)

@@ -1,18 +1,18 @@
-r"""Laws whose tension grows with the speed at which the gap opens.
+r"""Traction laws whose tension grows with the opening speed of the gap.
 
-A growing law has a law of the gap for its shape at rest, :math:`\sigma_0(h)`, and a growth G of the
+A growing law combines a law of the gap at rest, :math:`\sigma_0(h)`, with a growth G of the
 opening speed:
 
 .. math:: \sigma(h, \dot h) = \sigma_0(h) + \max(\sigma_0(h), 0) \, G(\max(\dot h, 0)), \quad
           G(0) = 0, \quad G' > 0 .
 
-Only surfaces that attract each other and open feel it: what closes, and what repels, is at rest's.
-So the tension is continuous in both, it falls to that of the law at rest as all becomes slow, and
-the interface makes heat, :math:`(\sigma - \sigma_0) \dot h \geq 0`, and never cold. It has no
-potential: the energy that it stores is that of the law at rest, all else is heat.
+Only attraction and opening are affected: repulsion, and closing surfaces, follow the law at rest.
+The tension is continuous in gap and speed and tends to that at rest for slow opening.
+The interface dissipates, :math:`(\sigma - \sigma_0) \dot h \geq 0`. Its stored energy is that of
+the law at rest; the rest of the work is heat.
 
-As functions of the gap alone these classes are the law at rest, which is what relaxed contacts and
-starts are made of; :func:`grows` tells them apart.
+As functions of the gap alone these classes return the law at rest, which relaxed contacts and
+starts use; :func:`grows` identifies them.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from viscotack.traction.law import EquilibriumGap, Traction, WorkOfAdhesion
 from viscotack.traction.lennard_jones import LennardJones
 from viscotack.units import positive
 
-# Part of the reference speed below which a power law grows in proportion to the speed.
+# Fraction of the reference speed below which a power law is proportional to the speed.
 _SLOW = 1e-6
-# Newton's rounds to a reference speed.
+# Number of Newton iterations for a reference speed.
 _ROUNDS = 30
 
 ReferenceSpeed = Annotated[
@@ -44,7 +44,7 @@ ReferenceSpeed = Annotated[
 
 
 class _Growing:
-    """What growing laws have in common: all but their numbers and their growth."""
+    """Common part of growing laws: everything except their constants and their growth."""
 
     work_of_adhesion: Any
     equilibrium_gap: Any
@@ -53,7 +53,7 @@ class _Growing:
 
     @classmethod
     def of(cls, base: Traction, **constants: float) -> Self:
-        """Return the law that is this one at rest, with the constants of its growth in SI."""
+        """Return the growing law with a given law at rest, with the growth constants in SI."""
         kind: Any = cls
         return kind(
             work_of_adhesion=base.work_of_adhesion,
@@ -71,13 +71,13 @@ class _Growing:
             )
         if base.work_of_adhesion != 1 or base.equilibrium_gap != 1:
             raise InputError(
-                "base must be a reduced law, of work 1 and gap 1, got "
-                f"{base!r}; {type(self).__name__}.of(law, ...) takes one in SI"
+                f"base must be a reduced law, of work 1 and gap 1, got {base!r}; use "
+                f"{type(self).__name__}.of(law, ...) for a law in SI"
             )
 
     @property
     def at_rest(self) -> Any:
-        """The law of the gap that this is while nothing opens."""
+        """The law of the gap at zero opening speed."""
         return replace(
             self.base,
             work_of_adhesion=self.work_of_adhesion,
@@ -85,21 +85,21 @@ class _Growing:
         )
 
     def growth(self, opening_speed: npt.ArrayLike) -> Array:
-        """Return by which part tension grows at opening speeds [m/s]; 0 where the gap closes."""
+        """Return the relative growth of the tension at opening speeds [m/s]; 0 while closing."""
         return self._growth(np.maximum(np.asarray(opening_speed, float) / self.reference_speed, 0))
 
     def growth_slope(self, opening_speed: npt.ArrayLike) -> Array:
-        """Return the derivative of the growth by the speed [s/m]; 0 where the gap closes."""
+        """Return the derivative of the growth by the speed [s/m]; 0 while closing."""
         u = np.asarray(opening_speed, float) / self.reference_speed
         return np.where(u > 0, self._slope(np.maximum(u, 0)), 0.0) / self.reference_speed
 
     def traction(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
-        """Return the traction [Pa], positive in tension, at gaps [m] that open so fast [m/s]."""
+        """Return the traction [Pa], positive in tension, at gaps [m] and opening speeds [m/s]."""
         tension = self.at_rest.traction(gap)
         return tension + np.maximum(tension, 0) * self.growth(opening_speed)
 
     def stiffness(self, gap: npt.ArrayLike, opening_speed: npt.ArrayLike = 0.0) -> Array:
-        """Return the derivative of the traction by the gap at a speed [Pa/m]."""
+        """Return the derivative of the traction by the gap at an opening speed [Pa/m]."""
         law = self.at_rest
         attracts = law.traction(gap) > 0
         return law.stiffness(gap) * (1 + attracts * self.growth(opening_speed))
@@ -109,7 +109,7 @@ class _Growing:
         return np.maximum(self.at_rest.traction(gap), 0) * self.growth_slope(opening_speed)
 
     def energy(self, gap: npt.ArrayLike) -> Array:
-        """Return the energy of unit area that is stored [J/m^2], that of the law at rest."""
+        """Return the stored energy per area [J/m^2], that of the law at rest."""
         return self.at_rest.energy(gap)
 
     def energy_beyond(self, gap: npt.ArrayLike) -> Array:
@@ -123,7 +123,7 @@ class _Growing:
 
     @property
     def edge_gap(self) -> float:
-        """Gap of the largest tension at rest [m]; the contact edge is there."""
+        """Gap of the largest tension at rest [m]; defines the contact edge."""
         return self.base.edge_gap * self.equilibrium_gap
 
     def reduced(self, time_unit: float = 1.0) -> Self:
@@ -133,7 +133,7 @@ class _Growing:
         return replace(law, work_of_adhesion=1.0, equilibrium_gap=1.0, reference_speed=speed)
 
     def scaled(self, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Self:
-        """Return a reduced law in SI."""
+        """Convert a reduced law to SI."""
         law: Any = self
         return replace(
             law,
@@ -144,7 +144,7 @@ class _Growing:
 
     @property
     def own_time(self) -> float:
-        """The time in which a gap opens by h_0 at the reference speed [s]."""
+        """Time in which a gap opens by h_0 at the reference speed [s]."""
         return self.equilibrium_gap / self.reference_speed
 
     def _growth(self, u: Array) -> Array:
@@ -156,7 +156,7 @@ class _Growing:
 
 @dataclass(frozen=True)
 class GentSchultz(_Growing):
-    r"""Tension that grows like a power of the opening speed, after Gent and Schultz.
+    r"""Tension that grows with a power of the opening speed, after Gent and Schultz.
 
     .. math:: G(v) = \left( \frac{v}{v_0} \right)^n \left( \frac{v}{v + v_c} \right)^{1-n},
               \quad v_c = 10^{-6} \, v_0
@@ -164,24 +164,24 @@ class GentSchultz(_Growing):
     Parameters
     ----------
     work_of_adhesion, equilibrium_gap : float
-        Of the law at rest [J/m^2] and [m]; positive.
+        Constants of the law at rest [J/m^2] and [m]; positive.
     reference_speed : float
-        v_0 [m/s], positive: the tension has doubled where the gap opens so fast.
+        v_0 [m/s], positive: the opening speed at which the tension is doubled.
     exponent : float
         n, in (0, 1].
     base : LennardJones, Exponential, Dugdale or Tabulated
-        The reduced law at rest. :meth:`of` takes one in SI.
+        The reduced law at rest. :meth:`of` accepts one in SI.
 
     Notes
     -----
-    A power below 1 has an infinite slope at speed 0. Bonds that open by thermal activation are
-    slower than that: far below the speed at which force helps them they let go as often as they
-    form, and resist in proportion to the speed. So the second factor, which is 1 but for speeds of
-    some 10^-6 v_0 and less; above 10^-3 v_0 it changes G by less than 10^-3.
+    A power below 1 has an infinite slope at zero speed, in contrast to thermally activated bonds:
+    far below the speed at which force matters they open as often as they form, and resist in
+    proportion to the speed. The second factor describes this. It is 1 except at speeds of about
+    10^-6 v_0 and less; above 10^-3 v_0 it changes G by less than 10^-3.
 
-    Gent and Schultz found the power in the energy of a crack against ITS speed. Here it is one of
-    the gap's speed at each place, of which a crack's energy follows: the power is then the same
-    while the bulk is elastic, the reference speed another (docs/growing_interface.md).
+    Gent and Schultz found the power law for the energy of a crack against ITS speed. Here it
+    relates to the local opening speed of the gap, from which the crack's energy follows: for an
+    elastic bulk the power is the same, but the reference speed differs (docs/growing_interface.md).
 
     References
     ----------
@@ -213,7 +213,7 @@ class GentSchultz(_Growing):
 
 
 def power_growth(ratio: npt.ArrayLike, exponent: npt.ArrayLike) -> Array:
-    """Return G of :class:`GentSchultz` laws at opening speeds over v0, not negative."""
+    """Return G of :class:`GentSchultz` laws at opening speeds relative to v0, not negative."""
     u = np.asarray(ratio, dtype=float)
     return u * (u + _SLOW) ** (np.asarray(exponent, dtype=float) - 1)
 
@@ -221,14 +221,14 @@ def power_growth(ratio: npt.ArrayLike, exponent: npt.ArrayLike) -> Array:
 def reference_speed(
     growth: npt.ArrayLike, opening_speed: npt.ArrayLike, exponent: npt.ArrayLike
 ) -> Array:
-    """Return v0 of the :class:`GentSchultz` law that grows by so much at an opening speed.
+    """Return v0 of the :class:`GentSchultz` law with a given growth at an opening speed.
 
     Parameters
     ----------
     growth : array_like
-        G, not negative; 0 has an infinite reference speed.
+        G, not negative; 0 gives an infinite reference speed.
     opening_speed : array_like
-        Positive, in any unit, which is that of the answer.
+        Opening speed, positive, in any unit; the result has the same unit.
     exponent : array_like
         n, in (0, 1].
 
@@ -242,7 +242,7 @@ def reference_speed(
     G, n = np.asarray(growth, dtype=float), np.asarray(exponent, dtype=float)
     grown = G > 0
     log_growth = np.log(np.where(grown, G, 1.0))
-    # of both of its powers the growth is the smaller one; Newton in logarithms, of slope n to 1
+    # the growth is below both of its asymptotic powers; Newton in logarithms, with slope n to 1
     log_u = np.maximum(log_growth / n, log_growth - (n - 1) * np.log(_SLOW))
     for _ in range(_ROUNDS):
         u = np.exp(log_u)
@@ -253,22 +253,22 @@ def reference_speed(
 
 @dataclass(frozen=True)
 class Eyring(_Growing):
-    r"""Tension that grows with the logarithm of the opening speed, as that of activated bonds.
+    r"""Tension that grows with the logarithm of the opening speed, like thermally activated bonds.
 
     .. math:: G(v) = s \, \mathrm{arsinh} \frac{v}{v_0}
 
-    In proportion to the speed below v_0, by s for every factor of e above it.
+    The growth is proportional to the speed below v_0, and rises by s per factor of e above it.
 
     Parameters
     ----------
     work_of_adhesion, equilibrium_gap : float
-        Of the law at rest [J/m^2] and [m]; positive.
+        Constants of the law at rest [J/m^2] and [m]; positive.
     reference_speed : float
-        v_0 [m/s], positive: where thermal activation gives way to force.
+        v_0 [m/s], positive: crossover from thermal activation to force.
     sensitivity : float
         s, positive.
     base : LennardJones, Exponential, Dugdale or Tabulated
-        The reduced law at rest. :meth:`of` takes one in SI.
+        The reduced law at rest. :meth:`of` accepts one in SI.
 
     References
     ----------
@@ -301,26 +301,26 @@ class Eyring(_Growing):
 
 
 def grows(law: Any) -> bool:
-    """Return whether a law, or a class of laws, is one of the opening speed too."""
+    """Return whether a law, or a class of laws, depends on the opening speed."""
     return hasattr(law, "growth_slope")
 
 
 def reduced(law: Traction, time_unit: float) -> Any:
-    """Return a law without dimensions, its speeds in h_0 per time unit [s]."""
+    """Return the dimensionless law, with speeds in h_0 per time unit [s]."""
     return law.reduced(time_unit) if isinstance(law, _Growing) else law.reduced()
 
 
 def scaled(law: Any, work_of_adhesion: float, equilibrium_gap: float, time_unit: float) -> Any:
-    """Return a reduced law in SI."""
+    """Convert a reduced law to SI."""
     if isinstance(law, _Growing):
         return law.scaled(work_of_adhesion, equilibrium_gap, positive("time_unit", time_unit, "s"))
     return replace(law, work_of_adhesion=work_of_adhesion, equilibrium_gap=equilibrium_gap)
 
 
 def check_of_gap_alone(law: Any, what: str) -> None:
-    """Refuse a law that grows with the opening speed where what is asked does not know it."""
+    """Raise an error for a law that depends on the opening speed."""
     if grows(law):
         raise OutOfRange(
-            f"the law {type(law).word} grows with the opening speed, and {what} knows laws of the "
-            "gap alone; simulate it, or take its law at rest"
+            f"the law {type(law).word} grows with the opening speed, but {what} supports laws of "
+            "the gap only; simulate it, or use its law at rest"
         )

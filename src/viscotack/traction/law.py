@@ -1,4 +1,4 @@
-"""What a contact asks of a traction law."""
+"""Protocol of traction laws, and measures of their range."""
 
 from functools import lru_cache
 from typing import Annotated, Protocol
@@ -23,27 +23,27 @@ EquilibriumGap = Annotated[
     float, Quantity("m", "h0", "gap of zero traction", above=0, example="1.55 um")
 ]
 
-# Strength of the Lennard-Jones law in work of adhesion over equilibrium gap, the measure of ranges.
+# Strength of the Lennard-Jones law in work of adhesion over equilibrium gap, the unit of ranges.
 _STRENGTH = 16 / (9 * 3**0.5)
 
-# Gaps are halved until the tension changes by less than this part of the strength between them, or
-# so many times: a fall that is steeper still is a step.
+# Gaps are bisected until the tension changes by less than this fraction of the strength between
+# them, at most this number of times: a steeper fall is a step.
 _SMALL_FALL, _HALVINGS = 0.02, 20
 
 
 class Traction(Protocol):
-    """What a traction law offers, for the type checker; a dataclass with these names is a law.
+    """Protocol of a traction law for type checkers; a dataclass with these names is a law.
 
     Attributes
     ----------
     work_of_adhesion : float
         Work to separate unit area from the equilibrium gap [J/m^2].
     equilibrium_gap : float
-        The gap of zero traction [m]; repulsion is below it, attraction above.
+        Gap of zero traction [m]; repulsive below, attractive above.
     strength : float
         Largest tension [Pa].
     edge_gap : float
-        Gap of the largest tension [m], where it is reached first; the contact edge is there.
+        Smallest gap with the largest tension [m]; defines the contact edge.
     """
 
     @property
@@ -62,7 +62,7 @@ class Traction(Protocol):
 
 
 def checked_gap(gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return gaps as an array, or refuse surfaces that touch or pass through each other."""
+    """Return gaps as an array; raise an error unless all are positive."""
     h = np.asarray(gap, dtype=float)
     if not (h > 0).all():
         raise InputError(f"gap must be positive, got a minimum of {h.min()} m")
@@ -78,13 +78,13 @@ def energy_and_traction(
 
 
 def effective_range(law: Traction) -> float:
-    r"""Return the range of a law over its equilibrium gap: that of a Lennard-Jones law as strong.
+    r"""Return the effective range of a law over its equilibrium gap, from its strength.
 
     .. math:: s = \frac{16}{9\sqrt 3} \frac{\Delta\gamma_0}{\sigma_0 h_0}
 
-    It is the length over which adhesion acts, whatever the gap at which it begins: 1 for
-    Lennard-Jones, 1.03 for Dugdale, 2.79 d for an exponential law of decay d. A contact of Tabor
-    number mu with this law is about as near to JKR as one of mu/s with Lennard-Jones.
+    This is the equilibrium gap of a Lennard-Jones law of the same work and strength, over h_0: 1
+    for Lennard-Jones, 1.03 for Dugdale, 2.79 d for an exponential law of decay d. A contact of
+    Tabor number mu with this law is about as close to JKR as one of mu/s with Lennard-Jones.
 
     Examples
     --------
@@ -98,9 +98,9 @@ def effective_range(law: Traction) -> float:
 
 @lru_cache(maxsize=64)
 def softening(law: Traction) -> float:
-    """Return the steepest fall of the tension with the gap, in strength squared over work.
+    """Return the steepest decrease of the tension with the gap, in strength squared over work.
 
-    A number that tells how fine nodes must be: 1.19 for Lennard-Jones, 2/f for Dugdale.
+    It determines the node spacing of a simulation: 1.19 for Lennard-Jones, 2/f for Dugdale.
 
     Examples
     --------

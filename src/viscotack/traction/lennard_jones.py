@@ -26,7 +26,7 @@ class LennardJones:
 
     Notes
     -----
-    Holds for every gap > 0. The peak tension is 16/(9 sqrt(3)) Delta-gamma_0/h_0, at
+    Valid for every gap > 0. The peak tension is 16/(9 sqrt(3)) Delta-gamma_0/h_0, at
     3^(1/6) h_0; that gap defines the contact edge everywhere in this package.
 
     References
@@ -55,9 +55,9 @@ class LennardJones:
         return (8 * self.work_of_adhesion / (3 * self.equilibrium_gap)) * (x3 - x3 * x3 * x3)
 
     def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the energy of unit area [J/m^2] at a gap [m]: 0 far apart, the lowest at h_0.
+        """Return the energy per area [J/m^2] at a gap [m]: 0 at infinity, minimum at h_0.
 
-        There it is minus the work of adhesion. Its derivative by the gap is the traction.
+        The minimum is minus the work of adhesion. The derivative by the gap is the traction.
         """
         x2 = self._inverse_gap(gap) ** 2
         return -(self.work_of_adhesion / 3) * (4 * x2 - (x2 * x2) ** 2)
@@ -75,7 +75,8 @@ class LennardJones:
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; negative far apart.
 
-        Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
+        Multiplied by 2 pi R it is the energy of a sphere's flank that begins at this gap
+        (Derjaguin).
         """
         x = self._inverse_gap(gap)
         x3 = x * x * x
@@ -94,7 +95,7 @@ class LennardJones:
 
     @property
     def edge_gap(self) -> float:
-        """Gap of the largest tension [m], 3^(1/6) h_0; the contact edge is there."""
+        """Gap of the largest tension [m], 3^(1/6) h_0; defines the contact edge."""
         return 3 ** (1 / 6) * self.equilibrium_gap
 
     def reduced(self) -> "LennardJones":

@@ -1,4 +1,4 @@
-"""A law given as a table: measured, or computed by another code."""
+"""Traction law from a table, measured or computed by another program."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,20 +13,20 @@ from viscotack.cards import conform
 from viscotack.errors import InputError
 from viscotack.traction.law import EquilibriumGap, WorkOfAdhesion, checked_gap
 
-# What the table says of its own work and zero may miss 1 by this.
+# Tolerance of the table's work and zero.
 _ROUND_OFF = 1e-9
-# A finer table says nothing more of a law, and each look at it takes longer.
+# Largest number of gaps; finer tables gain nothing and slow every evaluation.
 _MOST_POINTS = 10_000
 
 
 @dataclass(frozen=True)
 class Tabulated:
-    r"""Law through points: monotone between them, so that it has no hump that the table has not.
+    r"""Traction law through points, monotone between them (no artificial extrema).
 
-    The traction is the piecewise cubic of Fritsch and Carlson, its energy the exact integral. Above
-    the last gap there is nothing; below the first the traction goes on with the slope it has there.
-    A surface that is pressed harder than that repels at gap 0 has no equilibrium, so let the table
-    begin well inside the repulsion.
+    The traction is the piecewise cubic of Fritsch and Carlson, its energy the exact integral. It is
+    zero above the last gap and continues linearly below the first one. Because the repulsion at gap
+    0 is then finite, a surface pressed harder has no equilibrium: begin the table well inside the
+    repulsion.
 
     Parameters
     ----------
@@ -36,13 +36,13 @@ class Tabulated:
         h_0, the gap of zero traction [m]; positive.
     points : tuple of (float, float)
         Gaps over h_0, ascending, and tractions over Delta-gamma_0/h_0: repulsion (negative) first,
-        one zero at 1, zero at the end, and a work of 1. :meth:`of_points` makes them from a table
-        in SI.
+        one zero at 1, zero at the end, and a work of 1. :meth:`of_points` computes them from a
+        table in SI.
 
     Raises
     ------
     ValueError
-        If the points do not say such a law.
+        If the points do not define such a law.
 
     References
     ----------
@@ -74,14 +74,14 @@ class Tabulated:
         if abs(work - 1) > _ROUND_OFF or abs(at_one) > _ROUND_OFF * size:
             raise InputError(
                 "points must have zero traction at gap 1 and work 1 beyond it, got "
-                f"{at_one:g} and {work:g}; Tabulated.of_points makes them so"
+                f"{at_one:g} and {work:g}; Tabulated.of_points normalises them"
             )
 
     @classmethod
     def of_points(cls, gap: npt.ArrayLike, traction: npt.ArrayLike) -> "Tabulated":
         """Return the law through a table of gaps [m] and tractions [Pa], tension positive.
 
-        Work of adhesion and equilibrium gap are those of the curve through the points.
+        Work of adhesion and equilibrium gap follow from the curve through the points.
         """
         h, t = np.asarray(gap, dtype=float), np.asarray(traction, dtype=float)
         _check_number(len(h))
@@ -100,13 +100,14 @@ class Tabulated:
         return scale * self._curves.traction(self._within(gap))
 
     def energy(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return the energy of unit area [J/m^2] at a gap [m]: 0 far apart, the lowest at h_0."""
+        """Return the energy per area [J/m^2] at a gap [m]: 0 at infinity, minimum at h_0."""
         return self.work_of_adhesion * self._curves.energy(self._within(gap))
 
     def energy_beyond(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the integral of the energy from a gap [m] to infinity [J/m]; 0 beyond the table.
 
-        Times 2 pi R it is the energy of a sphere's flank that begins at this gap (Derjaguin).
+        Multiplied by 2 pi R it is the energy of a sphere's flank that begins at this gap
+        (Derjaguin).
         """
         scale = self.work_of_adhesion * self.equilibrium_gap
         return -scale * self._curves.energy_so_far(self._within(gap))
@@ -115,18 +116,18 @@ class Tabulated:
         """Return the derivative of the traction by the gap [Pa/m]; negative where it softens."""
         scale = self.work_of_adhesion / self.equilibrium_gap**2
         within = self._within(gap)
-        # at the end the curve may come down with a slope; beyond it there is none
+        # the curve may reach the end with a slope; beyond it the slope is zero
         return scale * self._curves.stiffness(within) * (within < self.points[-1][0])
 
     @property
     def strength(self) -> float:
-        """Largest tension of the law [Pa]; a monotone curve has it at one of its points."""
+        """Largest tension of the law [Pa], at one of the points of the monotone curve."""
         scale = self.work_of_adhesion / self.equilibrium_gap
         return scale * max(traction for _, traction in self.points)
 
     @property
     def edge_gap(self) -> float:
-        """Gap of the largest tension [m]; the contact edge is there."""
+        """Gap of the largest tension [m]; defines the contact edge."""
         gap, _ = max(self.points, key=lambda point: point[1])
         return gap * self.equilibrium_gap
 
@@ -135,12 +136,12 @@ class Tabulated:
         return replace(self, work_of_adhesion=1.0, equilibrium_gap=1.0)
 
     def _within(self, gap: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return gaps over h_0, those beyond the table at its end, where all is zero."""
+        """Return gaps over h_0, limited to the end of the table, where the traction is zero."""
         return np.minimum(checked_gap(gap) / self.equilibrium_gap, self.points[-1][0])
 
     @cached_property
     def _curves(self) -> "_Curves":
-        """The curve through the points, its derivative and its integrals, zero at the end."""
+        """Curve through the points, its derivative and its integrals, zero at the end."""
         gap, traction = np.array(self.points).T
         inner = scipy.interpolate.PchipInterpolator(gap, traction)
         # a first piece from gap 0, straight, and a last one without anything, its slope neither
@@ -160,7 +161,7 @@ class _Curves(NamedTuple):
 
 
 def _zero_at_end(curve: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
-    """Return the curve with zero at its end, summed from there: a wall may be worth 1e9 tails."""
+    """Shift the curve to zero at its end, summed from there to avoid cancellation."""
     moved, step = curve.c.copy(), np.diff(curve.x)
     moved[-1] = 0.0
     gained = np.sum([c * step**power for power, c in enumerate(moved[::-1])], axis=0)
@@ -170,15 +171,13 @@ def _zero_at_end(curve: "scipy.interpolate.PPoly") -> "scipy.interpolate.PPoly":
 
 def _check_number(points: int) -> None:
     if points > _MOST_POINTS:
-        raise InputError(
-            f"a table has at most {_MOST_POINTS:,} gaps, got {points:,}; leave out rows"
-        )
+        raise InputError(f"a table has at most {_MOST_POINTS:,} gaps, got {points:,}; remove rows")
 
 
 def _check(gap: npt.NDArray, traction: npt.NDArray) -> None:
-    """Refuse points through which no law goes."""
+    """Raise an error for points that do not define a law."""
     if gap.ndim != 1 or gap.shape != traction.shape or len(gap) < 4:
-        raise InputError("a table has at least four gaps, and as many tractions")
+        raise InputError("a table needs at least four gaps, and as many tractions")
     if not (np.isfinite(gap).all() and np.isfinite(traction).all()):
         raise InputError("gaps and tractions must be finite numbers")
     if gap[0] <= 0 or np.any(np.diff(gap) <= 0):
@@ -191,7 +190,7 @@ def _check(gap: npt.NDArray, traction: npt.NDArray) -> None:
     if traction[-1] != 0:
         raise InputError(
             f"the traction must be zero at the last gap, got {traction[-1]:g}; add a row with the "
-            "gap beyond which there is none"
+            "end of the range"
         )
     if traction.max() <= 0 or sum(a < 0 <= b or a >= 0 > b for a, b in pairwise(traction)) != 1:
         raise InputError(

@@ -1,7 +1,7 @@
-"""Tack tests and force curves: read, cut into cycles, corrected, and what they say.
+"""Tack tests and force curves: reading, division into cycles, correction and evaluation.
 
-A record is what the rig wrote; a cycle is one approach, dwell and retraction with its zero, tilt,
-drift and compliance taken off, and its pull-off, work, depths and true speed.
+A record contains the raw data of a test. A cycle is one approach, dwell and retraction, corrected
+for zero, tilt, drift and compliance, with its pull-off force, work, depths and true speed.
 """
 
 from .cycle import Cycle, Measured

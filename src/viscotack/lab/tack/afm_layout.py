@@ -1,8 +1,8 @@
-"""Layouts of microscopes that afmformats reads and this package does not (extra ``afm``).
+"""Layouts of atomic force microscopes that are read by afmformats (extra ``afm``).
 
-Maps of JPK (.jpk-force-map, .jpk-qi-data), curves of AFM Workshop, and the files that afmformats
-writes itself (.h5, .tab). Its heights grow away from the sample. It is by Paul Müller and others,
-under the MIT licence: https://afmformats.readthedocs.io.
+These are maps of JPK (.jpk-force-map, .jpk-qi-data), curves of AFM Workshop, and the formats of
+afmformats itself (.h5, .tab). Its heights increase away from the sample. afmformats is by Paul
+Müller and others, under the MIT licence: https://afmformats.readthedocs.io.
 """
 
 import io
@@ -20,13 +20,13 @@ from .grid import Given, time_by_speed
 from .header import bending, recorded
 from .record import TackRecord
 
-HDF = b"\x89HDF"  # how an .h5 begins
+HDF = b"\x89HDF"  # first bytes of an .h5 file
 _ENDINGS = (".jpk-force-map", ".jpk-qi-data", ".h5")
-_FIRST = ("Force-Distance Curve", "# afmformats")  # lines: of AFM Workshop, and of a .tab
+_FIRST = ("Force-Distance Curve", "# afmformats")  # first lines of AFM Workshop and .tab files
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is another one."""
+    """Return the name of the format, or None for other files."""
     first = file.lines[0] if file.lines else ""
     known = PurePath(file.path).suffix.casefold() in _ENDINGS or first.startswith(_FIRST)
     return "afmformats" if known else None
@@ -38,27 +38,27 @@ def records(file: LabFile, given: Given) -> list[TackRecord]:
     Raises
     ------
     ValueError
-        If afmformats is not installed or cannot read the file, or a curve has no force, or no time
-        and no nominal speed was said.
+        If afmformats is not installed or cannot read the file, or a curve has no force, or has no
+        time while no nominal speed was given.
     """
     try:
         library = import_module("afmformats")
     except ImportError:
         raise file.error(
-            "afmformats reads such files and is not installed: pip install viscotack[afm]"
+            "this format needs afmformats, which is not installed: pip install viscotack[afm]"
         ) from None
     if file.content.startswith(b"PK"):
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
             if huge(parts):
                 raise file.error("it unpacks to more than 200 MB")
-    # it logs the traceback of what it raises, too
+    # afmformats also logs the tracebacks of its errors
     logging.getLogger("afmformats").setLevel(logging.CRITICAL)
     try:
         curves = list(library.load_data(file.path))
     except (KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:
-        # its errors are no Exceptions, and damaged files make it fail in other ways
+        # its errors do not derive from Exception, and damaged files raise others
         raise file.error(f"afmformats cannot read it: {error}") from None
     return [found for curve in curves for found in _record(file, curve, given)]
 

@@ -1,9 +1,9 @@
-"""The force where nothing touches: its zero, tilt along the way and drift in time.
+"""Baseline of the force out of contact: zero, tilt over depth and drift over time.
 
-Both ends of a cycle are free where the test is long enough: the approach before it touches and the
-retraction after it lets go. A tilt goes with the depth, a drift with the time; each is taken only
-where the free parts show it (a Bayesian criterion on block means, whose scatter holds the slow
-wander of a sensor too).
+If the test is long enough, both ends of a cycle are free of contact: the approach before contact
+and the retraction after detachment. Tilt and drift are subtracted only if the free parts
+support them, by a Bayesian criterion on block means, whose scatter includes the slow wander of a
+sensor.
 """
 
 from dataclasses import dataclass
@@ -12,15 +12,16 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-_BLOCKS = 12  # of each free part
-_OUT = 4.0  # standard deviations of the noise: the force has left its zero
-_FEW = 8  # points that make a free part
-_PENALTY = 2.0  # of the usual one: neighbouring blocks of a wandering sensor are alike
+_BLOCKS = 12  # number per free part
+_OUT = 4.0  # standard deviations of the noise above which contact has begun
+_FEW = 8  # smallest number of points of a free part
+# factor on the usual penalty, because neighbouring blocks of a wandering sensor correlate
+_PENALTY = 2.0
 
 
 @dataclass(frozen=True)
 class Baseline:
-    """The force out of contact as a law of depth and time, with what it does not know.
+    """Force out of contact as a law of depth and time, with its uncertainty.
 
     Parameters
     ----------
@@ -29,11 +30,11 @@ class Baseline:
     terms : tuple of str
         Among "zero", "tilt" and "drift".
     covariance : ndarray
-        Of the coefficients.
+        Covariance of the coefficients.
     noise : float
-        Standard deviation of one point about it [N].
+        Standard deviation of single points [N].
     origin : tuple of float
-        Depth [m] and time [s] to which the coefficients belong.
+        Depth [m] and time [s] at which the coefficients hold.
     """
 
     coefficients: tuple[float, ...]
@@ -43,11 +44,11 @@ class Baseline:
     origin: tuple[float, float]
 
     def at(self, depth: Array, time: Array) -> Array:
-        """Return the force without contact [N]."""
+        """Return the force out of contact [N]."""
         return self._terms(depth, time) @ np.array(self.coefficients)
 
     def uncertainty(self, depth: float, time: float) -> float:
-        """Return the standard uncertainty of the force without contact there [N]."""
+        """Return the standard uncertainty of the force out of contact [N]."""
         x = self._terms(np.array([depth]), np.array([time]))[0]
         return float(np.sqrt(max(x @ self.covariance @ x, 0.0)))
 
@@ -61,32 +62,32 @@ def _terms(terms: tuple[str, ...], depth: Array, time: Array) -> Array:
 
 
 def free_before(force: Array) -> int:
-    """Return how many points from the beginning are free of contact.
+    """Return the number of points free of contact at the beginning.
 
-    The level is that of the first quarter; contact is where the force leaves it for good.
+    The level is that of the first quarter; contact begins where the force leaves it permanently.
     """
     return free_after(force[::-1])
 
 
 def free_after(force: Array) -> int:
-    """Return how many points up to the end are free of contact, in the same way."""
+    """Return the number of points free of contact at the end, by the same criterion."""
     count = max(force.size // 20, _FEW)
     if force.size < 2 * _FEW:
         return 0
     free = count
-    # of the whole, free or not: a few quiet points at the end are no measure of noise
+    # noise of the whole signal: a few quiet points at the end are not representative
     least = max(point_noise(force), 1e-9 * float(np.ptp(force)))
     for _ in range(30):
         part = force[-free:]
         x = np.linspace(-1.0, 0.0, part.size)
         line = np.polynomial.Polynomial.fit(x, part, 1 if free > 4 * _FEW else 0)
         noise = max(least, float(np.std(part - line(x))))
-        # a little beyond, a line may still be trusted
+        # extrapolate the line only slightly
         reach = min(force.size, int(1.3 * free) + 1)
         ahead = force[-reach:]
         where = np.linspace(-(reach - 1) / max(part.size - 1, 1), 0.0, reach)
         out = np.abs(ahead - line(where)) > _OUT * noise
-        # three together: a single point may be out by chance
+        # three consecutive points, because a single outlier may be random
         left = np.flatnonzero(out[:-2] & out[1:-1] & out[2:])
         grown = reach - int(left[-1]) - 3 if left.size else reach
         if grown <= free or reach == force.size:
@@ -96,14 +97,14 @@ def free_after(force: Array) -> int:
 
 
 def point_noise(values: Array) -> float:
-    """Return the standard deviation of single points, from second differences: no slope in it."""
+    """Return the standard deviation of single points, from second differences (slope-free)."""
     return float(1.4826 * np.median(np.abs(np.diff(values, 2))) / np.sqrt(6))
 
 
 def baseline(
     force: Array, depth: Array, time: Array, before: slice | None, after: slice
 ) -> Baseline:
-    """Return the law of the free parts: before contact, where there is one, and after it."""
+    """Fit the baseline to the free parts before contact, if any, and after contact."""
     parts = [part for part in (before, after) if part is not None]
     blocks = [_blocks(force[p], depth[p], time[p]) for p in parts]
     F, d, t = (np.concatenate(column) for column in zip(*blocks, strict=True))
@@ -123,7 +124,7 @@ def baseline(
 
 
 def _blocks(force: Array, depth: Array, time: Array) -> list[Array]:
-    """Return means over blocks of equal numbers of points."""
+    """Average over blocks of equal numbers of points."""
     cuts = np.array_split(np.arange(force.size), min(_BLOCKS, force.size))
     return [np.array([column[cut].mean() for cut in cuts]) for column in (force, depth, time)]
 
@@ -134,7 +135,7 @@ def _fit(terms: tuple[str, ...], F: Array, depth: Array, time: Array) -> tuple[A
     scale = np.maximum(np.max(np.abs(X), axis=0), 1e-300)
     values, *_ = np.linalg.lstsq(X / scale, F, rcond=None)
     rest = F - X / scale @ values
-    # round-off of the sum is the least scatter that can be seen
+    # the scatter is at least the round-off of the sum
     least = max(float(np.max(np.abs(F))) * 1e-12, 1e-150) ** 2
     squares = max(float(rest @ rest), least * F.size)
     variance = squares / max(F.size - len(terms), 1)

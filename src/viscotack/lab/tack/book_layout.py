@@ -1,4 +1,4 @@
-"""Layout of workbooks: Zwick testXpert, one sheet of values for each specimen, or any like it."""
+"""Layout of workbooks: Zwick testXpert, one sheet of values per specimen, and similar ones."""
 
 from collections.abc import Sequence
 
@@ -8,25 +8,25 @@ from viscotack.lab.workbook_layout import sheets, under
 
 from .grid import grid, heads_columns
 
-_LOOKED = 50  # rows in which the headings are looked for
+_LOOKED = 50  # rows searched for the headings
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is no workbook."""
+    """Return the name of the format, or None if the file is not a workbook."""
     return "workbook" if file.is_workbook and b"segments/0" not in file.content else None
 
 
 def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
-    """Return the table of each sheet that names a force and a position or a time.
+    """Return the table of each sheet with columns of force and of position or time.
 
-    `names` are headings that the caller names, by which their row is found.
+    `names` are headings given by the caller to find the row of headings.
 
     Raises
     ------
     ValueError
-        If the file is no readable workbook, or no sheet has such headings.
+        If the workbook cannot be read, or no sheet has such headings.
     ImportError
-        If the library that reads workbooks is not installed.
+        If the library for workbooks is not installed.
     """
     if not file.is_workbook:
         raise file.error("expected an Excel workbook")
@@ -38,7 +38,7 @@ def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
             tables.append(grid(file, rows[at], *under(rows, at), f"sheet {title!r}"))
     if not tables:
         raise file.error(
-            'no sheet names the columns of a tack test, such as "Travel, Force, Time", in its '
+            'no sheet has the columns of a tack test, such as "Travel, Force, Time", in its '
             f"first {_LOOKED} rows; the sheets are {', '.join(map(repr, found))}"
         )
     return tables

@@ -1,7 +1,7 @@
-"""What one cycle of a tack test says: pull-off, work, depths and speeds, each with its uncertainty.
+"""Results of one cycle of a tack test: pull-off, work, depths and speeds, with uncertainties.
 
-Force is positive in compression, depth positive into the solid and zero where the sphere first
-touches; the pull-off force is a positive number. Uncertainties are standard ones (68 %).
+Force is positive in compression. Depth is positive into the solid and zero at first
+contact. The pull-off force is positive. Uncertainties are standard uncertainties (68 %).
 """
 
 from dataclasses import dataclass
@@ -28,21 +28,21 @@ class Cycle:
     Parameters
     ----------
     number : int
-        From 1, in the order of the record.
+        Counted from 1, in the order of the record.
     time, force, depth : ndarray, shape (N,)
-        Of the whole cycle [s, N, m], corrected for zero, tilt, drift and compliance.
+        Data of the whole cycle [s, N, m], corrected for zero, tilt, drift and compliance.
     contact_radius : ndarray or None
-        From a camera [m].
+        Measured by a camera [m].
     segments : Segments
-        Where approach, dwell and retraction begin in these arrays.
+        Indices where approach, dwell and retraction begin in these arrays.
     pull_off_force : Measured
         Largest tension of the retraction [N].
     pull_off_raw : float
-        The same as it stands in the file, without any correction [N].
+        The same from the uncorrected force of the file [N].
     pull_off_at : int
-        Index of that point in the arrays.
+        Index of the pull-off in the arrays.
     depth_at_pull_off : Measured
-        Depth there [m].
+        Depth at pull-off [m].
     work_to_pull_off, work_of_separation : Measured
         Integral of -force d(depth) from the last zero crossing of the force to the pull-off and
         to the end of the contact [J].
@@ -51,18 +51,18 @@ class Cycle:
     preload_depth : Measured
         Depth where the retraction begins [m].
     dwell_time : float
-        Between approach and retraction [s].
+        Time between approach and retraction [s].
     speed : Measured
-        True speed of the drive between the zero crossing of the force and the pull-off [m/s], and
-        how far that is from even.
+        True speed of the drive between the zero crossing of the force and the pull-off [m/s];
+        the uncertainty is its unevenness.
     mean_speed : Measured
-        Over the whole retraction [m/s].
+        Speed over the whole retraction [m/s].
     approach_speed : float or None
-        In the middle of the approach [m/s].
+        Speed in the middle of the approach [m/s].
     noise : float
         Standard deviation of the force out of contact [N].
     source : Source
-        Where the numbers come from; its notes say what was decided.
+        Origin of the numbers; its notes list all decisions.
     """
 
     number: int
@@ -90,5 +90,5 @@ class Cycle:
 
     @property
     def retraction(self) -> slice:
-        """The points of the retraction."""
+        """Slice of the points of the retraction."""
         return slice(self.segments.retract, self.segments.end)

@@ -1,8 +1,8 @@
-"""From a record to its cycles: zero, tilt, drift and compliance taken off, bad curves refused.
+"""Evaluate a record: subtract zero, tilt, drift and compliance, and reject bad cycles.
 
-What a curve must show: a retraction that ends free of contact, a pull-off above the noise, more
-than one point at it, no force at the end of its range, a zero that is known better than the
-pull-off. Each refusal says which of them fails, with numbers.
+A valid cycle has a retraction that ends free of contact, a pull-off above the noise with more
+than one point, no force at the end of the sensor's range, and a zero more certain than the
+pull-off. Each rejection states the failed criterion with numbers.
 """
 
 from dataclasses import dataclass
@@ -18,20 +18,20 @@ from .cycle import Cycle, Measured
 from .record import TackRecord
 from .segments import Segments, depth_of, force_sign, segments
 
-_POINTS = 20  # of a retraction
-_FREE = 8  # points out of contact at its end
-_FAR = 0.05  # of the way of the retraction: an approach that comes from outside
-_ABOVE = 5.0  # standard deviations of the noise: a pull-off that is seen
-_ZERO = 0.25  # of the pull-off: a zero no better known than this is none
-_LONE = 0.5  # of the pull-off: one point that far beyond both neighbours is none
+_POINTS = 20  # smallest number of points of a retraction
+_FREE = 8  # smallest number of points out of contact at its end
+_FAR = 0.05  # fraction of the retraction's travel that an approach must cover before contact
+_ABOVE = 5.0  # pull-off over standard deviation of the noise, at least
+_ZERO = 0.25  # relative to the pull-off: largest uncertainty of the zero
+_LONE = 0.5  # relative to the pull-off: a point this far beyond both neighbours is a spike
 _CLIPPED = 8  # equal extreme values in a row while the drive moves ...
-_MOVED = 0.002  # ... by more than this part of its way
-_SLIDING = 0.1  # of the drive's way by which a corrected depth may turn back
+_MOVED = 0.002  # ... by more than this fraction of its travel
+_SLIDING = 0.1  # fraction of the travel by which the corrected depth may reverse
 
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why a cycle of a record gives no numbers."""
+    """A rejected cycle and the reason."""
 
     number: int
     reason: str
@@ -39,7 +39,7 @@ class Refusal:
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """The cycles of one record, and those that were refused."""
+    """The cycles of one record, and the rejected ones."""
 
     record: TackRecord
     cycles: tuple[Cycle, ...]
@@ -55,24 +55,26 @@ def evaluate(
     compression: int = 0,
     retraction_only: bool = False,
 ) -> Evaluation:
-    """Return the cycles of a record with their numbers.
+    """Evaluate the cycles of a record.
 
     Parameters
     ----------
     record : TackRecord
-        What :func:`viscotack.lab.tack.read` gives.
+        Record from :func:`viscotack.lab.tack.read`.
     compliance : float, optional
-        Of frame, load cell and holder [m/N]: how far the drive moves for each newton while a
-        rigid contact would not. Otherwise that which the file names, or 0.
+        Compliance of frame, load cell and holder [m/N]: motion of the drive per newton at a
+        rigid contact. By default the value stated in the file, or 0.
     compliance_uncertainty : float
-        Standard uncertainty of it [m/N].
+        Standard uncertainty of the compliance [m/N].
     into : {1, -1, 0}
-        Whether larger positions are deeper; 0 lets heading or signal say.
+        Whether larger positions are deeper (1) or shallower (-1); 0 detects it from heading or
+        signal.
     compression : {1, -1, 0}
-        Sign of a compression in the file; 0 lets the signal say.
+        Sign of compression in the file; 0 detects it from the signal.
     retraction_only : bool
-        Take cycles without an approach that begins free of contact: their zero of force is known
-        from after the pull-off only, and depth is zero where the force of the retraction is.
+        Accept cycles whose approach does not begin free of contact: then the zero of the force
+        follows from the points after pull-off only, and depth is zero where the retraction's force
+        is zero.
 
     Returns
     -------
@@ -81,7 +83,7 @@ def evaluate(
     Raises
     ------
     ValueError
-        If there is no retraction, or a sign cannot be told.
+        If there is no retraction, or a sign cannot be determined.
     """
     if compliance is not None and not 0 <= compliance < np.inf:
         raise InputError(f"compliance must not be negative, got {compliance!r} m/N")
@@ -92,7 +94,9 @@ def evaluate(
         )
     try:
         if len(record) < _POINTS:
-            raise InputError(f"{len(record)} points; a test needs {_POINTS} and more")
+            raise InputError(
+                f"the record has {len(record)} points; a test needs at least {_POINTS}"
+            )
         drive = depth_of(record, into)
         found = segments(record.time, drive)
         sign = force_sign(record.force, found)
@@ -102,9 +106,8 @@ def evaluate(
         raise _named(
             record,
             InputError(
-                "a compression is said to be "
-                f"{'positive' if compression > 0 else 'negative'}, but the force falls from the "
-                "other side when the drive retracts"
+                f"compression was given as {'positive' if compression > 0 else 'negative'}, but "
+                "the retraction shows the opposite sign; correct --compression"
             ),
         )
     machine = record.compliance if compliance is None else compliance
@@ -140,7 +143,7 @@ def _cycle(
     machine: tuple[float, float],
     retraction_only: bool,
 ) -> Cycle:
-    """Return the numbers of one cycle."""
+    """Evaluate one cycle."""
     compliance, compliance_uncertainty = machine
     span = slice(part.begin, part.end)
     own = Segments(0, part.dwell - part.begin, part.retract - part.begin, part.end - part.begin)
@@ -149,13 +152,13 @@ def _cycle(
     if own.end - own.retract < _POINTS:
         raise InputError(
             f"the retraction has {own.end - own.retract} points, fewer than {_POINTS}; record "
-            "faster"
+            "at a higher rate"
         )
     law, before, after = _zero(time, way, raw, own)
     if not (before or retraction_only):
         raise InputError(
-            "no approach that begins free of contact stands before the retraction: give the whole "
-            "test, or say --retraction-only"
+            "the retraction is not preceded by an approach that begins free of contact; give the "
+            "whole test, or set --retraction-only"
         )
     force = raw - law.at(way, time)
     _refuse_clipped(raw[back], force[back], way[back], law.noise)
@@ -169,7 +172,7 @@ def _cycle(
     depth = depth - touch
     notes.append(how)
     if compliance:
-        notes.append(f"machine compliance {readable(compliance, 'm/N')} taken off the depth")
+        notes.append(f"machine compliance {readable(compliance, 'm/N')} subtracted from the depth")
     crossing = _crossing(force, own.retract, at)
     flat = _flat(depth, force, own, at, law.noise)
     place = float(np.hypot(np.hypot(spread, flat), compliance_uncertainty * abs(force[at])))
@@ -210,7 +213,7 @@ def _cycle(
 
 
 def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
-    """Refuse a force that stands still at its extreme, away from zero, while the drive moves."""
+    """Raise an error if the force stays at an extreme while the drive moves."""
     for word, value in (("tension", raw.min()), ("compression", raw.max())):
         equal = np.flatnonzero(raw == value)
         runs = np.split(equal, np.flatnonzero(np.diff(equal) > 1) + 1)
@@ -226,19 +229,19 @@ def _refuse_clipped(raw: Array, force: Array, way: Array, noise: float) -> None:
 
 
 def _zero(time: Array, way: Array, raw: Array, own: Segments) -> tuple[Baseline, int, int]:
-    """Return the law of the force out of contact, and how long it is free before and after."""
+    """Return the baseline of the force, and the numbers of free points before and after."""
     back = raw[own.retract : own.end]
     after = min(free_after(back), back.size - int(np.argmin(back)) - 1)
     if after < _FREE:
         raise InputError(
-            f"the force does not come to rest after the pull-off ({max(after, 0)} free points): "
-            "retract further, or the contact still holds at the end"
+            f"the force does not settle after the pull-off ({max(after, 0)} free points): "
+            "retract further, or the contact has not detached at the end"
         )
     before = free_before(raw[: own.retract]) if own.dwell else 0
     far = abs(way[before - 1] - way[0]) >= _FAR * np.ptp(way[own.retract : own.end])
     before = before if far and 2 * _FREE <= before < own.retract else 0
     first = slice(0, int(0.9 * before)) if before else None
-    # right after the contact the rig may still swing
+    # right after detachment the rig may still oscillate
     last = slice(own.end - max(int(0.9 * after), _FREE), own.end)
     return baseline(raw, way, time, first, last), before, after
 
@@ -253,7 +256,7 @@ def _pull_off(
             f"{_force(noise)}"
         )
     if at <= own.retract + 1:
-        raise InputError("the force is least where the retraction begins: nothing was pulled off")
+        raise InputError("the force is smallest at the start of the retraction: no pull-off")
     if zero > _ZERO * value:
         raise InputError(
             f"the zero of the force is known within {_force(zero)} only, the pull-off is "
@@ -280,7 +283,7 @@ def _force(value: float) -> str:
 
 
 def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
-    """Refuse a compliance that makes the contact deeper while the drive goes back."""
+    """Raise an error if the compliance makes the depth increase while the drive retracts."""
     if not compliance:
         return
     back = np.diff(depth)
@@ -294,12 +297,12 @@ def _refuse_compliance(depth: Array, way: Array, compliance: float) -> None:
 def _touch(
     depth: Array, force: Array, own: Segments, before: int, noise: float
 ) -> tuple[float, float, str]:
-    """Return the depth of first touch, its uncertainty, and how it was found."""
+    """Return the depth of first contact, its uncertainty, and the method in words."""
     if before:
-        # the last point outside: what follows may have jumped into contact and bent the rig
+        # last point out of contact; the next one may follow a jump into contact
         at = before - 1
         step = abs(float(depth[at] - depth[at - 1]))
-        return float(depth[at]), step, "depth is zero where the approach first feels a force"
+        return float(depth[at]), step, "depth is zero at the first force of the approach"
     back = slice(own.retract, own.end)
     at = own.retract + int(np.argmax(force[back] < 0))
     slope = abs(float(force[at] - force[max(at - 5, 0)]))
@@ -308,18 +311,18 @@ def _touch(
     return (
         float(depth[at]),
         spread + step / 5,
-        "no approach before contact: depth is zero where the force of the retraction is",
+        "no approach before contact: depth is zero where the retraction's force is zero",
     )
 
 
 def _crossing(force: Array, begin: int, at: int) -> int:
-    """Return the last point in compression before the pull-off, else where retraction begins."""
+    """Return the last point in compression before pull-off, or the start of the retraction."""
     pressed = np.flatnonzero(force[begin:at] >= 0)
     return begin + int(pressed[-1]) if pressed.size else begin
 
 
 def _flat(depth: Array, force: Array, own: Segments, at: int, noise: float) -> float:
-    """Return within which depth the force is least: a minimum is flat, and noise decides [m]."""
+    """Return the uncertainty of the depth of a flat force minimum, from the noise [m]."""
     back = slice(own.retract, own.end)
     alike = depth[back][force[back] <= force[at] + 2 * noise]
     return float(np.ptp(alike) / np.sqrt(12) + abs(depth[at] - depth[at - 1]) / 2)
@@ -334,15 +337,15 @@ def _work(
     compliance_uncertainty: float,
     flat: float = 0.0,
 ) -> Measured:
-    """Return the integral of -force d(depth) between two points [J]."""
+    """Integrate -force d(depth) between two points [J]."""
     d, F = depth[ends[0] : ends[1] + 1], force[ends[0] : ends[1] + 1]
     steps = np.diff(d)
     parts = (
         noise * float(np.sqrt(np.sum(steps**2))),
         zero * float(abs(d[-1] - d[0])),
-        # a compliance c adds c F dF, which is integrated at once
+        # a compliance c adds c F dF, integrated analytically
         compliance_uncertainty * float(abs(F[-1] ** 2 - F[0] ** 2)) / 2,
-        # where the work ends
+        # end of the integral
         flat * float(abs(F[-1])),
     )
     value = float(np.sum((F[1:] + F[:-1]) / 2 * steps))
@@ -350,13 +353,13 @@ def _work(
 
 
 def _speed(time: Array, way: Array, begin: int, end: int) -> Measured:
-    """Return the slope of the line through depth against time [m/s], and how uneven it is."""
-    # a short way is made longer on both sides, to be more than the steps of the drive
+    """Return the slope of depth over time [m/s] by a linear fit, and its unevenness."""
+    # extend a short interval on both sides beyond the steps of the drive
     while end - begin < 6 and (begin > 0 or end < time.size - 1):
         begin, end = max(begin - 1, 0), min(end + 1, time.size - 1)
     t, x = time[begin : end + 1], -way[begin : end + 1]
     if np.ptp(t) <= 0:
-        raise InputError("time stands still in the retraction, so that the speed is not known")
+        raise InputError("time does not advance in the retraction, so the speed is undetermined")
     whole = _slope(t, x)
     middle = t.size // 2
     halves = [_slope(t[part], x[part]) for part in (slice(0, middle + 1), slice(middle, None))]
@@ -383,4 +386,4 @@ def _words(law: Baseline) -> str:
         f"{term} {readable(value, units[term])}"
         for term, value in zip(law.terms, law.coefficients, strict=True)
     )
-    return f"taken off the force: {said}"
+    return f"subtracted from the force: {said}"

@@ -1,4 +1,4 @@
-"""Tables of tack tests: which column is what, and its numbers in SI."""
+"""Tables of tack tests: identify columns and convert their numbers to SI."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from .record import TackRecord
 
 _INTO = {"gap": -1, "depth": 1, "travel": 0}
 _FLAGS = {"force": "--force-unit", "time": "--time-unit"}
-_NEEDED = 20  # rows; with fewer no part of a test can be told from another
+_NEEDED = 20  # smallest number of rows needed to identify the parts of a test
 
 
 @dataclass(frozen=True)
 class Given:
-    """What the caller says where a file does not."""
+    """Options of the caller, for files that lack the information."""
 
     force_unit: str | None = None
     length_unit: str | None = None
@@ -34,7 +34,7 @@ class Given:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The headings that the caller names."""
+        """Headings given by the caller."""
         return tuple(name for name in (self.force_column, self.position_column) if name)
 
 
@@ -45,7 +45,7 @@ def grid(
     rows: Iterable[tuple[int, Sequence[str]]],
     label: str = "",
 ) -> Table:
-    """Return a table whose rows are as long as its headings, or say which row is not."""
+    """Return a table; raise an error that names the first row of another length."""
     names, beside, chosen = ruled(file, headings, units, rows)
     return Table(
         tuple(name.strip('"').strip() for name in names),
@@ -56,7 +56,7 @@ def grid(
 
 
 def heads_columns(cells: Sequence[str], names: Sequence[str] = ()) -> bool:
-    """Return whether a row names a force and a position or a time, or holds the names given."""
+    """Return whether a row heads force and position or time, or contains the given names."""
     if names:
         held = {cell.strip().strip('"').strip().casefold() for cell in cells}
         return all(name.strip().casefold() in held for name in names)
@@ -65,12 +65,12 @@ def heads_columns(cells: Sequence[str], names: Sequence[str] = ()) -> bool:
 
 
 def record(file: LabFile, table: Table, given: Given, format: str, few: bool = False) -> TackRecord:
-    """Return the record that a table holds; one of several intervals may be of `few` rows.
+    """Return the record in a table; one of several intervals may have `few` rows.
 
     Raises
     ------
     ValueError
-        If a column or unit is missing or not the only one, or a cell holds no number.
+        If a column or unit is missing or ambiguous, or a cell is not a number.
     """
     notes: list[str] = []
     columns = _Columns(file, table, given, notes)
@@ -85,11 +85,11 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
     keep = np.all(np.isfinite(rows), axis=0)
     lost = int(np.sum(~keep))
     if lost:
-        notes.append(f"{lost} rows without a number left out")
+        notes.append(f"{lost} rows without a number rejected")
     needed = 1 if few else _NEEDED
     if int(np.sum(keep)) < needed:
         raise file.error(
-            f"{int(np.sum(keep))} rows with a force and a position; a test needs {needed}"
+            f"{int(np.sum(keep))} rows with a force and a position; at least {needed} are needed"
         )
     if time is None:
         time = time_by_speed(file, position, given, notes)
@@ -105,21 +105,21 @@ def record(file: LabFile, table: Table, given: Given, format: str, few: bool = F
 
 
 def time_by_speed(file: LabFile, position: Array, given: Given, notes: list[str]) -> Array:
-    """Return the time [s] of a record without one, by the nominal speed that the caller says."""
+    """Compute the time [s] from the nominal speed given by the caller."""
     if given.nominal_speed is None:
         raise file.error(
-            "there is no column of time, so that the true speed cannot be known; say "
-            "--nominal-speed to take the one that was set"
+            "there is no column of time, so the true speed is unknown; set "
+            "--nominal-speed to use the set speed"
         )
     if not 0 < given.nominal_speed < np.inf:
         raise InputError(f"--nominal-speed must be positive, got {given.nominal_speed!r} m/s")
-    notes.append("no column of time: it is reckoned with the nominal speed, which is not checked")
+    notes.append("no column of time: computed from the nominal speed, which is not verified")
     way = np.abs(np.diff(position, prepend=position[0]))
     return np.cumsum(np.where(np.isfinite(way), way, 0.0)) / given.nominal_speed
 
 
 class _Columns:
-    """The columns of a table by their meaning."""
+    """The columns of a table by quantity."""
 
     def __init__(self, file: LabFile, table: Table, given: Given, notes: list[str]):
         self.file, self.table, self.given, self.notes = file, table, given, notes
@@ -130,30 +130,30 @@ class _Columns:
             if heading is None:
                 continue
             unit = heading.unit or table.units[index]
-            # instruments write the same word over volts
+            # instruments use the same heading for volts
             if measures(unit, heading.quantity):
                 self.found.setdefault(heading.quantity, []).append(index)
                 self.units[index] = unit
         self.cells = Cells(file, table, given.decimal, self.units, notes)
 
     def named(self, name: str) -> int:
-        """Return the column with a heading that the caller names."""
+        """Return the column with a heading given by the caller."""
         wanted = name.strip().casefold()
         places = [i for i, text in enumerate(self.table.headings) if text.casefold() == wanted]
         if not places:
             known = ", ".join(repr(text) for text in self.table.headings if text)
-            raise self.file.error(f"no column is named {name!r}; the columns are {known}")
+            raise self.file.error(f"no column has the heading {name!r}; the headings are {known}")
         return places[0]
 
     def the(self, word: str, name: str | None, quantities: tuple[str, ...]) -> int:
-        """Return the one column of a quantity."""
+        """Return the single column of a quantity."""
         if name is not None:
             return self.named(name)
         places = [i for quantity in quantities for i in self.found.get(quantity, [])]
         if not places:
             known = ", ".join(repr(text) for text in self.table.headings if text)
             raise self.file.error(
-                f"no column is a {word} (the columns are {known}); say --{word}-column NAME"
+                f"no column of {word} was recognised (headings: {known}); set --{word}-column NAME"
             )
         first = self.cells.numbers(places[0])
         for other in places[1:]:
@@ -163,24 +163,24 @@ class _Columns:
             ):
                 names = [self.table.headings[i] for i in (places[0], other)]
                 raise self.file.error(
-                    f'two columns are a {word}: "{names[0]}" and "{names[1]}"; say '
+                    f'two columns of {word} were recognised: "{names[0]}" and "{names[1]}"; set '
                     f"--{word}-column NAME"
                 )
         return places[0]
 
     def position(self) -> tuple[str, int]:
-        """Return which kind of position the file has, and its column."""
+        """Return the kind of position in the file, and its column."""
         index = self.the("position", self.given.position_column, POSITIONS)
         heading = recognise(self.table.headings[index])
         kind = heading.quantity if heading and heading.quantity in POSITIONS else "travel"
         return kind, index
 
     def optional(self, quantity: str) -> int | None:
-        """Return the column of a quantity, None without one."""
+        """Return the column of a quantity, or None."""
         return self.the(quantity, None, (quantity,)) if quantity in self.found else None
 
     def size(self) -> Array | None:
-        """Return the contact radius [m] where a radius, a diameter or an area stands there."""
+        """Return the contact radius [m] from a column of radius, diameter or area, or None."""
         for quantity in SIZES:
             if (index := self.optional(quantity)) is not None:
                 values = self.values(quantity, index)
@@ -188,7 +188,9 @@ class _Columns:
                     values = values / 2
                 if quantity == "contact_area":
                     if np.any(values < 0):
-                        raise self.file.error(f"a contact area is negative: {np.nanmin(values):g}")
+                        raise self.file.error(
+                            f"a contact area must not be negative, got {np.nanmin(values):g}"
+                        )
                     values = np.sqrt(values / np.pi)
                 return values
         return None
@@ -204,7 +206,8 @@ class _Columns:
         if no_unit(unit):
             flag = _FLAGS.get(quantity, "--length-unit")
             raise self.file.error(
-                f'the column "{self.table.headings[index]}" has no unit; say {flag} or write it'
+                f'the column "{self.table.headings[index]}" has no unit; set {flag} or write it '
+                "into the file"
             )
         try:
             return self.cells.numbers(index) * factor(unit, quantity)

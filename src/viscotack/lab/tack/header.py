@@ -1,4 +1,4 @@
-"""Headers of microscope files: words of text, their numbers, and the record they make."""
+"""Headers of microscope files: keys, their numbers, and the resulting record."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -18,15 +18,15 @@ Words = dict[str, str]
 
 
 def whole(file: LabFile, words: Words, key: str, section: str = "") -> int:
-    """Return a whole number of a header, or say that there is none."""
+    """Return an integer of a header; raise an error if it is missing or malformed."""
     value = words.get(key, "")
     if re.fullmatch(r"[0-9]{1,8}", value) is None:
-        raise file.error(f"{section}{key} must be a whole number, got {value[:20]!r}")
+        raise file.error(f"{section}{key} must be an integer, got {value[:20]!r}")
     return int(value)
 
 
 def real(file: LabFile, words: Words, key: str, section: str = "") -> float:
-    """Return a finite number of a header, or say that there is none."""
+    """Return a finite number of a header; raise an error if it is missing or malformed."""
     value = words.get(key, "")
     try:
         number = float(value)
@@ -44,12 +44,12 @@ def recorded(
     columns: Iterable[Array],
     **more: Any,
 ) -> list[TackRecord]:
-    """Return the one record of a file: time, force, position, and what the header says more.
+    """Return the record of a file from time, force, position and further fields.
 
     Raises
     ------
     ValueError
-        As :class:`TackRecord`, with the name of the file.
+        As :class:`TackRecord`; the message names the file.
     """
     source = Source(file.path, file.sha256, format, (*file.notes, *notes))
     time, force, position = columns
@@ -61,4 +61,5 @@ def recorded(
 
 def bending(stiffness: float) -> str:
     """Return the note on a cantilever [N/m]."""
-    return f"cantilever of {readable(stiffness, 'N/m')}, whose bending is taken off the height"
+    rig = f"cantilever of {readable(stiffness, 'N/m')}"
+    return f"{rig}, whose deflection is subtracted from the height"

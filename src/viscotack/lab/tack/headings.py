@@ -1,7 +1,7 @@
-"""Headings of tack tests: force, travel, time and contact radius, as rigs name them.
+"""Headings of tack tests in the words of rigs: force, travel, time and contact radius.
 
-A heading is recognised or it is not; whether a column is the one that is meant its unit decides
-too, for instruments write the same word over volts. Texture analysers give forces in grams.
+Both heading and unit identify a column, because instruments use the same heading for volts.
+Texture analysers give forces in grams.
 """
 
 import re
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from viscotack.errors import InputError
 from viscotack.lab.quantities import BRACKET, bare, no_unit, plain, scale
 
-# quantity -> words, in small letters without spaces, marks and accents
+# quantity -> words, lower case, without spaces, marks and accents
 _WORDS = {
     "force": "force load normalforce kraft normalkraft standardkraft standardforce prufkraft last "
     "axialforce fn forcenormale effort charge fuerza carga verticalforce contactforce tipforce",
@@ -39,7 +39,7 @@ _SI = {
     "contact_diameter": "m",
     "contact_area": "m^2",
 }
-STANDARD_GRAVITY = 9.80665  # m/s2: what a gram of force weighs
+STANDARD_GRAVITY = 9.80665  # m/s2: to convert grams to newtons
 _GRAMS = {"g": 1e-3, "gf": 1e-3, "kg": 1.0, "kgf": 1.0, "gram": 1e-3, "grams": 1e-3}
 _SECONDS = {"sec": "s", "secs": "s", "sek": "s", "seconds": "s", "Sec": "s"}
 _COMMA = re.compile(r"(.*\S)\s*,\s*(\S+)")
@@ -47,14 +47,14 @@ _COMMA = re.compile(r"(.*\S)\s*,\s*(\S+)")
 
 @dataclass(frozen=True)
 class Heading:
-    """What a heading means: the quantity, and its unit where the heading has it."""
+    """Meaning of a heading: the quantity, and the unit if the heading contains it."""
 
     quantity: str
     unit: str
 
 
 def recognise(text: str) -> Heading | None:
-    """Return what a heading means, or None for a column that is not needed.
+    """Return the meaning of a heading, or None for an unknown one.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def recognise(text: str) -> Heading | None:
 
 
 def factor(unit: str, quantity: str) -> float:
-    """Return the factor that takes numbers in a unit to SI; grams of force are weighed.
+    """Return the conversion factor from a unit to SI; grams are converted to newtons.
 
     Examples
     --------
@@ -93,7 +93,7 @@ def factor(unit: str, quantity: str) -> float:
 
 
 def measures(unit: str, quantity: str) -> bool:
-    """Return whether numbers of a quantity can be in this unit; no unit may be any."""
+    """Return whether a unit suits a quantity; an empty unit suits all."""
     if no_unit(unit):
         return True
     try:

@@ -1,7 +1,7 @@
-"""Layout of Igor binary waves (.ibw, version 5) as Asylum Research microscopes save force curves.
+"""Layout of Igor binary waves (.ibw, version 5), the force curves of Asylum Research microscopes.
 
-A header of fixed places, columns of numbers, a note in text with the spring constant and the rate
-of recording, and the names of the columns: deflection and height of the sensor, in metres.
+A wave has a fixed header, columns of numbers, a text note with the spring constant and the
+sampling rate, and the names of the columns: deflection and height of the sensor, in metres.
 """
 
 import re
@@ -15,7 +15,7 @@ from viscotack.lab.lab_file import LabFile
 from .header import bending, recorded
 from .record import TackRecord
 
-START = b"\x05\x00"  # version 5, written by a processor of the usual order of bytes
+START = b"\x05\x00"  # version 5, little-endian
 _HEAD = struct.Struct("<hHiiii4i4iiii")
 _DATA = 384  # bytes of both headers
 _TYPES = {2: "<f4", 4: "<f8"}
@@ -24,7 +24,7 @@ _MOST = 5_000_000
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is another one."""
+    """Return the name of the format, or None for other files."""
     known = file.content.startswith(START) and not file.lines and len(file.content) > _DATA
     return "ibw" if known else None
 
@@ -35,13 +35,13 @@ def records(file: LabFile) -> list[TackRecord]:
     Raises
     ------
     ValueError
-        If the wave is cut, of another kind, or was not calibrated.
+        If the wave is truncated, of another kind, or not calibrated.
     """
     columns, note = _wave(file)
     for needed in ("Defl", "ZSnsr"):
         if needed not in columns:
             raise file.error(
-                f"no column is called {needed}; the columns are {', '.join(columns) or 'not named'}"
+                f"no column {needed}; the columns are {', '.join(columns) or 'not named'}"
             )
     stiffness, rate = _noted(file, note, "SpringConstant"), _noted(file, note, "NumPtsPerSec")
     deflection, height = columns["Defl"], columns["ZSnsr"]
@@ -52,7 +52,7 @@ def records(file: LabFile) -> list[TackRecord]:
         "ibw",
         (bending(stiffness),),
         (time[keep], stiffness * deflection[keep], height[keep]),
-        into=1,  # the sensor's number grows when the tip is lowered
+        into=1,  # the sensor value increases when the tip is lowered
         compliance=1 / stiffness,
     )
 
@@ -68,15 +68,15 @@ def _wave(file: LabFile) -> tuple[dict[str, Array], str]:
     points, kind = struct.unpack_from("<ih", content, 64 + 12)
     rows, wide, deep, _ = struct.unpack_from("<4i", content, 64 + 68)
     if kind not in _TYPES:
-        raise file.error(f"the wave holds numbers of type {kind}, which is not read")
+        raise file.error(f"the wave contains numbers of type {kind}, which is not supported")
     width = np.dtype(_TYPES[kind]).itemsize
     sizes = (size, formula, note, units, *dimension_units, *labels)
     if min(sizes) < 0 or not 0 < points <= _MOST or deep or rows * wide != points:
-        raise file.error("the header of the wave contradicts itself, or it is no force curve")
+        raise file.error("the header of the wave is inconsistent, or it is not a force curve")
     end = _DATA + points * width
     behind = end + formula + note + units + sum(dimension_units)
     if len(content) < behind + labels[0] + labels[1]:
-        raise file.error("the wave is shorter than its header says: the file is cut")
+        raise file.error("the wave is shorter than its header states; the file is truncated")
     values = np.frombuffer(content[_DATA:end], dtype=_TYPES[kind]).astype(float)
     names = content[behind + labels[0] : behind + labels[0] + labels[1]]
     found = [
@@ -95,5 +95,5 @@ def _noted(file: LabFile, note: str, key: str) -> float:
     except ValueError:
         value = np.nan
     if not 0 < value < np.inf:
-        raise file.error(f"its note gives no {key}; calibrate the cantilever, and save it again")
+        raise file.error(f"the note lacks {key}; calibrate the cantilever and save the curve again")
     return value

@@ -1,7 +1,7 @@
-"""Layout of JPK's .jpk-force: an archive of segments, each with headers in text and raw numbers.
+"""Layout of JPK's .jpk-force: an archive of segments, each with text headers and raw numbers.
 
-A channel is whole numbers, its encoder makes volts or metres of them, and conversions, each based
-on another one, make metres and newtons. Newer files keep encoders and conversions in one shared
+A channel consists of integers. An encoder converts them to volts or metres, and a chain of
+conversions to metres and newtons. Newer files store encoders and conversions in one shared
 header.
 """
 
@@ -26,25 +26,25 @@ _TYPES = {
     "signedlong": ">i8",
 }
 _PLAIN = {"float": ">f4", "float-data": ">f4", "double": ">f8", "double-data": ">f8"}
-# where the tip's carrier is, measured before commanded
+# height of the cantilever's carrier; measured is preferred to commanded
 _HEIGHTS = ("measuredHeight", "capacitiveSensorHeight", "strainGaugeHeight", "height")
 _SEGMENT = re.compile(r"segments/(\d{1,4})/segment-header\.properties")
 _MOST = 64  # segments
 
 
 def name(file: LabFile) -> str | None:
-    """Return the name of the format, or None if the file is another one."""
+    """Return the name of the format, or None for other files."""
     packed = file.content.startswith(b"PK\x03\x04") and b"segments/0" in file.content
     return "jpk-force" if packed else None
 
 
 def records(file: LabFile) -> list[TackRecord]:
-    """Return the segments of a force curve, one after the other, as one record.
+    """Return the consecutive segments of a force curve as one record.
 
     Raises
     ------
     ValueError
-        If the archive is damaged, or deflections were not calibrated to newtons.
+        If the archive is damaged, or deflections are not calibrated in newtons.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(file.content)) as parts:
@@ -54,13 +54,15 @@ def records(file: LabFile) -> list[TackRecord]:
     except InputError:
         raise
     except Exception as error:
-        # A damaged archive makes the library fail in a dozen ways, none of them its promise.
-        raise file.error(f"the archive cannot be read, it may be cut or damaged: {error}") from None
+        # The library raises many undocumented errors for damaged archives.
+        raise file.error(
+            f"the archive cannot be read; it may be truncated or damaged: {error}"
+        ) from None
     numbers = sorted(int(match[1]) for part in files if (match := _SEGMENT.fullmatch(part)))
     if not numbers or len(numbers) > _MOST:
         raise file.error(f"expected 1 to {_MOST} segments of one force curve, got {len(numbers)}")
     if "data-image.jpk-qi-image" in files or any(part.startswith("index/") for part in files):
-        raise file.error("it is a map of many curves; export one curve in each file")
+        raise file.error("the file is a map of many curves; export one curve per file")
     shared = _properties(files.get("shared-data/header.properties", b""))
     columns: list[list[Array]] = [[], [], []]
     clock, used, stiffness = 0.0, "", 0.0
@@ -74,10 +76,12 @@ def records(file: LabFile) -> list[TackRecord]:
         used = used or _height(file, own)
         height = _channel(file, files, folder, own, shared, used, "m")
         if not deflection.size == height.size == points:
-            raise file.error(f"segment {number} says {points} points and has {deflection.size}")
+            raise file.error(f"segment {number} states {points} points but has {deflection.size}")
         duration = real(file, own, "force-segment-header.duration")
         if not duration > 0:
-            raise file.error(f"segment {number} lasts {duration:g} s")
+            raise file.error(
+                f"the duration of segment {number} must be positive, got {duration:g} s"
+            )
         columns[0].append(clock + duration * np.arange(1, points + 1) / points)
         columns[1].append(deflection)
         columns[2].append(height)
@@ -92,7 +96,7 @@ def records(file: LabFile) -> list[TackRecord]:
         "jpk-force",
         notes,
         map(np.concatenate, columns),
-        into=-1,  # heights grow away from the sample
+        into=-1,  # heights increase away from the sample
         compliance=1 / stiffness if stiffness else 0.0,
     )
 
@@ -100,7 +104,7 @@ def records(file: LabFile) -> list[TackRecord]:
 def _deflection(
     file: LabFile, files: dict[str, bytes], folder: str, own: Words, shared: Words
 ) -> tuple[Array, float]:
-    """Return the force [N] and the stiffness of the cantilever [N/m], 0 where it is not said."""
+    """Return the force [N] and the stiffness of the cantilever [N/m], 0 if unknown."""
     force = _channel(file, files, folder, own, shared, "vDeflection", "N")
     words = _of_channel(file, own, shared, "vDeflection")
     key = "conversion-set.conversion.force."
@@ -114,19 +118,19 @@ def _height(file: LabFile, own: Words) -> str:
     for channel in _HEIGHTS:
         if channel in present:
             return channel
-    raise file.error(f"no channel is a height; the channels are {', '.join(present) or 'none'}")
+    raise file.error(f"no channel of height; the channels are {', '.join(present) or 'none'}")
 
 
 def _of_channel(file: LabFile, own: Words, shared: Words, channel: str) -> Words:
-    """Return what the headers say of one channel, without what stands before each word."""
+    """Return the header entries of one channel, without their prefixes."""
     slot = own.get(f"channel.{channel}.lcd-info.*")
     before = f"channel.{channel}." if slot is None else f"lcd-info.{slot}."
     words = own if slot is None else shared
     found = {k.removeprefix(before): v for k, v in words.items() if k.startswith(before)}
-    # older headers keep the encoder below "data"
+    # older headers store the encoder below "data"
     found |= {k.removeprefix("data."): v for k, v in found.items() if k.startswith("data.encoder")}
     if not found:
-        raise file.error(f"the headers say nothing of the channel {channel}")
+        raise file.error(f"the headers have no entry for channel {channel}")
     return found
 
 
@@ -147,9 +151,9 @@ def _channel(
     kind = words.get("encoder.type", "")
     dtype = _TYPES.get(kind) or _PLAIN.get(words.get("type", words.get("data.type", "")))
     if dtype is None:
-        raise file.error(f"{channel} is encoded as {kind[:30]!r}, which is not read")
+        raise file.error(f"{channel} is encoded as {kind[:30]!r}, which is not supported")
     if len(content) % np.dtype(dtype).itemsize:
-        raise file.error(f"{folder}channels/{channel}.dat is cut in the middle of a number")
+        raise file.error(f"{folder}channels/{channel}.dat is truncated in the middle of a number")
     values = np.frombuffer(content, dtype=dtype).astype(float)
     if kind in _TYPES:
         values = _scaled(file, words, "encoder.", values)
@@ -160,8 +164,8 @@ def _channel(
         key = f"conversion-set.conversion.{slot}."
         if words.get(key + "defined") != "true" or slot in chain:
             raise file.error(
-                f"{channel} was not calibrated to {unit} (no conversion {slot!r}); calibrate the "
-                "cantilever, and save the curve again"
+                f"{channel} is not calibrated in {unit} (no conversion {slot!r}); calibrate the "
+                "cantilever and save the curve again"
             )
         chain.append(slot)
         slot = words.get(key + "base-calibration-slot", "")
@@ -176,7 +180,7 @@ def _channel(
 
 def _scaled(file: LabFile, words: Words, key: str, values: Array) -> Array:
     if words.get(key + "scaling.style", "offsetmultiplier") != "offsetmultiplier":
-        raise file.error(f"{key}scaling.style is not offsetmultiplier")
+        raise file.error(f"{key}scaling.style must be offsetmultiplier")
     offset = real(file, words, key + "scaling.offset")
     return offset + real(file, words, key + "scaling.multiplier") * values
 

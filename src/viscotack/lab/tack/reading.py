@@ -1,7 +1,7 @@
-"""Read the files of a tack test: find out the layout, join intervals, return records in SI.
+"""Read files of tack tests: detect the layout, join intervals, return records in SI.
 
-What a file does not say is asked for by the name of the flag of ``viscotack test read``; the
-parameters here have the same names, ``--force-unit`` is `force_unit`.
+If a file lacks information, the error names the option of ``viscotack test read`` that supplies it;
+the parameters here have the same names, for example ``--force-unit`` and `force_unit`.
 """
 
 import re
@@ -23,7 +23,7 @@ from .record import TackRecord
 
 AnyPath = str | PathLike[str]
 
-# format -> the module that knows its layout, in the order in which they are tried
+# format -> module that reads its layout, in order of detection
 FORMATS: dict[str, ModuleType] = {
     "afmformats": afm_layout,
     "jpk-force": jpk_layout,
@@ -33,7 +33,7 @@ FORMATS: dict[str, ModuleType] = {
     "text": text_layout,
 }
 _INTERVAL = re.compile(r"(.*?)[ _-]*(?:Interval|Abschnitt|Intervalle)[ _-]*(\d{1,5})", re.I)
-# how files begin that are neither text nor workbooks
+# first bytes of formats that are neither text nor workbooks
 _RAW = (b"[DataSet]", ibw_layout.START, afm_layout.HDF)
 
 
@@ -49,7 +49,7 @@ def read(
     decimal: str | None = None,
     nominal_speed: float | None = None,
 ) -> list[TackRecord]:
-    r"""Return the records in files of tack tests, one for each continuous stretch of time.
+    r"""Read the records of tack tests, one per continuous period of time.
 
     Parameters
     ----------
@@ -60,20 +60,21 @@ def read(
         extra ``afm``). Files named ``..._Interval_7.csv`` are intervals of one test and are joined
         in the order of their numbers.
     format : str, optional
-        One of :data:`FORMATS`; otherwise it is found out from the content.
+        One of :data:`FORMATS`; by default it is detected from the content.
     force_unit, length_unit, time_unit : str, optional
-        Such as ``"mN"``, ``"um"`` and ``"s"``, where a heading has none. Grams are weighed.
+        Such as ``"mN"``, ``"um"`` and ``"s"``, if a heading has no unit. Grams are converted to
+        newtons.
     force_column, position_column : str, optional
-        Heading of the column to take, where there are several or none is recognised.
+        Heading of the column to use, if there are several or none is recognised.
     decimal : {".", ","}, optional
-        Decimal mark, where numbers such as ``1,234`` leave it open.
+        Decimal mark, if numbers such as ``1,234`` are ambiguous.
     nominal_speed : float, optional
-        The speed that was set [m/s], where a file has no column of time.
+        Set speed [m/s], if a file has no column of time.
 
     Raises
     ------
     ValueError
-        If a file cannot be understood: it names the file, the line and what was expected.
+        If a file cannot be interpreted; the message names the file, the line and what was expected.
     OSError
         If a file cannot be opened.
 
@@ -94,7 +95,7 @@ def read(
     _check(format, given)
     chosen = [paths] if isinstance(paths, str | PathLike) else list(paths)
     if not chosen:
-        raise InputError("there is no file to read")
+        raise InputError("no file to read; give one or more paths")
     found: list[TackRecord] = []
     for group in _groups(chosen):
         if len(group) == 1:
@@ -105,7 +106,7 @@ def read(
 
 
 def _check(format: str | None, given: Given) -> None:
-    """Refuse what a caller says wrongly before the file is blamed for it."""
+    """Check the caller's options before the file."""
     refuse_unknown(format, FORMATS)
     if given.decimal not in (None, ".", ","):
         raise InputError(f"--decimal must be . or , got {given.decimal!r}")
@@ -119,7 +120,7 @@ def _check(format: str | None, given: Given) -> None:
 
 
 def groups(paths: Sequence[AnyPath]) -> list[list[AnyPath]]:
-    """Return files by the test they belong to, intervals in the order of their numbers."""
+    """Group files by test, with intervals in the order of their numbers."""
     return [[path for _, path in group] for group in _groups(paths)]
 
 
@@ -136,13 +137,13 @@ def _groups(paths: Sequence[AnyPath]) -> list[list[tuple[int, AnyPath]]]:
 
 
 def _joined(group: list[tuple[int, AnyPath]], format: str | None, given: Given) -> list[TackRecord]:
-    """Return intervals of one test joined where their numbers follow each other."""
+    """Read the intervals of one test and join those with consecutive numbers."""
     stretches: list[list[TackRecord]] = []
     before = None
     skipped: list[str] = []
     for number, path in group:
         if not Path(path).stat().st_size:
-            # an interval in which nothing was recorded
+            # an interval without data
             skipped.append(f"interval {number} is empty")
             continue
         (one,) = _single(_records(path, format, given, few=True), path)
@@ -155,7 +156,7 @@ def _joined(group: list[tuple[int, AnyPath]], format: str | None, given: Given) 
 
 def _single(records: list[TackRecord], path: AnyPath) -> list[TackRecord]:
     if len(records) != 1:
-        raise InputError(f"{path}: an interval with {len(records)} tables; expected one")
+        raise InputError(f"{path}: the interval has {len(records)} tables; expected one")
     return records
 
 
@@ -163,11 +164,14 @@ def _join(parts: list[TackRecord], notes: tuple[str, ...]) -> TackRecord:
     first = parts[0]
     for one, other in zip(parts, parts[1:], strict=False):
         if one.into != other.into:
-            raise InputError(f"{other.source.path}: its position is another quantity than before")
+            raise InputError(
+                f"{other.source.path}: its position is another quantity than in the interval before"
+            )
         if other.time[0] < one.time[-1]:
             raise InputError(
                 f"{other.source.path}: it begins at {other.time[0]:g} s, before the end of the "
-                f"interval before it, {one.time[-1]:g} s; intervals need the time of the whole test"
+                f"previous interval at {one.time[-1]:g} s; intervals need the time of the whole "
+                "test"
             )
     sizes = [part.contact_radius for part in parts]
     said = (f"{len(parts)} intervals joined",) if len(parts) > 1 else ()
@@ -195,7 +199,7 @@ def _records(
     file = load(path, raw=_RAW)
     found = format_of(file, FORMATS, format, "text")
     layout = FORMATS[found]
-    # a damaged number may be beyond all floats; the record refuses it by name
+    # a damaged number may overflow; the record rejects it with its name
     with np.errstate(all="ignore"):
         if layout is afm_layout:
             return layout.records(file, given)

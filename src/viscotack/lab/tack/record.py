@@ -1,4 +1,4 @@
-"""What a rig wrote of one tack test, in SI: time, force, position, perhaps the contact radius."""
+"""Raw data of one tack test in SI: time, force, position and optionally the contact radius."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from viscotack.errors import InputError
 from viscotack.lab.arrays import array, store
 from viscotack.lab.sweeps import Source
 
-# beyond what any rig has: a damaged number, or a wrong unit
+# above the range of all rigs: a damaged number or a wrong unit
 _LARGEST = {"time": ("s", 1e10), "force": ("N", 1e8), "position": ("m", 1e4)}
 
 
@@ -20,25 +20,25 @@ class TackRecord:
     Parameters
     ----------
     time : array_like, shape (N,)
-        Since any moment [s]; rising.
+        Time since any origin [s]; strictly increasing.
     force : array_like, shape (N,)
-        With the sign of the file [N].
+        Force with the sign of the file [N].
     position : array_like, shape (N,)
-        Of the drive [m], with the sign of the file: gap, depth or travel.
+        Position of the drive [m], with the sign of the file: gap, depth or travel.
     into : {1, -1, 0}
-        Whether a position that grows is further into the solid, further away, or the file does
-        not say.
+        1 if a larger position is deeper in the solid, -1 if it is further away, 0 if unknown.
     compliance : float
-        Between drive and contact [m/N], of a cantilever that the file names; 0 without.
+        Compliance between drive and contact [m/N], of a cantilever stated in the file; 0 otherwise.
     contact_radius : array_like, shape (N,), optional
-        From a camera [m]; nan where there is none.
+        Measured by a camera [m]; nan where unknown.
     source : Source
-        Where the numbers come from.
+        Origin of the numbers.
 
     Raises
     ------
     ValueError
-        If lengths differ, a number is not finite, time does not rise or the numbers are few.
+        If lengths differ, a number is not finite, time does not increase or there are too few
+        points.
     """
 
     time: Array
@@ -57,15 +57,15 @@ class TackRecord:
             if not np.all(np.abs(row) <= most):
                 raise InputError(
                     f"{name} must be finite and at most {most:g} {unit}, got {_worst(row):g} "
-                    f"{unit}; is the unit right?"
+                    f"{unit}; check its unit"
                 )
             store(self, name, row)
         steps = np.diff(self.time)
         if np.any(steps < 0):
             at = int(np.argmin(steps))
             raise InputError(
-                f"time must rise, but {self.time[at]:g} s is followed by {self.time[at + 1]:g} s; "
-                "are these two tests, or rows out of order?"
+                f"time must increase, but {self.time[at]:g} s is followed by "
+                f"{self.time[at + 1]:g} s; separate two tests, or sort the rows"
             )
         if self.into not in (-1, 0, 1):
             raise InputError(f"into must be 1, -1 or 0, got {self.into!r}")

@@ -1,12 +1,12 @@
-r"""Approach, dwell and retraction of each cycle, found by the signal and not by any label.
+r"""Detect approach, dwell and retraction of each cycle from the signal, not from labels.
 
-The depth turns where the drive does. From one turn to the next it must move by a tenth of its
-whole range, so that creep, noise and steps of a drive make no cycle. A dwell begins at the knee of
-depth against time, and ends where the drive leaves its level by more than its scatter.
+The depth reverses where the drive does. Between two reversals it must move by a tenth of its
+range, so that creep, noise and steps of the drive do not create cycles. A dwell begins at the knee
+of depth over time, and ends where the drive leaves its level by more than its scatter.
 
-Which way is into the solid, a gap or a depth says itself. A travel is turned so that the force
-changes most at its deep end; a force so that a contact pushed together gives a positive one. Both
-are refused where the signal leaves them open.
+The direction into the solid is known for a gap or a depth. A travel is oriented such that the force
+changes most at its deep end; a force such that compression is positive. Both raise an error if
+the signal is ambiguous.
 """
 
 from dataclasses import dataclass
@@ -19,28 +19,28 @@ from viscotack.errors import InputError
 from .baseline import point_noise
 from .record import TackRecord
 
-_TURN = 0.1  # of the range of depths
-_NEAR = 0.01  # of the way of a retraction: certainly begun
-_STEP = 2e-4  # of the way of a retraction: no motion yet, a drive's last step
-_END = 0.15  # of the range of depths at either end, where forces are compared
-_ACTIVE = 3.0  # times more force changes at the end that touches
-_DISTINCT = 1.2  # times a force must exceed another to be the larger one
+_TURN = 0.1  # fraction of the range of depths
+_NEAR = 0.01  # fraction of the retraction's travel: certainly begun
+_STEP = 2e-4  # fraction of the retraction's travel: last step of the drive, not motion
+_END = 0.15  # fraction of the range of depths at either end in which forces are compared
+_ACTIVE = 3.0  # ratio of force changes that identifies the end in contact
+_DISTINCT = 1.2  # ratio of forces that identifies the larger one
 
 
 @dataclass(frozen=True)
 class Segments:
-    """Indices of one cycle in its record, as in a slice: the end is the first one beyond.
+    """Indices of one cycle in its record; as in a slice, `end` is exclusive.
 
     Parameters
     ----------
     begin : int
-        Where the approach begins; equal to `dwell` where there is none.
+        Start of the approach; equal to `dwell` if there is none.
     dwell : int
-        Where the approach ends and the dwell begins.
+        End of the approach and start of the dwell.
     retract : int
-        Where the dwell ends and the retraction begins.
+        End of the dwell and start of the retraction.
     end : int
-        Where the retraction ends.
+        End of the retraction.
     """
 
     begin: int
@@ -50,33 +50,35 @@ class Segments:
 
 
 def depth_of(record: TackRecord, into: int = 0) -> Array:
-    """Return the position of the drive, growing into the solid [m].
+    """Return the position of the drive, increasing into the solid [m].
 
     Raises
     ------
     ValueError
-        If neither the heading, the caller nor the signal says which way that is.
+        If neither heading, caller nor signal determines the direction.
     """
     x, F = record.position, record.force
     if np.ptp(x) == 0:
-        raise InputError("the drive does not move: its position is the same in every row")
+        raise InputError("the drive does not move: its position is equal in all rows")
     sign = into or record.into
     if sign:
         return sign * x
     low, high = x <= x.min() + _END * np.ptp(x), x > x.max() - _END * np.ptp(x)
     if low.sum() < 3 or high.sum() < 3:
-        raise InputError("fewer than three rows lie at an end of the travel")
+        raise InputError(
+            "fewer than three rows are at an end of the travel, too few to find the end in contact"
+        )
     below, above = (np.subtract(*np.percentile(F[part], (98, 2))) for part in (low, high))
     if max(below, above) < _ACTIVE * min(below, above):
         raise InputError(
-            "the force changes as much at one end of the travel as at the other, so that it cannot "
-            "be told which end touches; say --into + (larger positions are deeper) or --into -"
+            "the force changes equally at both ends of the travel, so the end in contact is "
+            "ambiguous; set --into + (larger positions are deeper) or --into -"
         )
     return x if above > below else -x
 
 
 def segments(time: Array, depth: Array) -> list[Segments]:
-    """Return the cycles of a record: those that have a retraction.
+    """Return the cycles of a record that have a retraction.
 
     Raises
     ------
@@ -93,14 +95,14 @@ def segments(time: Array, depth: Array) -> list[Segments]:
         found.append(_cycle(time, depth, before, at, after))
     if not found:
         raise InputError(
-            "there is no retraction: the drive goes into the contact and never back by "
+            "there is no retraction: the drive moves into contact and never back by "
             f"{_TURN:.0%} of its range; give all intervals of the test together"
         )
     return found
 
 
 def _turns(depth: Array) -> list[int]:
-    """Return where the depth turns, the ends of the record among them."""
+    """Return the indices where the depth reverses, including the ends of the record."""
     least = _TURN * np.ptp(depth)
     turns = [0]
     high = low = 0
@@ -130,7 +132,7 @@ def _turns(depth: Array) -> list[int]:
 
 def _cycle(time: Array, depth: Array, before: int, at: int, after: int) -> Segments:
     way = depth[at] - depth[after]
-    # the last point near the deepest: a dwell may creep, and its deepest point be anywhere in it
+    # last point near the deepest one, which may be anywhere in a creeping dwell
     near = depth[at : after + 1] >= depth[at] - _NEAR * way
     retract = at + int(np.flatnonzero(near)[-1])
     arrived = depth[retract : after + 1] <= depth[after] + 1e-9 * way
@@ -140,9 +142,10 @@ def _cycle(time: Array, depth: Array, before: int, at: int, after: int) -> Segme
 
 
 def _knee(time: Array, depth: Array, before: int, at: int, late: int) -> int:
-    """Return where the approach ends: farthest above the chord from its middle to the retraction.
+    """Return the end of the approach: the point farthest above a chord.
 
-    A drive that creeps in the dwell, or slows down before it, has this knee as a clean one has.
+    The chord runs from the middle of the approach to the retraction. The knee also exists if the
+    drive creeps in the dwell, or decelerates before it.
     """
     if before == at:
         return at
@@ -155,25 +158,25 @@ def _knee(time: Array, depth: Array, before: int, at: int, late: int) -> int:
 
 
 def _departure(time: Array, depth: Array, dwell: int, at: int, late: int, way: float) -> int:
-    """Return the last point of the dwell: a drive leaves its level, not a part of the way."""
+    """Return the last point of the dwell, from the drive's departure from its level."""
     lasted = time[late] - time[dwell : late + 1]
     held = (lasted < 0.5 * lasted[0]) & (lasted > 0.1 * lasted[0])
-    # a drive may overshoot when it arrives, so that its deepest point is not its level
+    # the drive may overshoot on arrival, so the deepest point is not the level
     level = float(np.median(depth[dwell : late + 1][held])) if held.sum() >= 10 else depth[at]
     near = depth[at : late + 1] >= level - 4 * point_noise(depth[dwell:]) - _STEP * way
     return at + int(np.flatnonzero(near)[-1]) if near.any() else at
 
 
 def force_sign(force: Array, cycles: list[Segments]) -> int:
-    """Return the sign that makes a compression positive, by the retractions of a record.
+    """Return the sign that makes compression positive, from the retractions of a record.
 
-    A contact is pressed when a retraction begins, and is pulled when its force is farthest on the
-    other side. Where the pull exceeds the press, the pull tells the sign, else the press.
+    A retraction begins in compression and reaches tension later. The larger of the two extremes
+    determines the sign.
 
     Raises
     ------
     ValueError
-        If retractions disagree, or no force leaves its level out of contact.
+        If retractions disagree, or no force exceeds its noise.
     """
     signs = set()
     for cycle in cycles:
@@ -188,10 +191,10 @@ def force_sign(force: Array, cycles: list[Segments]) -> int:
         signs.add(int(-np.sign(pull) if larger else np.sign(press)))
     if not signs:
         raise InputError(
-            "no force rises above its noise: nothing was touched, or the force is another column"
+            "no force rises above its noise: there was no contact, or the force is another column"
         )
     if len(signs) > 1:
         raise InputError(
-            "the cycles disagree on the sign of a compression; say --compression + or -"
+            "the cycles disagree on the sign of a compression; set --compression + or -"
         )
     return signs.pop()

@@ -1,4 +1,4 @@
-"""Many files of tack tests at once: what each says, and why the others say nothing."""
+"""Evaluate many files of tack tests, and list the unreadable ones with the reason."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ AnyPath = str | PathLike[str]
 
 @dataclass(frozen=True)
 class Unread:
-    """A file, or the first of the files of one test, that gave nothing, and why."""
+    """An unreadable file (or the first file of a test), and the reason."""
 
     path: str
     reason: str
@@ -24,26 +24,26 @@ class Unread:
 
 @dataclass(frozen=True, eq=False)
 class Survey:
-    """The records of many files, evaluated; and the files that could not be read."""
+    """Evaluated records of many files, and the unreadable files."""
 
     evaluations: tuple[Evaluation, ...]
     unread: tuple[Unread, ...]
 
     @property
     def cycles(self) -> tuple[Cycle, ...]:
-        """All cycles that gave numbers."""
+        """All evaluated cycles."""
         return tuple(cycle for one in self.evaluations for cycle in one.cycles)
 
     @property
     def refused(self) -> tuple[tuple[str, Refusal], ...]:
-        """All cycles that did not, each with the file it stands in."""
+        """All rejected cycles, each with its file."""
         return tuple(
             (one.record.source.path, refusal) for one in self.evaluations for refusal in one.refused
         )
 
     @property
     def reasons(self) -> tuple[tuple[str, str], ...]:
-        """Why files and cycles were refused, each with the file."""
+        """File and reason of every rejected file and cycle."""
         files = [(one.path, one.reason.removeprefix(f"{one.path}: ")) for one in self.unread]
         cycles = [(path, f"cycle {one.number}: {one.reason}") for path, one in self.refused]
         return (*files, *cycles)
@@ -55,14 +55,14 @@ def survey(
     reading: Mapping[str, Any] | None = None,
     evaluation: Mapping[str, Any] | None = None,
 ) -> Survey:
-    """Return what files of tack tests say, one bad file not hiding the others.
+    """Evaluate files of tack tests; an unreadable file does not stop the others.
 
     Parameters
     ----------
     paths : sequence of path-like
-        Files; intervals of one test are joined as :func:`read` does.
+        Files; intervals of one test are joined as in :func:`read`.
     reading, evaluation : mapping, optional
-        Keywords of :func:`read` and :func:`evaluate`.
+        Keyword arguments of :func:`read` and :func:`evaluate`.
 
     Raises
     ------

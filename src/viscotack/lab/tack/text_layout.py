@@ -1,6 +1,6 @@
-"""Layout of text exports: any lines, one of headings, units beside or below them, rows.
+"""Layout of text exports: any lines, a line of headings, units beside or below them, rows.
 
-So write Anton Paar rheometers (one file per interval), Instron Bluehill (a block of parameters
+Used by Anton Paar rheometers (one file per interval), Instron Bluehill (a block of parameters
 above quoted columns), Zwick testXpert, Stable Micro Systems texture analysers (forces in grams)
 and nanoindenters (tabs, micronewtons in Latin-1).
 """
@@ -14,7 +14,7 @@ from viscotack.lab.plain_layout import below, first_line, repeats
 from .grid import grid, heads_columns
 from .headings import recognise
 
-_LOOKED = 300  # lines in which the headings are looked for
+_LOOKED = 300  # lines searched for the headings
 
 
 def name(file: LabFile) -> str | None:
@@ -23,20 +23,20 @@ def name(file: LabFile) -> str | None:
 
 
 def grids(file: LabFile, names: Sequence[str] = ()) -> list[Table]:
-    """Return the table of a file, or one for each line that repeats the headings.
+    """Return the table of a file, or one table for each line that repeats the headings.
 
-    `names` are headings that the caller names, by which their line is found.
+    `names` are headings given by the caller to find the line of headings.
 
     Raises
     ------
     ValueError
-        If no line looks like headings, or a row does not have a cell for each of them.
+        If no line looks like headings, or a row has not one cell per heading.
     """
     found = _headings(file, names)
     if found is None:
         first = next((line.strip() for line in file.lines if line.strip()), "")
         raise file.error(
-            f"none of the first {_LOOKED} lines names the columns of a tack test, such as "
+            f"none of the first {_LOOKED} lines has the columns of a tack test, such as "
             f'"Time [s], Gap [mm], Normal Force [N]"; the file begins {first[:60]!r}'
         )
     line, separator, headings = found

@@ -1,8 +1,6 @@
-r"""Prony series for and from other programs, each in its own convention.
+r"""Export and import of Prony series for other programs, each with its own convention.
 
-They differ in four things, and every silent error is one of them:
-
-==========  ==============================  ==========================  =====================
+The conventions differ in four points:
 program     modulus of the elastic part     strength of a branch        rate of a branch
 ==========  ==============================  ==========================  =====================
 abaqus      long-term E (stated so)         g_i = G_i/G(0), k_i alike   relaxation time
@@ -15,9 +13,10 @@ pyvisco     instantaneous E_0               alpha_i = E_i/E_0           relaxati
 reptate     none: a mode 1e4 times slower   shear modulus G_i [Pa]      relaxation time
 ==========  ==============================  ==========================  =====================
 
-The Poisson ratio is constant here, so that shear and bulk relax alike; where a program has a bulk
-series it is written too. A file that comes in with another bulk series is refused. A Poisson ratio
-of 0.5 goes to a program that forbids it with a bulk modulus, which does not relax, or not at all.
+The Poisson ratio is constant here, so shear and bulk relax with the same ratios. If a program has a
+bulk series, it is exported as well; an imported file with a different bulk series is rejected. A
+Poisson ratio of 0.5 is exported with a bulk modulus that does not relax if the program forbids
+0.5.
 """
 
 from viscotack.errors import InputError
@@ -46,7 +45,7 @@ CODES = {
     "pyvisco": pyvisco,
     "reptate": reptate,
 }
-# Programs that refuse a Poisson ratio of 0.5, or divide by zero.
+# Programs that reject a Poisson ratio of 0.5, or divide by zero.
 COMPRESSIBLE = ("abaqus", "ansys", "comsol", "radioss")
 _SHIFTED = ("abaqus", "ansys")
 
@@ -62,37 +61,37 @@ def exported(
     bulk_modulus: float | None = None,
     shift: Shift | None = None,
 ) -> str:
-    """Return a Prony series as text for another program.
+    """Export a Prony series as text for another program.
 
     Parameters
     ----------
     material : Prony
-        The solid; make one of a power law by :func:`viscotack.materials.conversion.prony_form`.
+        The solid; for a power law use :func:`viscotack.materials.conversion.prony_form` first.
     code : str
         "abaqus", "ansys", "comsol", "radioss", "tamaas", "rheojax", "pyvisco" or "reptate".
     units : Units
-        Units of the numbers in the text, stated in its first lines.
+        Units of the numbers, stated in the first lines of the text.
     notes : tuple of str
-        Lines to begin with, as comments: name, temperature, error of the series.
+        Comments at the beginning of the text: name, temperature, error of the series.
     bulk_modulus : float, optional
-        Of a solid with a Poisson ratio of 0.5, for a program that forbids that ratio [Pa]; it does
-        not relax. About 2e9 for rubber.
+        Bulk modulus [Pa], constant in time, for a solid with a Poisson ratio of 0.5 and a program
+        that forbids this ratio. About 2e9 for rubber.
     shift : WLF, Arrhenius or TabulatedShift, optional
-        How times change with temperature, seen from that of the material; written for Abaqus
-        (``*TRS``) and Ansys (``TB,SHIFT``), said in a comment for the others.
+        Temperature dependence of the times, relative to the temperature of the material; exported
+        for Abaqus (``*TRS``) and Ansys (``TB,SHIFT``), mentioned in a comment for the others.
 
     Raises
     ------
     ValueError
         If the program forbids a Poisson ratio of 0.5 and no bulk modulus is given, or one is given
-        that has no place.
+        without need.
 
     Notes
     -----
-    Numbers have 17 digits (Radioss: 13, its columns are narrow), so that reading them back gives
-    the same series to round-off. Where a program wants ratios to the instantaneous modulus, the
-    small difference 1 - sum(g) is the modulus ratio k: what its ratios lose in digits is lost
-    1/k times in the modulus it computes. Do not round them by hand.
+    Numbers have 17 digits (Radioss: 13, because of its narrow columns), so importing them gives
+    the same series to round-off. For ratios to the instantaneous modulus, the
+    small difference 1 - sum(g) is the modulus ratio k: a rounding error of the ratios is amplified
+    by 1/k in the long-term modulus. Do not round them by hand.
 
     Examples
     --------
@@ -111,48 +110,48 @@ def exported(
     if bulk_modulus is not None:
         if not incompressible or code not in COMPRESSIBLE:
             raise InputError(
-                "a bulk modulus is for a Poisson ratio of 0.5 and a program that forbids it "
+                "bulk_modulus applies only to a Poisson ratio of 0.5 and a program that forbids it "
                 f"({', '.join(COMPRESSIBLE)}), got {material.poisson_ratio:g} and {code}"
             )
         checks.positive("bulk_modulus", bulk_modulus, "Pa")
         if bulk_modulus < material.glassy_modulus / 3:
             raise InputError(
-                f"a bulk modulus of {bulk_modulus:g} Pa is below the glassy shear modulus, "
-                f"{material.glassy_modulus / 3:g} Pa: such a solid is not nearly incompressible"
+                f"bulk_modulus = {bulk_modulus:g} Pa must exceed the glassy shear modulus, "
+                f"{material.glassy_modulus / 3:g} Pa, for a nearly incompressible solid"
             )
     elif incompressible and code in COMPRESSIBLE:
         raise InputError(
             f"{code} forbids a Poisson ratio of 0.5; give the bulk modulus (bulk_modulus=2e9, on "
-            'the command line --bulk-modulus "2 GPa": about that of rubber), or a material with '
-            "a ratio below 0.5"
+            'the command line --bulk-modulus "2 GPa", about that of rubber), or use a material '
+            "with a ratio below 0.5"
         )
     card = Card(material, bulk_modulus, shift)
     if shift is not None and code not in _SHIFTED:
-        notes = (*notes, "its shift with temperature has no place here: export at each temperature")
+        notes = (*notes, "this format has no temperature shift: export at each temperature")
     return module.written(card, units, (*notes, *card.notes()))
 
 
 def imported(text: str, code: str, *, units: Units | None = None, **also: float) -> Prony:
-    """Return the Prony series that a text for another program states.
+    """Import the Prony series from a text of another program.
 
     Parameters
     ----------
     text : str
-        Text in the format of the program; commands that are not about the series are passed over.
+        Text in the format of the program; commands unrelated to the series are ignored.
     code : str
         One of those of :func:`exported`.
     units : Units, optional
-        Units of its numbers; left out, the comment "units: pressure ..., time ..." must say them.
+        Units of the numbers; by default from the comment "units: pressure ..., time ...".
     **also : float
-        What the format does not hold: for comsol, radioss and reptate ``rubbery_modulus``
+        Constants that the format lacks: for comsol, radioss and reptate ``rubbery_modulus``
         (long-term Young's modulus [Pa]) and ``poisson_ratio``, unless a comment of this package
         states them; for rheojax and pyvisco ``poisson_ratio``.
 
     Raises
     ------
     ValueError
-        If something is missing, is not a number, or cannot be a solid with a constant Poisson
-        ratio; with the line.
+        If something is missing, is not a number, or does not describe a solid with a constant
+        Poisson ratio; the message names the line.
     """
     return _module(code).read(text, units, **also)
 

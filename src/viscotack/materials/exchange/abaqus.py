@@ -21,7 +21,7 @@ from viscotack.materials.shift import WLF, Arrhenius
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the material as input lines; the long-term modulus is stated and hence exact."""
+    """Format the material as input lines, with the exact long-term modulus."""
     material, glassy = card.material, card.material.glassy_modulus
     E0, nu = card.elastic(material.rubbery_modulus)
     lines = head("**", units, notes)
@@ -35,7 +35,7 @@ def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
 
 
 def _shifted(card: Card) -> list[str]:
-    """Return the law of shift: log10 A = -c1 (T - T0)/(c2 + T - T0), or that of Arrhenius."""
+    """Format the shift law: log10 A = -c1 (T - T0)/(c2 + T - T0), or Arrhenius."""
     match card.shift:
         case None:
             return []
@@ -49,11 +49,11 @@ def _shifted(card: Card) -> list[str]:
                 f"{T!r}, {energy!r}",
             ]
         case _:
-            return ["** its shift is a table, which *TRS has not: fit a WLF or Arrhenius law"]
+            return ["** *TRS does not support a shift table: fit a WLF or Arrhenius law"]
 
 
 def read(text: str, units: Units | None) -> Prony:
-    """Return the series of the first ``*VISCOELASTIC`` with its ``*ELASTIC``."""
+    """Read the series of the first ``*VISCOELASTIC`` with its ``*ELASTIC``."""
     unit = units_of(text, units)
     keyword, instantaneous = "", False
     elastic: tuple[float, float] | None = None
@@ -67,14 +67,12 @@ def read(text: str, units: Units | None) -> Prony:
             if command.startswith("*MATERIAL"):
                 if rows:
                     break
-                elastic = None  # that was of another material
+                elastic = None  # it belonged to another material
             keyword = command.split(",")[0]
             if keyword == "*ELASTIC":
                 instantaneous = "MODULI=INSTANTANEOUS" in command
             if keyword == "*VISCOELASTIC" and "TIME=PRONY" not in command:
-                raise InputError(
-                    f"line {line}: only TIME=PRONY states a Prony series, got {words!r}"
-                )
+                raise InputError(f"line {line}: expected TIME=PRONY, got {words!r}")
             continue
         if keyword not in ("*ELASTIC", "*VISCOELASTIC"):
             continue

@@ -1,7 +1,7 @@
 """Ansys: ``TB,PRONY``, ratios to the instantaneous modulus that ``MP,EX`` states.
 
 G(t) = G_0 (alpha_inf + sum alpha_i exp(-t/tau_i)), with G_0 from EX and NUXY; SHEAR and BULK
-series apart. ``TBDATA`` takes a first place and up to six numbers: three pairs.
+series are separate. ``TBDATA`` has a start position and up to six numbers: three pairs.
 """
 
 from scipy.constants import gas_constant
@@ -22,7 +22,7 @@ from viscotack.materials.shift import WLF, Arrhenius
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the material as APDL commands for material number 1."""
+    """Format the material as APDL commands for material number 1."""
     material, glassy = card.material, card.material.glassy_modulus
     modulus, nu = card.elastic(glassy)
     lines = head("!", units, notes)
@@ -37,7 +37,7 @@ def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
 
 
 def _shifted(card: Card) -> list[str]:
-    """Return the law of shift: log10 A = c1 (T - T0)/(c2 + T - T0), A = 1/a_T, or that of TN."""
+    """Format the shift law: log10 A = c1 (T - T0)/(c2 + T - T0), A = 1/a_T, or TN (Arrhenius)."""
     match card.shift:
         case None:
             return []
@@ -54,11 +54,11 @@ def _shifted(card: Card) -> list[str]:
                 f"TBDATA,1,{T!r},{energy / gas_constant!r}",
             ]
         case _:
-            return ["! its shift is a table, which TB,SHIFT has not: fit a WLF or Arrhenius law"]
+            return ["! TB,SHIFT does not support a shift table: fit a WLF or Arrhenius law"]
 
 
 def read(text: str, units: Units | None) -> Prony:
-    """Return the series of ``TB,PRONY`` with ``MP,EX`` and ``MP,NUXY`` (or PRXY)."""
+    """Read the series of ``TB,PRONY`` with ``MP,EX`` and ``MP,NUXY`` (or PRXY)."""
     unit = units_of(text, units)
     constants: dict[str, float] = {}
     tables: dict[str, dict[int, float]] = {}
@@ -81,7 +81,9 @@ def read(text: str, units: Units | None) -> Prony:
             first = words[1] if len(words) > 1 else ""
             place = int(number(first, line, "the place of TBDATA")) if first else 1
             if not first and tables[part]:
-                raise InputError(f"line {line}: TBDATA must say at which place its numbers begin")
+                raise InputError(
+                    f"line {line}: TBDATA must begin with the position of its first number"
+                )
             for offset, word in enumerate(words[2:]):
                 if word:
                     tables[part][place + offset] = number(word, line, "a value")
@@ -94,7 +96,8 @@ def read(text: str, units: Units | None) -> Prony:
     for part, table in tables.items():
         if counts[part] is not None and len(table) != 2 * (counts[part] or 0):
             raise InputError(
-                f"line {lines[part]}: TB says {counts[part]} pairs, and {len(table)} numbers follow"
+                f"line {lines[part]}: TB states {counts[part]} pairs, but {len(table)} numbers "
+                "follow"
             )
     shear = _pairs(tables["SHEAR"], lines["SHEAR"])
     if nu != 0.5:
@@ -112,5 +115,7 @@ def read(text: str, units: Units | None) -> Prony:
 
 def _pairs(table: dict[int, float], line: int) -> list[tuple[float, float]]:
     if sorted(table) != list(range(1, len(table) + 1)) or len(table) % 2:
-        raise InputError(f"line {line}: the numbers of TBDATA are not whole pairs from place 1 on")
+        raise InputError(
+            f"line {line}: the numbers of TBDATA must be complete pairs from position 1"
+        )
     return [(table[i], table[i + 1]) for i in range(1, len(table), 2)]

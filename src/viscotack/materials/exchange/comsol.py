@@ -1,8 +1,8 @@
 """COMSOL: the table of branches of a generalised Maxwell solid, on the long-term modulus.
 
-The branches load from a text file with three columns: number, shear modulus G_m, relaxation time
-tau_m. Young's modulus and Poisson ratio of the linear elastic material are the long-term ones and
-stand in comments here, as that file has no place for them.
+COMSOL loads the branches from a text file with three columns: number, shear modulus G_m,
+relaxation time tau_m. Young's modulus and Poisson ratio of the linear elastic material are the
+long-term ones; the exported file states them in comments.
 """
 
 from viscotack.errors import InputError
@@ -22,15 +22,15 @@ from viscotack.materials.exchange.units import (
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the table of branches, with the elastic constants in comments."""
+    """Format the table of branches, with the elastic constants in comments."""
     material = card.material
     E0, nu = card.elastic(material.rubbery_modulus)
     lines = head("%", units, notes)
     lines += [
         f"% linear elastic material: long-term Young's modulus {E0 / units.pascal!r}",
         f"% linear elastic material: Poisson ratio {nu!r}",
-        "% by default only the deviatoric part relaxes: let the volumetric part relax in the same "
-        "ratios, unless the solid is nearly incompressible",
+        "% by default only the deviatoric part relaxes: make the volumetric part relax with the "
+        "same ratios, unless the solid is nearly incompressible",
         "% branch, shear modulus, relaxation time",
     ]
     factor = shear_factor(material.poisson_ratio)
@@ -46,7 +46,7 @@ def read(
     rubbery_modulus: float | None = None,
     poisson_ratio: float | None = None,
 ) -> Prony:
-    """Return the series of a table of branches; elastic constants from comments if not given."""
+    """Read a table of branches; elastic constants come from comments if not given."""
     unit = units_of(text, units)
     modulus, nu = rubbery_modulus, poisson_ratio
     if modulus is None:
@@ -56,8 +56,8 @@ def read(
         nu = stated_number(text, "Poisson ratio", "the Poisson ratio")
     if modulus is None or nu is None:
         raise InputError(
-            "a table of branches does not say the long-term Young's modulus and the Poisson "
-            "ratio; give both"
+            "a table of branches lacks the long-term Young's modulus and the Poisson "
+            "ratio; give both (rubbery_modulus, poisson_ratio)"
         )
     given = rubbery_modulus is not None or poisson_ratio is not None
     modulus, nu = as_told(text, modulus, nu, given=given)

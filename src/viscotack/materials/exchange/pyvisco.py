@@ -1,7 +1,7 @@
 """pyvisco: its table of Prony terms, two header rows, ratios to the instantaneous modulus.
 
-``tau_i, alpha_i, E_0, E_i`` with the units below, tensile, times in s. The format has no comments:
-notes and the Poisson ratio are not in the file.
+Columns ``tau_i, alpha_i, E_0, E_i`` with the units below, tensile moduli, times in s. The format
+has no comments, so notes and the Poisson ratio are not exported.
 """
 
 import csv
@@ -16,7 +16,7 @@ _NAMES = ["tau_i", "alpha_i", "E_0", "E_i"]
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the table."""
+    """Format the table."""
     _check(units)
     glassy = card.material.glassy_modulus
     lines = [",".join(_NAMES), f"s,-,{units.pressure},{units.pressure}"]
@@ -34,17 +34,17 @@ def read(
     rubbery_modulus: float | None = None,
     poisson_ratio: float | None = None,
 ) -> Prony:
-    """Return the series of a table; the Poisson ratio is not in it."""
+    """Read a table; it does not contain the Poisson ratio."""
     if rubbery_modulus is not None:
-        raise InputError("a table of pyvisco states its modulus, E_0; leave it out")
+        raise InputError("a table of pyvisco states its modulus, E_0; omit rubbery_modulus")
     if poisson_ratio is None:
-        raise InputError("a table of pyvisco does not say the Poisson ratio; give it")
+        raise InputError("a table of pyvisco lacks the Poisson ratio; give poisson_ratio")
     rows = [[word.strip() for word in row] for row in csv.reader(io.StringIO(text)) if row]
     if len(rows) < 2 or not {"tau_i", "alpha_i", "E_0"} <= set(rows[0]):
         raise InputError("the first row must name tau_i, alpha_i and E_0")
     place = {name: i for i, name in enumerate(rows[0])}
     if len(rows[1]) != len(rows[0]):
-        raise InputError("line 2: the units must be as many as the names")
+        raise InputError("line 2: the number of units must equal the number of names")
     unit = units or Units(rows[1][place["E_0"]], rows[1][place["tau_i"]])
     _check(unit)
     glassy, ratios = None, []
@@ -53,18 +53,20 @@ def read(
             raise InputError(f"line {line}: expected {len(rows[0])} values, got {len(row)}")
         stated = number(row[place["E_0"]], line, "E_0") * unit.pascal
         if glassy is not None and abs(stated - glassy) > 1e-9 * glassy:
-            raise InputError(f"line {line}: E_0 is {stated:g} Pa here and {glassy:g} Pa before")
+            raise InputError(
+                f"line {line}: E_0 is {stated:g} Pa here but {glassy:g} Pa in earlier lines"
+            )
         glassy = stated
         ratio = number(row[place["alpha_i"]], line, "alpha_i")
         ratios.append((ratio, number(row[place["tau_i"]], line, "tau_i")))
     if glassy is None:
-        raise InputError("there is no branch of a Prony series in the text")
+        raise InputError("the text contains no branch of a Prony series")
     return from_ratios(glassy, ratios, poisson_ratio, instantaneous=True)
 
 
 def _check(units: Units) -> None:
     if units.pressure not in _PRESSURES or units.time != "s":
         raise InputError(
-            f"pyvisco counts in s and {', '.join(_PRESSURES)}, got {units.time} and "
+            f"pyvisco uses s and {', '.join(_PRESSURES)}, got {units.time} and "
             f"{units.pressure}; choose from these"
         )

@@ -1,8 +1,8 @@
 """Radioss: ``/VISC/PRONY``, moduli and decay constants beside an elastic material.
 
-Fixed columns: M (10 characters), a gap (10), K_v (20), Itab (10), Ishape (10); then a line a branch
-of G_i, Beta_i, K_i, Beta_ki (20 each), with beta = 1/(relaxation time). The elastic /MAT of the
-same number states the long-term moduli; they stand in a comment here.
+Fixed columns: M (10 characters), a gap (10), K_v (20), Itab (10), Ishape (10); then one line per
+branch of G_i, Beta_i, K_i, Beta_ki (20 each), with beta = 1/(relaxation time). The elastic /MAT of
+the same number states the long-term moduli; the exported file repeats them in a comment.
 """
 
 from viscotack.errors import InputError
@@ -24,7 +24,7 @@ _ELASTIC = "long-term Young's modulus and Poisson ratio of the material law:"
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the block for material number 1; the units of /BEGIN must be those stated."""
+    """Format the block for material number 1; the units of /BEGIN must be the stated ones."""
     material = card.material
     nu = material.poisson_ratio
     E0, stated = card.elastic(material.rubbery_modulus)
@@ -48,7 +48,7 @@ def read(
     rubbery_modulus: float | None = None,
     poisson_ratio: float | None = None,
 ) -> Prony:
-    """Return the series of the first /VISC/PRONY; the elastic constants from its comment if any."""
+    """Read the first /VISC/PRONY; elastic constants come from its comment if not given."""
     unit = units_of(text, units)
     modulus, nu = rubbery_modulus, poisson_ratio
     rows: list[tuple[int, str]] = []
@@ -68,8 +68,8 @@ def read(
             rows.append((line, raw))
     if modulus is None or nu is None:
         raise InputError(
-            "/VISC/PRONY does not say the long-term Young's modulus and the Poisson ratio, its "
-            "/MAT does; give both"
+            "/VISC/PRONY lacks the long-term Young's modulus and the Poisson ratio of its "
+            "/MAT; give both (rubbery_modulus, poisson_ratio)"
         )
     given = rubbery_modulus is not None or poisson_ratio is not None
     modulus, nu = as_told(text, modulus, nu, given=given)
@@ -78,7 +78,7 @@ def read(
     line, first = rows[0]
     count = int(number(first[:10].strip() or "0", line, "M"))
     if count != len(rows) - 1:
-        raise InputError(f"line {line}: M says {count} branches, and {len(rows) - 1} follow")
+        raise InputError(f"line {line}: M states {count} branches, but {len(rows) - 1} follow")
     branches = []
     for line, raw in rows[1:]:
         fields = [raw[i : i + 20].strip() for i in range(0, 80, 20)]

@@ -1,8 +1,8 @@
-"""RepTate: Maxwell modes in a text file, as its command "Save Maxwell modes" writes them.
+"""RepTate: Maxwell modes in a text file, in the format of its command "Save Maxwell modes".
 
 Comments, the number of modes, then number, time [s] and shear modulus [Pa] of each. RepTate's modes
-flow, all of them: the rubbery modulus stands as one more mode, ten thousand times as slow as the
-slowest, and a comment says so.
+are liquid: the rubbery modulus is exported as an additional mode, ten thousand times slower than
+the slowest, with a comment.
 """
 
 import re
@@ -26,7 +26,7 @@ _PLATEAU = "the last mode stands for the rubbery modulus, which modes have not; 
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the modes, the plateau as the last of them."""
+    """Format the modes, with the plateau as the last one."""
     refuse_units("RepTate", units)
     material = card.material
     factor = shear_factor(material.poisson_ratio)
@@ -48,14 +48,14 @@ def read(
     rubbery_modulus: float | None = None,
     poisson_ratio: float | None = None,
 ) -> Prony:
-    """Return the series; the plateau is the last mode if a comment says so, or is given."""
+    """Read the series; the plateau is the last mode if a comment states so, or is given."""
     if units is not None:
         refuse_units("RepTate", units)
     nu = poisson_ratio
     if nu is None:
         nu = stated_number(text, re.escape(_PLATEAU), "the Poisson ratio")
     if nu is None:
-        raise InputError("modes of RepTate do not say the Poisson ratio; give it")
+        raise InputError("modes of RepTate lack the Poisson ratio; give poisson_ratio")
     rows: list[tuple[float, float]] = []
     count = None
     for line, words, raw in rows_of(text, "#"):
@@ -67,11 +67,11 @@ def read(
         time = number(words[1], line, "the relaxation time")
         rows.append((number(words[2], line, "the modulus") / shear_factor(nu), time))
     if count != len(rows):
-        raise InputError(f"the file says {count} modes, and {len(rows)} follow")
+        raise InputError(f"the file states {count} modes, but {len(rows)} follow")
     if rubbery_modulus is None:
         if _PLATEAU not in text or not rows:
             raise InputError(
-                "modes of RepTate flow: they have no rubbery modulus; give it, or fit the data"
+                "modes of RepTate lack a rubbery modulus; give rubbery_modulus, or fit the data"
             )
         rubbery_modulus = rows.pop()[0]
     return series(rubbery_modulus, rows, nu)

@@ -1,8 +1,9 @@
-"""RheoJAX: the record of a ``GeneralizedMaxwell`` as its ``to_dict`` gives it, in JSON.
+"""RheoJAX: the record of a ``GeneralizedMaxwell`` as from its ``to_dict``, in JSON.
 
-Parameters ``G_inf``, ``G_1`` ..., ``tau_1`` ..., shear moduli [Pa] and times [s]. A model of as
-many modes takes them by ``model.parameters = ParameterSet.from_dict(record["parameters"])``. Keys
-of this package stand beside those of RheoJAX, which reads over them: notes and the Poisson ratio.
+Parameters ``G_inf``, ``G_1`` ..., ``tau_1`` ..., shear moduli [Pa] and times [s]. A model with the
+same number of modes loads them by
+``model.parameters = ParameterSet.from_dict(record["parameters"])``. Additional keys of this
+package, ignored by RheoJAX, contain notes and the Poisson ratio.
 """
 
 import json
@@ -14,7 +15,7 @@ from viscotack.materials.exchange.units import Card, Units, refuse_units, series
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return the record of the model."""
+    """Format the record of the model."""
     refuse_units("RheoJAX", units)
     material = card.material
     factor = shear_factor(material.poisson_ratio)
@@ -41,9 +42,9 @@ def read(
     rubbery_modulus: float | None = None,
     poisson_ratio: float | None = None,
 ) -> Prony:
-    """Return the series of a record; the Poisson ratio from it if not given."""
+    """Read a record; it supplies the Poisson ratio if none is given."""
     if rubbery_modulus is not None:
-        raise InputError("a record of RheoJAX states its modulus, G_inf; leave it out")
+        raise InputError("a record of RheoJAX states its modulus, G_inf; omit rubbery_modulus")
     if units is not None:
         refuse_units("RheoJAX", units)
     try:
@@ -52,21 +53,21 @@ def read(
         nu = record.get("poisson_ratio") if poisson_ratio is None else poisson_ratio
         nu = None if nu is None else float(nu)
     except (ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(f"this is no record of a GeneralizedMaxwell: {error}") from None
+        raise InputError(f"the text is not a record of a GeneralizedMaxwell: {error}") from None
     if nu is None:
-        raise InputError("a record of RheoJAX does not say the Poisson ratio; give it")
+        raise InputError("a record of RheoJAX lacks the Poisson ratio; give poisson_ratio")
     count = sum(name.startswith("tau_") for name in values)
     wanted = {"G_inf"} | {f"{what}_{i}" for what in ("G", "tau") for i in range(1, count + 1)}
     missing = wanted - values.keys()
     if missing:
-        raise InputError(f"the record has no {min(missing)}")
+        raise InputError(f"the record lacks {min(missing)}")
     factor = shear_factor(nu)
     pairs = [(values[f"G_{i}"] / factor, values[f"tau_{i}"]) for i in range(1, count + 1)]
     return series(values["G_inf"] / factor, [pair for pair in pairs if pair[0] > 0], nu)
 
 
 def _parameter(name: str, value: float, unit: str, least: float) -> dict[str, Any]:
-    # the model refuses values beyond its bounds, and those it makes itself end at 1 GPa
+    # widen the bounds, because the model rejects values outside them and its defaults end at 1 GPa
     return {
         "name": name,
         "value": value,

@@ -1,7 +1,7 @@
 """Tamaas: shear moduli and characteristic times of ``MaxwellViscoelastic``, as Python lines.
 
 Young's modulus and Poisson ratio of the model are the long-term ones. Tamaas has no units: the
-lengths of its model must go with the unit of pressure.
+lengths of the model must be consistent with the unit of pressure.
 """
 
 import ast
@@ -14,7 +14,7 @@ _NAMES = ("model.E", "model.nu", "shear_moduli", "characteristic_times")
 
 
 def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
-    """Return assignments to paste before ``MaxwellViscoelastic(model, ..., shear_moduli=...)``."""
+    """Format assignments to paste before ``MaxwellViscoelastic(model, ..., shear_moduli=...)``."""
     material = card.material
     factor = shear_factor(material.poisson_ratio) / units.pascal
     values = (
@@ -29,13 +29,13 @@ def written(card: Card, units: Units, notes: tuple[str, ...]) -> str:
 
 
 def read(text: str, units: Units | None) -> Prony:
-    """Return the series of four assignments of plain numbers; nothing is executed."""
+    """Read the series from four assignments of plain numbers; nothing is executed."""
     unit = units_of(text, units)
     found = {}
     try:
         tree = ast.parse(text)
     except SyntaxError as error:
-        raise InputError(f"line {error.lineno}: this is no Python") from None
+        raise InputError(f"line {error.lineno}: this is not valid Python") from None
     for node in tree.body:
         if isinstance(node, ast.Assign) and len(node.targets) == 1:
             name = ast.unparse(node.targets[0])

@@ -1,4 +1,4 @@
-"""Units of other programs' numbers, comments that state them, and what all formats share."""
+"""Units of files of other programs, and functions shared by all formats."""
 
 import math
 import re
@@ -42,7 +42,7 @@ class Units:
     @property
     def pascal(self) -> float:
         """The unit of pressure in Pa."""
-        # the library of units need not be imported for SI
+        # avoid importing the units library for SI
         return 1.0 if self.pressure == "Pa" else parse(f"1 {self.pressure}", "Pa")
 
     @property
@@ -51,7 +51,7 @@ class Units:
         return 1.0 if self.time == "s" else parse(f"1 {self.time}", "s")
 
     def words(self) -> str:
-        """Return the comment that states them."""
+        """Return the comment that states the units."""
         return f"units: pressure {self.pressure}, time {self.time}"
 
 
@@ -61,17 +61,17 @@ _INCOMPRESSIBLE = "incompressible solid, written with a bulk modulus that does n
 
 @dataclass(frozen=True)
 class Card:
-    """What a program is told of a material.
+    """Data of a material to export.
 
     Attributes
     ----------
     material : Prony
         The series.
     bulk_modulus : float or None
-        Of an incompressible solid where the program forbids a Poisson ratio of 0.5 [Pa]; it does
-        not relax.
+        Bulk modulus [Pa], constant in time, of an incompressible solid for a program that forbids a
+        Poisson ratio of 0.5.
     shift : WLF, Arrhenius, TabulatedShift or None
-        How times change with temperature.
+        Temperature dependence of the times.
     """
 
     material: Prony
@@ -79,31 +79,31 @@ class Card:
     shift: Shift | None = None
 
     def elastic(self, tensile: float) -> tuple[float, float]:
-        """Return Young's modulus [Pa] and Poisson ratio to write for one of the material's."""
+        """Return the Young's modulus [Pa] and Poisson ratio to export for a tensile modulus."""
         if self.bulk_modulus is None:
             return tensile, self.material.poisson_ratio
         K, G = self.bulk_modulus, tensile / 3
         return 9 * K * G / (3 * K + G), (3 * K - 2 * G) / (2 * (3 * K + G))
 
     def notes(self) -> tuple[str, ...]:
-        """Return what must be said of the bulk modulus."""
+        """Return the comments on the bulk modulus."""
         if self.bulk_modulus is None:
             return ()
         E = self.material.glassy_modulus
         less = 100 * (1 - self.elastic(E)[0] / E)
         return (
             f"{_INCOMPRESSIBLE}: {self.bulk_modulus!r} Pa",
-            f"Young's modulus at short times is {less:.2g} % below that without a change of volume",
+            f"Young's modulus at short times is {less:.2g} % below the incompressible one",
         )
 
 
 def as_told(
     text: str, modulus: float, poisson_ratio: float, *, given: bool = False
 ) -> tuple[float, float]:
-    """Return Young's modulus [Pa] and Poisson ratio of the material that a text was written for.
+    """Return Young's modulus [Pa] and Poisson ratio of the original material of a text.
 
-    A comment says where the bulk modulus stands for a Poisson ratio of 0.5; it does not count where
-    one of the two was given beside the text.
+    A comment states where a bulk modulus replaces a Poisson ratio of 0.5; it is ignored if
+    one of the two was given in addition to the text.
     """
     if given or _INCOMPRESSIBLE not in text:
         return modulus, poisson_ratio
@@ -111,42 +111,41 @@ def as_told(
 
 
 def stated_number(text: str, pattern: str, what: str) -> float | None:
-    """Return the number behind a pattern in a text, None where it does not stand there."""
+    """Return the number after a pattern in a text, or None."""
     found = re.search(pattern + r"\s+(\S+)", text)
     return found and number(found[1], text.count("\n", 0, found.start()) + 1, what)
 
 
 def rows_of(text: str, comment: str) -> Iterator[tuple[int, list[str], str]]:
-    """Yield number, words and text of each line that holds more than a comment."""
+    """Yield number, words and text of each line that contains more than a comment."""
     for line, raw in enumerate(text.splitlines(), 1):
         if words := raw.split(comment)[0].replace(",", " ").split():
             yield line, words, raw
 
 
 def refuse_units(program: str, units: Units) -> None:
-    """Refuse other units than SI for a program that has no other."""
+    """Raise an error for units other than SI."""
     if (units.pascal, units.second) != (1.0, 1.0):
         raise InputError(
-            f"{program} counts in Pa and s, got {units.pressure} and {units.time}; leave the "
-            "units out"
+            f"{program} uses Pa and s, got {units.pressure} and {units.time}; omit the units"
         )
 
 
 def units_of(text: str, units: Units | None) -> Units:
-    """Return the units given, or those that a comment in the text states."""
+    """Return the given units, or those stated by a comment in the text."""
     if units is not None:
         return units
     found = _COMMENT.search(text)
     if found is None:
         raise InputError(
-            "the text does not say its units; give them (units=Units('MPa', 's'), or on the "
+            "the text does not state its units; give them (units=Units('MPa', 's'), or on the "
             "command line --pressure-unit and --time-unit)"
         )
     return Units(*found.groups())
 
 
 def head(mark: str, units: Units, notes: tuple[str, ...]) -> list[str]:
-    """Return notes and units as comment lines."""
+    """Format notes and units as comment lines."""
     lines = [line for note in notes for line in note.splitlines()]
     return [f"{mark} {line}" for line in (*lines, units.words())]
 
@@ -162,7 +161,7 @@ def bulk_factor(poisson_ratio: float) -> float:
 
 
 def number(word: str, line: int, what: str) -> float:
-    """Return a number of a text, or say in which line there is none."""
+    """Parse a number; raise an error that names the line."""
     try:
         value = float(word.lower().replace("d", "e"))  # Fortran writes 1.0D+00
     except ValueError:
@@ -175,9 +174,9 @@ def number(word: str, line: int, what: str) -> float:
 def series(
     rubbery_modulus: float, branches: list[tuple[float, float]], poisson_ratio: float
 ) -> Prony:
-    """Return the solid, or say that no branch was found."""
+    """Return the solid; raise an error without branches."""
     if not branches:
-        raise InputError("there is no branch of a Prony series in the text")
+        raise InputError("the text contains no branch of a Prony series")
     return Prony(
         rubbery_modulus=rubbery_modulus,
         branches=tuple(branches),
@@ -188,14 +187,14 @@ def series(
 def from_ratios(
     modulus: float, ratios: list[tuple[float, float]], poisson_ratio: float, *, instantaneous: bool
 ) -> Prony:
-    """Return the solid whose branches are parts of the instantaneous modulus.
+    """Return the solid whose branches are fractions of the instantaneous modulus.
 
     Parameters
     ----------
     modulus : float
         Young's modulus [Pa], instantaneous or long-term.
     ratios : list of (float, float)
-        Part g_i of the instantaneous modulus, and relaxation time [s].
+        Fraction g_i of the instantaneous modulus, and relaxation time [s].
     poisson_ratio : float
         Poisson ratio.
     instantaneous : bool
@@ -204,8 +203,8 @@ def from_ratios(
     rest = 1 - sum(sorted(g for g, _ in ratios))
     if rest <= 0:
         raise InputError(
-            f"the ratios to the instantaneous modulus sum to {1 - rest:.12g}: a solid needs less "
-            "than 1, or nothing is left of it after a long time"
+            f"the ratios to the instantaneous modulus sum to {1 - rest:.12g}; a solid needs a sum "
+            "below 1, otherwise its long-term modulus is not positive"
         )
     glassy = modulus if instantaneous else modulus / rest
     rubbery = modulus * rest if instantaneous else modulus
@@ -213,9 +212,9 @@ def from_ratios(
 
 
 def other_bulk(line: int, shear: float, bulk: float) -> NoReturn:
-    """Refuse a bulk series that is not the shear series."""
+    """Raise an error for a bulk series that differs from the shear series."""
     raise InputError(
-        f"line {line}: shear and bulk relax differently ({shear:g} and {bulk:g}), so that the "
-        "Poisson ratio changes in time; materials here have a constant one. Make the bulk series "
+        f"line {line}: shear and bulk relax differently ({shear:g} and {bulk:g}), so the "
+        "Poisson ratio would depend on time, but here it must be constant. Make the bulk series "
         "equal to the shear series, or state an incompressible solid (Poisson ratio 0.5)"
     )

@@ -1,7 +1,7 @@
-"""A surrogate for other programs: ``file`` writes it as ONNX, ``graph`` notes its formulas down.
+"""Export a surrogate as ONNX: ``file`` writes the file, ``graph`` records the formulas.
 
-``python -m viscotack.surrogate.onnx FILE`` writes the one that comes with the package; it needs
-``pip install 'viscotack[onnx]'``, reading the file needs neither this package nor Python.
+``python -m viscotack.surrogate.onnx FILE`` exports the surrogate of the package. Export needs
+``pip install 'viscotack[onnx]'``; reading the file needs neither this package nor Python.
 """
 
 from .file import CONFIDENCE, INPUTS, OUTPUTS, export

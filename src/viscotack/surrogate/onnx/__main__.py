@@ -1,4 +1,4 @@
-"""Write the surrogate of the package: ``python -m viscotack.surrogate.onnx FILE``."""
+"""Export the surrogate of the package as ONNX: ``python -m viscotack.surrogate.onnx FILE``."""
 
 import argparse
 from pathlib import Path
@@ -8,12 +8,14 @@ from .file import export
 
 
 def main() -> None:
-    """Write it and say where it is."""
+    """Write the file and print its path."""
     parser = argparse.ArgumentParser(
         prog="python -m viscotack.surrogate.onnx",
         description="Write the surrogate that comes with viscotack as one ONNX file.",
     )
-    parser.add_argument("file", type=Path, metavar="FILE", help="where to, for example tack.onnx")
+    parser.add_argument(
+        "file", type=Path, metavar="FILE", help="output file, for example tack.onnx"
+    )
     file = parser.parse_args().file
     export(shipped(), file)
     print(file)

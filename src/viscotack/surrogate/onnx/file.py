@@ -1,8 +1,8 @@
-"""The surrogate as one ONNX file, for MATLAB, C++ and controllers.
+"""Export a surrogate as one ONNX file, for MATLAB, C++ and controllers.
 
-The file holds all that :class:`viscotack.surrogate.model.Surrogate` does, in double precision:
-limits, networks, curves and intervals. It does not refuse rows outside the ranges; ``inside`` says
-which they are.
+The file computes everything that :class:`viscotack.surrogate.model.Surrogate` does, in double
+precision: limits, networks, curves and intervals. It accepts rows outside the ranges; the output
+``inside`` marks them.
 """
 
 import os
@@ -33,7 +33,7 @@ INPUTS = {
     "preload": f"depth of the relaxed start [{_LENGTH}]",
     "rate": f"retraction speed [{_LENGTH}/tau0]",
 }
-# By name: columns, and what it is.
+# By name: columns, and description.
 OUTPUTS = {
     "pull_off_force": ((), f"pull-off force [{_FORCE}], positive"),
     "work_to_pull_off": ((), f"work to pull-off [{_WORK}]"),
@@ -64,9 +64,9 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     surrogate : Surrogate
-        What to write; ``viscotack.surrogate.store.shipped()`` is the one of the package.
+        Surrogate to export; ``viscotack.surrogate.store.shipped()`` is the one of the package.
     path : path
-        Where to; an existing file is replaced.
+        Output file; an existing file is replaced.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
     onnx = _onnx()
     if surrogate.contact is not SphereContact:
         raise InputError(
-            "the export is of a sphere on power laws; this surrogate is of another contact, "
+            "only surrogates of a sphere on power laws can be exported, got one of the contact "
             f"{surrogate.contact.name!r}"
         )
     graph = Graph()
@@ -113,7 +113,7 @@ def export(surrogate: Surrogate, path: str | os.PathLike[str]) -> None:
 
 
 def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, Any]:
-    """Return what the methods of a surrogate answer to something that writes down what is done."""
+    """Return the outputs of a surrogate's methods for a traced input."""
     answers = surrogate.evaluate(groups)
     between = surrogate.intervals(groups, answers, confidence=CONFIDENCE)
     curves = surrogate.curves(groups, answers)
@@ -135,7 +135,7 @@ def _outputs(surrogate: Surrogate, graph: Graph, groups: Any) -> Mapping[str, An
 
 
 def _facts(surrogate: Surrogate) -> dict[str, str]:
-    """Return what a reader of the file may want to know, in words."""
+    """Return metadata for the reader of the file."""
     facts = {"version": __version__, "license": "MIT", "confidence": f"{CONFIDENCE:g}"}
     for name, text in INPUTS.items():
         low, high = surrogate.limits[name]

@@ -1,9 +1,9 @@
-"""Formulas of NumPy written down as a graph of ONNX operators, while they run.
+"""Record NumPy formulas as a graph of ONNX operators during evaluation.
 
-A :class:`Traced` stands for an array of which only one row is known. NumPy hands it every operator
-and function it meets in a formula (NEP 13, NEP 18); each does what it does to the known row, and
-notes the ONNX operator that does it to any number of rows. So a formula is stated once, where it
-belongs, and what is exported cannot differ from it. A function that has no counterpart is refused.
+A :class:`Traced` object represents an array of which one example row is known. NumPy passes to it
+every operator and function of a formula (NEP 13, NEP 18). Each is applied to the example row and
+recorded as the ONNX operator for any number of rows. So every formula exists once, and the export
+cannot differ from it. A function without ONNX counterpart raises an error.
 """
 
 from collections.abc import Callable, Sequence
@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-# Old enough for programs that lag behind: ONNX 1.8.
+# Old enough for programs with outdated ONNX support: ONNX 1.8.
 OPSET, IR_VERSION = 13, 7
 
 _OPERATORS: dict[Any, str] = {
@@ -40,7 +40,7 @@ _OPERATORS: dict[Any, str] = {
     np.logical_and: "And",
     np.bitwise_and: "And",
 }
-# What ONNX lacks, or lacks in double precision; cube roots of positive numbers only.
+# Operators missing in ONNX, or missing in double precision; cube roots of positive numbers only.
 _MADE_OF: dict[Any, Callable[[Any], Any]] = {
     np.log10: lambda x: np.log(x) / np.log(10.0),
     np.cbrt: lambda x: x ** (1 / 3),
@@ -51,12 +51,12 @@ _RUNNING = {np.maximum: "ReduceMax", np.minimum: "ReduceMin"}
 
 @dataclass(eq=False)
 class Graph:
-    """Nodes and constants, in the order in which they were first needed.
+    """Nodes and constants, in the order of their first use.
 
     Attributes
     ----------
     nodes, constants : list
-        As ONNX has them.
+        Objects of the onnx library.
 
     Examples
     --------
@@ -73,11 +73,11 @@ class Graph:
     _known: dict[Any, str] = field(default_factory=dict)
 
     def input(self, name: str, row: npt.NDArray) -> "Traced":
-        """Return an input of which one row is known; it may have any number of them."""
+        """Add an input with any number of rows, given one example row."""
         return Traced(self, name, row)
 
     def constant(self, value: npt.ArrayLike) -> "Traced":
-        """Return an array that is the same for all rows, kept in the file."""
+        """Add a constant array, stored in the file."""
         from onnx import numpy_helper
 
         array = np.ascontiguousarray(value).reshape(np.shape(value))
@@ -90,30 +90,30 @@ class Graph:
     def apply(
         self, operator: str, inputs: Sequence[Any], value: Any, **attributes: Any
     ) -> "Traced":
-        """Return what an operator makes of its inputs; what was asked before is not done twice."""
+        """Apply an operator to its inputs; a repeated operation is reused."""
         from onnx import helper
 
         names = tuple(self.of(x).name for x in inputs)
         key = (operator, names, tuple(attributes.items()))
         if key not in self._known:
             self._known[key] = name = f"{operator.lower()}_{len(self.nodes)}"
-            # ONNX Runtime 1.18 trips over nodes that have no names of their own
+            # ONNX Runtime 1.18 fails for nodes without names
             self.nodes.append(helper.make_node(operator, names, [name], name, **attributes))
         return Traced(self, self._known[key], np.asarray(value))
 
     def named(self, x: "Traced", name: str) -> None:
-        """Make an array an output of that name."""
+        """Define an array as the output of a given name."""
         from onnx import helper
 
         self.nodes.append(helper.make_node("Identity", [x.name], [name], name))
 
     def of(self, x: Any) -> "Traced":
-        """Return a number or an array as part of the graph."""
+        """Convert a number or an array to a part of the graph."""
         return x if isinstance(x, Traced) else self.constant(x)
 
 
 class Traced(NDArrayOperatorsMixin):
-    """An array of the graph: its name there, and what it is for the known row."""
+    """An array of the graph: its name, and its value for the example row."""
 
     def __init__(self, graph: Graph, name: str, value: npt.NDArray) -> None:
         self.graph, self.name, self.value = graph, name, value
@@ -137,11 +137,11 @@ class Traced(NDArrayOperatorsMixin):
         if method == "accumulate" and ufunc in _RUNNING and options == {"axis": 1}:
             return _running(ufunc, inputs[0])
         if method != "__call__" or options or ufunc not in {*_OPERATORS, *_MADE_OF}:
-            raise TypeError(f"np.{ufunc.__name__} ({method}) has no counterpart in ONNX here")
+            raise TypeError(f"np.{ufunc.__name__} ({method}) has no ONNX counterpart here")
         if ufunc in _MADE_OF:
             return _MADE_OF[ufunc](*inputs)
         plain = [x.value if isinstance(x, Traced) else x for x in inputs]
-        # ONNX mixes no types: whole numbers beside others become such
+        # ONNX does not mix types: convert integers to floats
         kind = np.result_type(*plain)
         alike = [astype(self.graph, x, kind) for x in inputs]
         return self.graph.apply(_OPERATORS[ufunc], alike, ufunc(*plain))
@@ -150,11 +150,11 @@ class Traced(NDArrayOperatorsMixin):
         if any(map(_foreign, types)):
             return NotImplemented
         if function not in _FUNCTIONS:
-            raise TypeError(f"np.{function.__name__} has no counterpart in ONNX here")
+            raise TypeError(f"np.{function.__name__} has no ONNX counterpart here")
         return _FUNCTIONS[function](self.graph, *args, **options)
 
     def __getitem__(self, key: Any) -> "Traced":
-        """Return a part; of indices that are lists or arrays there may be one."""
+        """Return a slice; at most one index may be a list or an array."""
         keys = list(key) if isinstance(key, tuple) else [key]
         if any(k is Ellipsis for k in keys):
             i = next(i for i, k in enumerate(keys) if k is Ellipsis)
@@ -190,13 +190,13 @@ class Traced(NDArrayOperatorsMixin):
 
 
 def _foreign(kind: type) -> bool:
-    """Return whether arrays of a type that do as they like are others than those of a graph."""
+    """Return whether a type overrides NumPy functions and is not an array of a graph."""
     own = hasattr(kind, "__array_ufunc__") and not issubclass(kind, np.ndarray | np.generic)
     return own and not issubclass(kind, Traced)
 
 
 def astype(graph: Graph, x: Any, kind: np.dtype) -> Traced:
-    """Return an array of the graph with its numbers as another type."""
+    """Convert an array of the graph to another type."""
     if not isinstance(x, Traced):
         return graph.constant(np.asarray(x, dtype=kind))
     if x.value.dtype == kind:
@@ -208,9 +208,9 @@ def astype(graph: Graph, x: Any, kind: np.dtype) -> Traced:
 
 
 def _running(ufunc: Any, x: Traced) -> Traced:
-    """Return the largest or the least so far: of all columns those that are not later."""
+    """Return the running maximum or minimum over the columns."""
     so_far = np.tri(x.shape[1], dtype=bool)
-    # in place of the later ones the first, which counts anyway
+    # replace the later columns by the first one, which is always included
     seen = _where(x.graph, so_far, x[:, None], x[:, None, :1])
     value = ufunc.accumulate(x.value, axis=1)
     return x.graph.apply(_RUNNING[ufunc], [seen], value, axes=(2,), keepdims=0)
@@ -227,7 +227,7 @@ def _clip(graph: Graph, x: Any, low: Any, high: Any) -> Any:
 
 
 def _columns(graph: Graph, parts: Sequence[Any]) -> Traced:
-    """Return arrays of one or two dimensions as columns beside each other."""
+    """Stack arrays of one or two dimensions as columns."""
     rows = next(p for p in parts if isinstance(p, Traced))
     count = graph.apply("Shape", [rows], np.array(rows.shape))[:1]
     blocks = []
@@ -235,7 +235,7 @@ def _columns(graph: Graph, parts: Sequence[Any]) -> Traced:
         block = graph.of(part)
         block = block[:, None] if block.ndim == 1 else block
         if not isinstance(part, Traced):
-            # what is known beforehand is the same in each row
+            # constants are the same in each row
             size = graph.apply(
                 "Concat", [count, np.array([block.shape[1]])], np.array(block.shape), axis=0
             )

@@ -1,4 +1,4 @@
-"""The crack that runs through a viscoelastic solid."""
+"""Theories of the steady crack in a viscoelastic solid."""
 
 from . import (
     crack_regimes,

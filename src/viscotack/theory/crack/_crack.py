@@ -1,14 +1,14 @@
 r"""The implicit law shared by the theories of a steady viscoelastic crack.
 
-Both theories say, for a retardation spectrum of weights w and times tau,
+Both theories have the form, for a retardation spectrum of weights w and times tau,
 
 .. math:: \frac{\Delta\gamma_0}{\Delta\gamma_{eff}} = \frac1\Gamma
           = c_\infty + \sum_j w_j \, \psi(A / \tau_j), \quad A = \Gamma \, \tau_0 / s,
 
 with a response psi that rises from 0 to 1 and a dimensionless speed s. At a given A everything
 is explicit. As a function of x = ln A, ln Gamma is analytic for \|Im x\| < pi/2, so Chebyshev
-polynomials on panels of unit length hold it to round-off; the speed or the amplification is
-then inverted on the panels, at a cost that does not depend on the number of modes.
+polynomials on panels of unit length represent it to round-off; the speed or the amplification is
+then inverted on the panels, at a cost independent of the number of modes.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from viscotack.errors import InputError
 from viscotack.theory._checks import Number, Values, at_least, plain
 
 Array = npt.NDArray[np.floating[Any]]
-# psi and 1 - psi, each with all of its digits
+# psi and 1 - psi, each without cancellation
 Response = Callable[[Array], tuple[Array, Array]]
 
 # The nearest singularities of a panel lie at pi, in half panels: 6.44^-20 is below round-off.
 _DEGREE = 20
 _POINTS = np.cos(np.pi * np.arange(_DEGREE, -1, -1) / _DEGREE)
 _TO_COEFFICIENTS = np.linalg.inv(np.polynomial.chebyshev.chebvander(_POINTS, _DEGREE))
-# A mode faster than A by this factor responds at once, one slower by the second does not respond.
+# A mode faster than A by this factor responds instantaneously; one slower by the second does not.
 _FASTER, _SLOWER = 1e-13, 1e9
-# Of the creep, in glassy compliances: what a fast crack feels.
+# Tolerance of the creep, relative to the glassy compliance, which governs fast cracks.
 _TOLERANCE = 1e-14
-# A over the time of a mode beyond which the mode has responded; its square is a number.
+# A over the time of a mode above which the mode has responded; its square must not overflow.
 _RESPONDED = 1e150
 _BLOCK = 2**18
 
 
 class Material(Protocol):
-    """What a crack needs to know of a linear viscoelastic solid."""
+    """Attributes of a linear viscoelastic solid used by the crack theories."""
 
     @property
     def modulus_ratio(self) -> float:
@@ -58,7 +58,7 @@ class Material(Protocol):
 
 
 class Passage(NamedTuple):
-    """Cracks whose tip passes in given times: all else is explicit.
+    """Cracks with given passage times of the tip; all quantities are explicit.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Passage(NamedTuple):
     log_amplification : ndarray
         ln Gamma.
     log_odds : ndarray
-        ln of (Gamma - 1)/(1/k - Gamma), which keeps its digits at both ends.
+        ln of (Gamma - 1)/(1/k - Gamma), without cancellation at both ends.
     """
 
     log_speed: Array
@@ -76,13 +76,13 @@ class Passage(NamedTuple):
 
 
 class Theory(NamedTuple):
-    """A law of the edge: the response of a mode, and s over the dimensionless speed."""
+    """A crack theory: the response of a mode, and s over the dimensionless speed."""
 
     response: Response
     factor: float
 
     def passage(self, log_time: Values, *, material: Material) -> Passage:
-        """Return the cracks whose tip, Gamma l long, passes in exp(log_time) time units."""
+        """Return the cracks whose tip, of length Gamma l, passes in exp(log_time) time units."""
         y = np.asarray(log_time, dtype=float)
         k = material.modulus_ratio
         glassy, rubbery = _parts(y - np.log(self.factor), material, self.response)
@@ -94,7 +94,7 @@ class Theory(NamedTuple):
     def amplification_of_passage(
         self, low: float, high: float, *, material: Material
     ) -> Callable[[Array], Array]:
-        """Return Gamma as a function of the log_time of :func:`passage`, between two of them."""
+        """Return Gamma as a function of the log_time of :func:`passage`, in an interval."""
         start, grid = _grid(low - np.log(self.factor), high - np.log(self.factor))
         glassy, _ = _parts(grid, material, self.response)
         coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
@@ -112,7 +112,7 @@ class Theory(NamedTuple):
             low, high = -np.max(log), -np.min(log) - np.log(material.modulus_ratio)
             start, grid = _grid(low, high)
             glassy, _ = _parts(grid, material, self.response)
-            # from the smaller of the two parts, exact to round-off at both ends
+            # from the smaller of the two parts, accurate at both ends
             coefficients = -np.log(material.modulus_ratio + glassy) @ _TO_COEFFICIENTS.T
             falling = _minus_position(coefficients, start)
             found[s > 0] = _in_blocks(
@@ -123,18 +123,22 @@ class Theory(NamedTuple):
     def speed(self, amplification: Values, *, material: Material) -> Number:
         """Return the dimensionless speed at which Gamma is reached, 1 <= Gamma < 1/k."""
         gamma = np.asarray(
-            at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification)
+            at_least(
+                1,
+                "the energy of the slowest crack is the work of adhesion",
+                amplification=amplification,
+            )
         )
         k = material.modulus_ratio
         if np.any(gamma * k >= 1) and np.any(gamma > 1):
             raise InputError(
-                f"amplification must stay below glassy over rubbery modulus {1 / k:.6g}, reached "
+                f"amplification must be below glassy over rubbery modulus {1 / k:.6g}, reached "
                 f"at infinite speed, got {np.max(gamma)}"
             )
         found = np.zeros(gamma.shape)
         above = np.ravel(gamma[gamma > 1])
         if above.size:
-            # the odds of the glassy part: steep enough in x at both ends
+            # use the odds of the glassy part, which are steep in x at both ends
             odds = np.log((1 / above - k) / (1 - 1 / above))
             low, high = _bracket(np.min(odds), np.max(odds), material, self.response)
             start, grid = _grid(low, high)
@@ -155,7 +159,7 @@ def _parts(x: Array, material: Material, response: Response) -> tuple[Array, Arr
     )
     w, tau = np.array(modes.weights), np.array(modes.times) / unit
     A = np.exp(np.ravel(x))
-    # modes too fast for the window respond at once
+    # modes too fast for the window respond instantaneously
     glassy = np.full(A.size, max(modes.instantaneous - k, 0.0))
     rubbery = np.zeros(A.size)
     rows = max(1, _BLOCK // max(1, tau.size))
@@ -169,7 +173,7 @@ def _parts(x: Array, material: Material, response: Response) -> tuple[Array, Arr
 
 
 def _in_blocks(function: Callable[[Array], Array], values: Array) -> Array:
-    """Return the function of many values, a block at a time to bound the memory."""
+    """Evaluate a function of many values in blocks, to limit memory."""
     size = _BLOCK // (_DEGREE + 1)
     return np.concatenate([function(values[i : i + size]) for i in range(0, values.size, size)])
 
@@ -177,7 +181,7 @@ def _in_blocks(function: Callable[[Array], Array], values: Array) -> Array:
 def _bracket(
     least: float, most: float, material: Material, response: Response
 ) -> tuple[float, float]:
-    """Return bounds of x between which the odds of the glassy part pass both values."""
+    """Return a bracket of x in which the odds of the glassy part pass both values."""
     low, high = -16.0, 16.0
     while True:
         glassy, rubbery = _parts(np.array([low, high]), material, response)
@@ -190,13 +194,13 @@ def _bracket(
         if max(-low, high) > 500:
             raise InputError(
                 "amplification is reached only at a speed beyond 1e-200 or 1e200; "
-                "stay farther from 1 and from glassy over rubbery modulus"
+                "choose a value farther from 1 and from glassy over rubbery modulus"
             )
 
 
 def _grid(low: float, high: float) -> tuple[float, Array]:
     """Return the start of the panels and their points, shape (panels, degree + 1)."""
-    # a margin, so that round-off in a bound cannot leave the panels
+    # margin for round-off in the bounds
     start = low - 0.01
     panels = int(np.ceil(high - low + 0.02))
     return start, start + np.arange(panels)[:, None] + (_POINTS + 1) / 2
@@ -217,7 +221,7 @@ def _evaluated(x: Array, start: float, coefficients: Array) -> Array:
 
 
 def _inverted(value: Array, start: float, coefficients: Array) -> Array:
-    """Return x where a function that falls over all panels takes each value."""
+    """Return x at which a function that decreases over all panels has each value."""
     ends = coefficients @ np.polynomial.chebyshev.chebvander(np.array([-1.0, 1.0]), _DEGREE).T
     panel = np.searchsorted(-ends[:, 0], -value, side="right") - 1
     panel = np.clip(panel, 0, len(coefficients) - 1)

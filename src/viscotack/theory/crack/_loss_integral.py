@@ -1,7 +1,7 @@
-"""The integral of Persson and Brener over a table of the loss compliance, and its inversion.
+"""Persson-Brener integral over a table of the loss compliance, and its inversion.
 
-Between two rows the loss compliance is a power law, so I, its integral over ln omega, is explicit;
-the integral of I(omega_c sin theta) sin theta is smooth between the angles where the rows lie.
+The loss compliance is a power law between two rows, so I, its integral over ln omega, is explicit;
+the integral of I(omega_c sin theta) sin theta is smooth between the angles of the rows.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def rest(cutoff: Array, table: Table) -> Array:
     slope = np.diff(np.log(loss)) / width
     total = start + np.append(0.0, np.cumsum(loss[:-1] * width * _mean(slope * width)))
     edges = np.arcsin(np.minimum(w / cutoff[:, None], 1.0))
-    # those above the cut-off have no width
+    # rows above the cut-off contribute nothing
     half = np.diff(edges)[..., None] / 2
     angle = edges[:, :-1, None] + half * (1 + _NODES)
     x = np.log(cutoff[:, None, None] * np.sin(angle) / w[:-1, None])
@@ -49,7 +49,7 @@ def rest(cutoff: Array, table: Table) -> Array:
 
 
 def solved(speed: Array, table: Table) -> Array:
-    """Return Gamma at speeds v/l0 whose cut-offs lie in the table, a block at a time."""
+    """Return Gamma at speeds v/l0 whose cut-offs lie in the table, in blocks."""
     flat = np.ravel(speed)
     size = max(1, _BLOCK // (_NODES.size * table.loss.size))
     blocks = [_solved(flat[i : i + size], table) for i in range(0, flat.size, size)]
@@ -62,7 +62,7 @@ def _mean(y: Array) -> Array:
 
 
 def _solved(speed: Array, table: Table) -> Array:
-    """Return Gamma at speeds: the speed rises with the cut-off, so two rows bracket it."""
+    """Return Gamma at speeds; the speed rises with the cut-off, so two rows bracket it."""
     rows = table.frequencies
     aim = np.log(2 * np.pi * speed)
     at_rows = np.log(rows / rest(rows, table))

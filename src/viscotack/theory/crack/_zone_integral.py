@@ -1,13 +1,13 @@
-r"""Greenwood's law over a table of the loss compliance: its kernel, the sum, and the inversion.
+r"""Greenwood's law over a table of the loss compliance: kernel, integral and inversion.
 
-With :math:`E_0 C(t) = 1 - \frac{2 E_0}{\pi} \int C''(\omega) \cos \omega t \, d\ln\omega` the work
-of the zone is
+With :math:`E_0 C(t) = 1 - \frac{2 E_0}{\pi} \int C''(\omega) \cos \omega t \, d\ln\omega` the
+energy of the zone is
 
 .. math:: \frac1\Gamma = 1 - \frac{2 E_0}{\pi} \int_0^\infty C''(\omega) \, Q(\omega A) \,
           d\ln\omega, \quad A = \frac{l \Gamma}{v}, \quad
           Q(y) = \mathrm{Re} \, {}_2F_2(1, 1; \tfrac32, 2; -i y)
 
-with 0 < Q <= 1. On a grid that is even in ln omega and in ln A the integral is a convolution, and
+with 0 < Q <= 1. On a grid uniform in ln omega and in ln A the integral is a convolution, and
 everything is explicit at a given A.
 """
 
@@ -20,7 +20,7 @@ import scipy
 
 from viscotack.arrays import Array
 
-# Step in ln omega: six nodes in a period of Q where it is last taken in full.
+# Step in ln omega: six nodes per period of Q where Q is last resolved.
 _STEP, _FULL = 0.005, 200.0
 # Below this Q is 1 - y^2/11.25 to round-off.
 _TINY = 1e-4
@@ -28,7 +28,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 class Bounds(NamedTuple):
-    """Passage times A, ascending, and 1/Gamma there at the least, positive, and at the most."""
+    """Passage times A, ascending, with a lower and an upper bound of 1/Gamma."""
 
     passage: Array
     least: Array
@@ -54,7 +54,7 @@ def bounds(frequencies: Array, loss: Array, *, below: tuple[float, float], above
     size = Q.size + count
     spectrum = np.fft.rfft(Q, size) * np.fft.rfft(inner[::-1], size)
     table = np.fft.irfft(spectrum, size)[count : 2 * count + 1]
-    # the largest and the smallest of Q on the way to the end of the axis
+    # the extremes of Q beyond each entry
     nearer = np.minimum.accumulate(Q)[: count + 1]
     beyond = np.maximum.accumulate(Q[::-1])[::-1][count:]
     part = 2 / np.pi
@@ -69,13 +69,13 @@ def bounds(frequencies: Array, loss: Array, *, below: tuple[float, float], above
 
 
 def ends(curves: Bounds) -> tuple[float, float]:
-    """Return the slowest and the fastest v/l that both curves hold."""
+    """Return the slowest and the fastest v/l covered by both bounds."""
     speeds = [1 / (inverse * curves.passage) for inverse in (curves.least, curves.most)]
     return float(max(v[-1] for v in speeds)), float(min(v[0] for v in speeds))
 
 
 def kernel(y: Array) -> Array:
-    """Return Q at ascending arguments that are evenly spaced in logarithms."""
+    """Return Q at ascending arguments that are uniform in the logarithm."""
     Q = 1 - y**2 / 11.25
     middle = (y > _TINY) & (y <= _FULL)
     large = y > _FULL
@@ -87,7 +87,7 @@ def kernel(y: Array) -> Array:
         turn = np.exp(0.25j * np.pi)
         integral = np.cumsum(scipy.special.dawsn(turn * at) @ _WEIGHTS * half) * turn
         Q[middle] = np.real(2 * integral / (1j * y[middle]))
-    # without the oscillations: they fall as y^(-3/2), and add up to less than y^(-5/2)
+    # neglect the oscillations: they decay as y^(-3/2), and their integral is below y^(-5/2)
     Q[large] = np.pi / (4 * y[large]) + 1 / (4 * y[large] ** 2)
     return Q
 

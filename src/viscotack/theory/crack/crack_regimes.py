@@ -1,7 +1,7 @@
-r"""The power-law regimes of Persson and Brener: slow, in between, and where each one holds.
+r"""Power-law regimes of the Persson-Brener theory: slow, intermediate, and their validity.
 
 A slow crack dissipates in proportion to its speed (:func:`slow_amplification`); a faster one
-with a power of it that follows the breadth of the spectrum (:func:`local_exponent`,
+as a power of it that depends on the breadth of the spectrum (:func:`local_exponent`,
 :func:`steepest`); the fastest not at all. Speeds are dimensionless as in
 :mod:`viscotack.theory.crack.persson_brener`, :math:`\hat v = v \tau_0 / l_0`.
 
@@ -25,7 +25,10 @@ _PER_DECADE = 40
 
 
 class PowerLaw(NamedTuple):
-    """The tangent Gamma = coefficient * speed**exponent in logarithms, and where it touches."""
+    """Tangent Gamma = coefficient * speed**exponent in logarithms, and its point of contact.
+
+    Returned by :func:`steepest`; all numbers are dimensionless.
+    """
 
     coefficient: float
     exponent: float
@@ -33,7 +36,7 @@ class PowerLaw(NamedTuple):
 
 
 def slow_amplification(speed: Values, *, modulus_ratio: Values, exponent: Values) -> Number:
-    r"""Return the amplification of a slow crack in a retardation power law, linear in speed.
+    r"""Return the dimensionless amplification of a slow crack in a retardation power law.
 
     .. math:: \Gamma \to 1 + \pi n (1 - k) \hat v
 
@@ -50,12 +53,12 @@ def slow_amplification(speed: Values, *, modulus_ratio: Values, exponent: Values
 
 
 def intermediate_exponent(exponent: Values) -> Number:
-    r"""Return the exponent of speed between slow and glassy in the limit of a tiny modulus ratio.
+    r"""Return the intermediate exponent of speed in the limit of a small modulus ratio.
 
     .. math:: m_2 = \frac{n}{1 + n} \; (n < 1), \quad m_2 = \tfrac12 \; (n \ge 1)
 
-    A finite modulus ratio keeps the slope below it, see :func:`steepest`; it is approached slowly,
-    at n = 1 by logarithms.
+    A finite modulus ratio keeps the slope below it, see :func:`steepest`; the limit is approached
+    slowly, at n = 1 logarithmically.
 
     Examples
     --------
@@ -91,6 +94,16 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
 
     The tangent in logarithms at the speed where the local exponent is largest.
 
+    Returns
+    -------
+    PowerLaw
+        Coefficient, exponent and speed of the tangent, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If the solid is elastic.
+
     Examples
     --------
     >>> from viscotack.materials import RetardationPowerLaw
@@ -103,7 +116,9 @@ def steepest(*, material: _crack.Material) -> PowerLaw:
     """
     k = material.modulus_ratio
     if k >= 1:
-        raise InputError("an elastic solid has no intermediate range; its amplification is 1")
+        raise InputError(
+            "an elastic solid has no intermediate range, because its amplification is 1"
+        )
     span = 1 / k - 1
     low, high = (
         float(persson_brener.speed(1 + span * part, material=material)) for part in (1e-3, 0.999)

@@ -1,7 +1,7 @@
-r"""Laws that fit measured adhesion: Gent-Schultz, the loss in the process zone, WLF.
+r"""Empirical laws of adhesion: Gent-Schultz, process-zone loss, WLF shift.
 
-They say what a material did in a range of speed and temperature; nothing else carries them outside
-it. Speeds are those of the crack [m/s].
+They describe a material in a measured range of speed and temperature and must not be extrapolated.
+Speeds are those of the crack [m/s].
 
 Source: Maghami, PhD thesis (2025), Eq. 2.19, 4.25, 4.28 and Fig. 4.10b, published as
 doi:10.1016/j.jmps.2024.105844; Gent & Schultz (1972), J. Adhesion 3, 281 (no DOI known to this
@@ -41,7 +41,7 @@ def gent_schultz(speed: Values, *, reference_speed: Values, exponent: Values) ->
 def gent_schultz_speed(
     amplification: Values, *, reference_speed: Values, exponent: Values
 ) -> Number:
-    """Return the crack speed [m/s] of an amplification that is at least 1.
+    """Return the crack speed [m/s] of an amplification of at least 1.
 
     Examples
     --------
@@ -49,7 +49,9 @@ def gent_schultz_speed(
     '213.5 um/s'
     """
     v0, xi = positive(reference_speed=reference_speed, exponent=exponent)
-    gamma = at_least(1, "a crack at rest takes the work of adhesion", amplification=amplification)
+    gamma = at_least(
+        1, "the energy of a crack at rest is the work of adhesion", amplification=amplification
+    )
     return plain(v0 * (gamma - 1) ** (1 / xi))
 
 
@@ -87,9 +89,10 @@ def process_zone_correction(
 
     .. math:: 1 + (v/v_1)^{1/2}, \quad v_1 = 10^4 \, \mathrm{um/s}
 
-    Multiplies the amplification of the bulk. The numbers given when left out are the fit to one
-    silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); another interface
-    needs its own.
+    It multiplies the amplification of the bulk. The default values of v1 (``reference_speed``
+    [m/s]) and of the power (``exponent``) are the fit to one
+    silicone (10:1, against glass, crack speeds from some um/s to 1e4 um/s); other interfaces
+    need their own values.
 
     Examples
     --------
@@ -104,9 +107,15 @@ def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:
 
     .. math:: \log_{10} a_T = \frac{-17.44 (T - T_g)}{51.6 + T - T_g} \quad \text{(Eq. 4.25)}
 
-    Range: that of :class:`viscotack.materials.shift.WLF`, refused at the pole 51.6 K below the
-    glass transition and beyond. The constants are averages from the transition to about 100 K
-    above it; below it a glass need not follow them. To shift to another temperature divide two.
+    Range: as for :class:`viscotack.materials.shift.WLF`, above the pole 51.6 K below the
+    glass transition. The constants are averages from the transition to about 100 K
+    above it; below it a glass need not follow them. The shift between two temperatures is a
+    quotient.
+
+    Raises
+    ------
+    ValueError
+        If a temperature is at or below the pole.
 
     Examples
     --------
@@ -115,7 +124,7 @@ def wlf_shift(temperature: Values, *, glass_transition: Values) -> Number:
     """
     T, Tg = positive(temperature=temperature, glass_transition=glass_transition)
     x = T - Tg
-    if np.any(x < -48.6):  # a_T leaves the range of numbers 2.8 K above the pole
+    if np.any(x < -48.6):  # a_T overflows 2.8 K above the pole
         raise InputError(
             "the WLF shift has its pole 51.6 K below the glass transition and no value there or "
             f"below, got {np.min(x):.4g} K from it"

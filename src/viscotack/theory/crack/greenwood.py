@@ -1,7 +1,7 @@
 r"""Greenwood: the effective surface energy of a viscoelastic crack with a cohesive zone.
 
-A constant tension, the strength, bridges the crack over a zone that moves with it; the creep
-under it decides how much the faces open. For one retardation time (Eq. 3.32)
+A constant tension, the strength, bridges the crack over a moving zone; the creep
+of the solid under it determines the opening of the faces. For one retardation time (Eq. 3.32)
 
 .. math:: \frac1\Gamma = k + (1 - k) \, g(\alpha), \quad
           g(\alpha) = \frac\alpha2 \int_0^1 H(\xi) e^{-\alpha (1 - \xi)} d\xi, \quad
@@ -34,7 +34,7 @@ from . import _crack
 def amplification(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
 
-    To 1e-12 or better; 1e5 speeds take a fraction of a second.
+    Relative error 1e-12 or better; 1e5 speeds take a fraction of a second.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def cohesive_zone_length(
 
 
 def zone_response(ratio: Values) -> Number:
-    r"""Return g, the part of a mode's creep that the zone feels, at l Gamma / (v tau).
+    r"""Return the ratio g of effective to full creep of a mode in the zone, dimensionless.
 
     .. math:: g(\alpha) = \frac\alpha2 \int_0^1 H(\xi) e^{-\alpha (1 - \xi)} d\xi
               = 1 - \frac2\alpha \int_0^{\sqrt\alpha} D(x) dx,
@@ -107,12 +107,17 @@ def zone_response(ratio: Values) -> Number:
     :math:`H = 2 \sqrt\xi - (1 - \xi) \ln \frac{1 + \sqrt\xi}{1 - \sqrt\xi}` (Eq. 3.33), D
     Dawson's integral. It rises from alpha/3 to 1 - [ln(4 alpha) + 0.5772]/(2 alpha).
 
+    Parameters
+    ----------
+    ratio : array_like
+        :math:`\alpha = l \Gamma / (v \tau)`, not negative.
+
     Examples
     --------
     >>> f"{zone_response(3.0):.4f}"
     '0.5284'
     """
-    alpha = np.asarray(at_least(0, "it is a length over a length", ratio=ratio))
+    alpha = np.asarray(at_least(0, "it is a ratio of lengths", ratio=ratio))
     done, _ = _response(alpha)
     return plain(done)
 
@@ -144,7 +149,7 @@ def _middle() -> Any:
 
 
 def _response(alpha: Any) -> tuple[Any, Any]:
-    """Return g and 1 - g; the branch decides which of the two is the difference."""
+    """Return g and 1 - g; the branch determines which of the two is the difference."""
     small, large = alpha < _SMALL, alpha > _LARGE
     middle = ~(small | large)
     done, rest = np.empty_like(alpha), np.empty_like(alpha)
@@ -160,5 +165,5 @@ def _response(alpha: Any) -> tuple[Any, Any]:
 
 
 _theory = _crack.Theory(_response, factor=1.0)
-# Cracks whose tip passes in given times, as CrackLaw takes them.
+# Cracks with given passage times of the tip, for CrackLaw.
 passage, amplification_of_passage = _theory.passage, _theory.amplification_of_passage

@@ -1,9 +1,9 @@
-r"""One crack in one solid: how much energy it takes at a speed, and the other way round, in SI.
+r"""Crack law in SI: energy per area of a crack in a given solid as a function of speed.
 
-:mod:`viscotack.theory.crack.greenwood` and :mod:`viscotack.theory.crack.persson_brener` speak of
-dimensionless speeds, :math:`\hat v = v \tau_0/l`. A :class:`CrackLaw` joins one of them with a
-solid and a length l, so that what is pulled, a sphere or a pad, needs to know no more of its edge.
-Range and source are those of the theory it names.
+:mod:`viscotack.theory.crack.greenwood` and :mod:`viscotack.theory.crack.persson_brener` use
+dimensionless speeds, :math:`\hat v = v \tau_0/l`. A :class:`CrackLaw` combines one of them with a
+solid and a length l, as input for the theories of spheres and punches.
+Range and source are those of the theory.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ THEORIES = {"greenwood": greenwood, "persson-brener": persson_brener}
 
 @dataclass(frozen=True, kw_only=True)
 class CrackLaw:
-    """The effective surface energy of a moving crack, by a theory, of a solid, with a length.
+    """Effective surface energy of a moving crack: a theory, a solid and a length.
 
     Parameters
     ----------
     theory : str
         "greenwood" or "persson-brener".
     material : viscoelastic material of :mod:`viscotack.materials`
-        For its creep in proportion; its rubbery modulus is not used.
+        Only its normalised creep is used, not its rubbery modulus.
     tip_length : float
-        Length l of the tip of the slow crack [m], as the theory has it:
+        Length l of the tip of the slow crack [m], as defined by the theory:
         :func:`viscotack.theory.crack.greenwood.cohesive_zone_length` or
         :func:`viscotack.theory.crack.persson_brener.crack_tip_length`, which differ. For the edges
-        of a pad :meth:`viscotack.theory.punch.pad.Pad.crack_law` knows it.
+        of a pad use :meth:`viscotack.theory.punch.pad.Pad.crack_law`.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class CrackLaw:
 
     @property
     def largest(self) -> float:
-        """Return the amplification of infinite speed, glassy over rubbery modulus."""
+        """Return the amplification at infinite speed, glassy over rubbery modulus."""
         return 1 / self.material.modulus_ratio
 
     @property
     def speed_unit(self) -> float:
-        """Return the speed [m/s] of a dimensionless speed of 1, l over the time of the solid."""
+        """Return the speed [m/s] of a dimensionless speed of 1, l over the solid's time unit."""
         return self.tip_length / self.material.time_unit
 
     def amplification(self, speed: Values) -> Number:
@@ -83,17 +83,18 @@ class CrackLaw:
         return plain(np.asarray(v) * self.speed_unit)
 
     def passage(self, log_time: Values) -> Passage:
-        r"""Return the cracks whose tip passes in given times, from ln of them, with no equation.
+        r"""Return the cracks with given passage times of the tip, explicitly, from ln of the times.
 
-        Each time is that in which a tip as long as :math:`\Gamma l` passes, in time units of the
+        A passage time is the time for a tip of length :math:`\Gamma l` to pass, in time units of
+        the solid; the returned logarithms of speeds are dimensionless.
         solid; the speeds, logarithms too, are dimensionless.
         """
         return THEORIES[self.theory].passage(log_time, material=self.material)
 
     def amplification_of_passage(self, low: float, high: float) -> Callable[[Any], Any]:
-        """Return the amplification as a function of ln of such a time, between two of them.
+        """Return the amplification as a function of ln of the passage time, in an interval.
 
-        Where speed and amplification are both guessed it spares the inversion.
+        It avoids the inversion if both speed and amplification are unknown.
         """
         return THEORIES[self.theory].amplification_of_passage(low, high, material=self.material)
 
@@ -102,13 +103,13 @@ class CrackLaw:
         return replace(self, tip_length=self.material.time_unit)
 
     def limited(self, *, modulus_ratio: float) -> CrackLaw:
-        r"""Return the law of a crack that ends at 1/``modulus_ratio``, :math:`1/k_b`.
+        r"""Return the law with amplifications limited to 1/``modulus_ratio``, :math:`1/k_b`.
 
         .. math:: \frac1\Gamma = k_b + \frac{1 - k_b}{1 - k}
                   \left( \frac{1}{\Gamma_\infty} - k \right)
 
-        at the same passage of the tip: the delayed part of the creep is smaller in proportion. The
-        law itself where the solid ends below, :math:`k_b \le k`.
+        at the same passage time: the delayed part of the creep is reduced in proportion. The law is
+        unchanged if its own limit is lower, :math:`k_b \le k`.
         """
         k = float(ratio(modulus_ratio))
         if k <= self.material.modulus_ratio:
@@ -118,7 +119,7 @@ class CrackLaw:
 
 @dataclass(frozen=True)
 class _Limited:
-    """A solid as a crack feels it that cannot use all of its creep."""
+    """Effective solid of a crack that can use only part of its creep."""
 
     material: Material
     modulus_ratio: float

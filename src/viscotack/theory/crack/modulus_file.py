@@ -1,4 +1,4 @@
-"""A measured complex modulus from a CSV file with units in the names of its columns."""
+"""Read a measured complex modulus from a CSV file with units in the column names."""
 
 from __future__ import annotations
 
@@ -20,23 +20,28 @@ _EXAMPLE = "frequency_Hz,storage_MPa,loss_MPa"
 
 
 def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> TabulatedModulus:
-    r"""Return the table of a file, for :mod:`viscotack.theory.crack.tabulated_modulus`.
+    r"""Read the table of a file, for :mod:`viscotack.theory.crack.tabulated_modulus`.
 
     Parameters
     ----------
     path : path
-        A first row such as ``frequency_Hz,storage_MPa,loss_MPa``, in any order, then a row for each
-        frequency, ascending, at most a decade apart. Instead of ``frequency_Hz``, turns a second,
-        ``angular_frequency_rad/s``; any unit that fits. Lines that begin with ``#`` are skipped.
+        First row such as ``frequency_Hz,storage_MPa,loss_MPa``, in any order, then one row per
+        frequency, ascending, at most a decade apart. ``angular_frequency_rad/s`` may replace
+        ``frequency_Hz``; any suitable unit is allowed. Lines that begin with ``#`` are ignored.
     rubbery_modulus : float
-        E0 [Pa], the plateau.
+        Rubbery plateau E0 [Pa].
+
+    Returns
+    -------
+    TabulatedModulus
+        Angular frequencies [rad/s], storage and loss modulus [Pa].
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
-        If the header or a row is not as described; with the line.
+        If the header or a row is not as described; the message names the line.
 
     Examples
     --------
@@ -65,8 +70,8 @@ def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> Tab
             values = []
         if len(values) != len(order) or not np.all(np.isfinite(values)):
             raise InputError(
-                f"{path}, line {line}: a row is {len(order)} numbers with decimal points, got "
-                f"{','.join(row)!r}; drop the rows where nothing was measured"
+                f"{path}, line {line}: a row must be {len(order)} numbers with decimal points, got "
+                f"{','.join(row)!r}; remove rows without measurements"
             )
         _check_step(path, line, table[-1][order[0]] if table else None, values[order[0]])
         table.append(values)
@@ -78,7 +83,7 @@ def read_modulus(path: str | os.PathLike[str], *, rubbery_modulus: float) -> Tab
 
 
 def _columns(path: Path, header: list[str]) -> tuple[list[float], list[int]]:
-    """Return the factors to rad/s and Pa, and where frequency, storage and loss stand."""
+    """Return the factors to rad/s and Pa, and the columns of frequency, storage and loss."""
     found: dict[str, tuple[float, int]] = {}
     for place, title in enumerate(header):
         name = next((x for x in (_ANGULAR, _TURNS, *_MODULI) if title.startswith(f"{x}_")), "")
@@ -101,13 +106,13 @@ def _columns(path: Path, header: list[str]) -> tuple[list[float], list[int]]:
 
 
 def _check_step(path: Path, line: int, before: float | None, now: float) -> None:
-    """Refuse a frequency that does not ascend or leaves a gap, in the words of the file."""
+    """Raise an error for a frequency that does not ascend or leaves a gap."""
     if before is None or before <= 0:
         return
     if now <= before:
         raise InputError(
-            f"{path}, line {line}: the frequency {now:g} comes after {before:g}; sort the table, "
-            "and give overlapping sweeps as one master curve"
+            f"{path}, line {line}: the frequency {now:g} comes after {before:g}; sort the table "
+            "and merge overlapping sweeps into one master curve"
         )
     gap = np.log10(now / before)
     if gap > WIDEST_GAP * (1 + 1e-9):

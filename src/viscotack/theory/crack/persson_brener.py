@@ -1,6 +1,7 @@
 r"""Persson and Brener: the effective surface energy of a viscoelastic crack, any spectrum.
 
-The energy lost in the bulk around a crack of tip length a, cut off at the frequency 2 pi v / a.
+The energy is dissipated in the bulk around a crack of tip length a, cut off at the frequency 2 pi v
+/ a.
 With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
 (1 - e^{-t/\tau_j})`, the amplification :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` solves
 
@@ -10,7 +11,7 @@ With the retardation modes of the creep, :math:`E_0 C(t) = c_\infty + \sum_j w_j
 (Eq. 4.17 and 4.18; for the modified power law 4.20). Speeds are dimensionless,
 :math:`\hat v = v \tau_0 / l_0` with the material's ``time_unit`` for tau_0 and
 :func:`crack_tip_length` for l_0: multiply by l_0/tau_0 for m/s. Range: steady opening crack in a
-half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma runs from 1 at no speed
+half-space much larger than l_0 Gamma, linear viscoelastic solid. Gamma rises from 1 at zero speed
 to glassy over rubbery modulus. ``material`` is any of :mod:`viscotack.materials`.
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, in the form of Maghami, PhD
@@ -31,9 +32,9 @@ from . import _crack
 def amplification(speed: Values, *, material: _crack.Material) -> Number:
     r"""Return effective over rubbery surface energy at a dimensionless speed, not negative.
 
-    To 1e-12 or better where modes hold the creep to 1e-14 k, as those of power laws do; of a
-    fractional solid to 1e-11 for k down to 1e-6 and orders to 0.95. 1e5 speeds take a fraction of
-    a second.
+    Relative error 1e-12 or better if the modes represent the creep to 1e-14 k, as for power laws;
+    for a fractional solid 1e-11 for k down to 1e-6 and orders up to 0.95. 1e5 speeds take a
+    fraction of a second.
 
     Examples
     --------
@@ -67,7 +68,7 @@ def speed(amplification: Values, *, material: _crack.Material) -> Number:
 def crack_tip_length(
     *, contact_modulus: Values, work_of_adhesion: Values, strength: Values, strength_ratio: Values
 ) -> Number:
-    r"""Return the length l0 [m] at which the slow crack's stress is the critical one.
+    r"""Return the length l0 [m] at which the stress of the slow crack equals the critical one.
 
     .. math:: l_0 = \frac{E_0^* \Delta\gamma_0}{\pi (\alpha \sigma_0)^2} \quad \text{(Eq. 4.23)}
 
@@ -113,5 +114,5 @@ def _response(q: Any) -> tuple[Any, Any]:
 
 
 _theory = _crack.Theory(_response, factor=2 * np.pi)
-# Cracks whose tip passes in given times, as CrackLaw takes them.
+# Cracks with given passage times of the tip, for CrackLaw.
 passage, amplification_of_passage = _theory.passage, _theory.amplification_of_passage

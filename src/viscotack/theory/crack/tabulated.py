@@ -1,7 +1,6 @@
-"""A measured or published spectrum as a table, as a material for the theories of a crack.
+"""Tabulated retardation spectrum as a material for the crack theories.
 
-Source: the definition of a retardation spectrum, in no need of a DOI; the laws that take it have
-theirs.
+Source: the definition of a retardation spectrum.
 """
 
 from __future__ import annotations
@@ -22,15 +21,14 @@ _STEP = 0.02
 
 @dataclass(frozen=True)
 class TabulatedSpectrum:
-    r"""A linear solid with a tabulated retardation spectrum.
+    r"""Linear solid with a tabulated retardation spectrum.
 
     .. math:: C(t) = \frac1{E_\infty} + \int L(\tau) (1 - e^{-t/\tau}) \, d \ln\tau, \quad
               \frac1{E_\infty} = \frac1{E_0} - \int L \, d \ln\tau
 
-    straight between the points in ln tau, zero outside: a table that begins or ends where L is
-    still large is wrong there. Give it as ``material`` to
-    :mod:`viscotack.theory.crack.persson_brener` or :mod:`viscotack.theory.crack.greenwood`; their
-    unit of time is then one second.
+    The spectrum is linear between the points in ln tau, zero outside; a table must therefore extend
+    to where L is small. Use it as ``material`` of :mod:`viscotack.theory.crack.persson_brener` or
+    :mod:`viscotack.theory.crack.greenwood`; the time unit is then one second.
 
     Parameters
     ----------
@@ -39,12 +37,12 @@ class TabulatedSpectrum:
     times : sequence of float
         Retardation times [s], ascending, at most a decade apart.
     densities : sequence of float
-        L [1/Pa] per unit of ln tau, not negative; its integral must stay below 1/E0.
+        L [1/Pa] per unit of ln tau, not negative; its integral must be below 1/E0.
 
     Raises
     ------
     ValueError
-        If times are not positive and ascending, leave a gap, or the densities are impossible.
+        If times are not positive and ascending, leave a gap, or the densities are invalid.
 
     Examples
     --------
@@ -71,8 +69,8 @@ class TabulatedSpectrum:
                 f"{t.size} times and {L.size} densities"
             )
         if not np.all(np.isfinite(t) & (t > 0)):
-            raise InputError("times must be positive and finite [s]; drop the empty rows")
-        ascending(t, "times", "s", "sort the table (one made of frequencies is turned around)")
+            raise InputError("times must be positive and finite [s]; remove the empty rows")
+        ascending(t, "times", "s", "sort the table (times from frequencies are in reverse order)")
         if not np.all(np.isfinite(L) & (L >= 0)):
             raise InputError(
                 f"densities must be finite and not negative [1/Pa], got a minimum of {np.min(L):g}"
@@ -80,7 +78,7 @@ class TabulatedSpectrum:
         total = float(np.sum((L[1:] + L[:-1]) / 2 * np.diff(np.log(t))))
         if not 0 < total * E < 1:
             raise InputError(
-                f"the spectrum adds up to {total:.4g} 1/Pa and must stay between 0 and the "
+                f"the integral of the spectrum is {total:.4g} 1/Pa and must lie between 0 and the "
                 f"rubbery compliance {1 / E:.4g} 1/Pa; check the units of the densities"
             )
         object.__setattr__(self, "rubbery_modulus", E)
@@ -112,12 +110,12 @@ class TabulatedSpectrum:
         )
 
     def retardation_modes(self, *, shortest: float, longest: float, tolerance: float) -> Modes:
-        """Return all modes of the table whatever the window; there are few."""
+        """Return all modes of the table, because there are few."""
         times, weights = self._modes()
         return Modes(1 - float(np.sum(weights)), tuple(weights), tuple(times), 0.0)
 
     def _modes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Return times and weights: the trapezoidal rule on the straight pieces, made finer."""
+        """Return times and weights, by the trapezoidal rule on refined linear pieces."""
         x, L = np.log(self.times), np.array(self.densities)
         pieces = [
             np.linspace(a, b, int(np.ceil((b - a) / _STEP)) + 1)[:-1]

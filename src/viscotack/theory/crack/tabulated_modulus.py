@@ -1,4 +1,4 @@
-r"""The crack theories straight from a measured complex modulus, with no spectrum fitted to it.
+r"""Crack theories evaluated directly from a measured complex modulus, without a fitted spectrum.
 
 **Persson and Brener.** With the loss compliance
 :math:`C'' = -\mathrm{Im}(1/E) = E''/(E'^2 + E''^2)` and the cut-off
@@ -9,10 +9,10 @@ r"""The crack theories straight from a measured complex modulus, with no spectru
           = 1 - \frac{2 E_0}{\pi} \int_0^{\pi/2} I(\omega_c \sin\theta) \sin\theta \, d\theta,
           \quad I(\omega) = \int_0^\omega C'' \, d\ln\omega
 
-(Eq. 2.18), the same law as :mod:`viscotack.theory.crack.persson_brener`. A crack does not feel what
-lies above its cut-off, so the table need not reach the glass. What lies below the table it feels,
-and the first row bounds it: in any linear solid C''/omega falls, and with :math:`x/(1+x^2) \le
-\arctan x \le x/(1+x^2) + \frac\pi2 x^2/(1+x^2)`, mode by mode,
+(Eq. 2.18), the same law as :mod:`viscotack.theory.crack.persson_brener`. The modulus
+above the cut-off has no effect, so the table need not reach the glassy range. The modulus below the
+table has an effect, which the first row bounds: in any linear solid C''/omega decreases, and with
+:math:`x/(1+x^2) \le \arctan x \le x/(1+x^2) + \frac\pi2 x^2/(1+x^2)`, mode by mode,
 
 .. math:: C''_1 \le I(\omega_1) \le C''_1 + \frac\pi2 \left( \frac1{E_0} - C'_1 \right).
 
@@ -23,10 +23,10 @@ and the first row bounds it: in any linear solid C''/omega falls, and with :math
           Q\!\left(\frac{\omega l \Gamma}{v}\right) \frac{d\omega}{\omega}, \quad
           Q(y) = \mathrm{Re} \, {}_2F_2(1, 1; \tfrac32, 2; -i y)
 
-which falls from 1 as :math:`\pi/(4 y)`: there is no sharp cut-off, so what lies above the table
-counts as well. The last row bounds it, in the same way turned around:
+which decays from 1 as :math:`\pi/(4 y)`: there is no sharp cut-off, so the modulus above the table
+contributes as well. The last row bounds it correspondingly:
 :math:`\int_{\omega_N}^\infty C'' \, d\ln\omega \le C''_N + \frac\pi2 C'_N`. A table that ends far
-below the glass holds only cracks that are slow beside it.
+below the glassy range is sufficient only for much slower cracks.
 
 Source: Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123; Maghami, PhD thesis (2025),
 Eq. 2.18 and 3.32, published as doi:10.1016/j.jmps.2024.105844 and
@@ -52,7 +52,10 @@ _FEWEST = 4
 
 
 class Interval(NamedTuple):
-    """Amplifications between which every solid lies that continues the table below it."""
+    """Lower bound ``low`` and upper bound ``high`` of the amplification, dimensionless.
+
+    Returned by :func:`amplification` and :func:`greenwood_amplification`.
+    """
 
     low: Number
     high: Number
@@ -65,7 +68,7 @@ class TabulatedModulus:
     Parameters
     ----------
     rubbery_modulus : float
-        E0 [Pa], the plateau; not above the first storage modulus.
+        Rubbery plateau E0 [Pa], not above the first storage modulus.
     frequencies : sequence of float
         Angular frequencies omega [rad/s], ascending, at most a decade apart: 2 pi times those
         in Hz.
@@ -75,7 +78,7 @@ class TabulatedModulus:
     Raises
     ------
     ValueError
-        If frequencies do not ascend or leave a gap, or the moduli are impossible.
+        If frequencies do not ascend or leave a gap, or the moduli are invalid.
 
     Examples
     --------
@@ -112,14 +115,14 @@ class TabulatedModulus:
                 unit = "rad/s" if name == "frequencies" else "Pa"
                 raise InputError(
                     f"{name} must be positive and finite [{unit}], got a minimum of "
-                    f"{np.min(column):g}; drop the rows where nothing was measured"
+                    f"{np.min(column):g}; remove rows without measurements"
                 )
-        remedy = "sort the table, and give overlapping sweeps as one master curve"
+        remedy = "sort the table and merge overlapping sweeps into one master curve"
         ascending(w, "frequencies", "rad/s", remedy)
         if E > stored[0] * (1 + 1e-12):
             raise InputError(
-                f"rubbery_modulus {E:g} Pa is above the first storage modulus {stored[0]:g} Pa; "
-                "give the plateau that the modulus tends to at low frequency"
+                f"rubbery_modulus {E:g} Pa must not exceed the first storage modulus "
+                f"{stored[0]:g} Pa; give the plateau of the modulus at low frequency"
             )
         object.__setattr__(self, "rubbery_modulus", E)
         for name, column in columns.items():
@@ -127,27 +130,35 @@ class TabulatedModulus:
         low, _ = _tables(self)
         if not integral.rest(w[-1:], low)[0] > 0:
             raise InputError(
-                "the loss adds up to more than the rubbery compliance, which no linear solid "
-                "can have; check rubbery_modulus and the units of storage and loss"
+                "the integral of the loss exceeds the rubbery compliance, which is impossible for "
+                "a linear solid; check rubbery_modulus and the units of storage and loss"
             )
 
 
 def amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
     """Return bounds of effective over rubbery surface energy at speeds v/l0 [1/s].
 
-    They hold what the solid may do below the table, and neither the scatter of the measurement
-    nor the error of the power laws between its rows. That falls with the square of their
-    distance: for n = 0.6 and k = 0.1, near the glass, 3 % at 4 rows a decade, 0.8 % at 8 and
-    0.2 % at 16. ``l0`` is :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
+    The bounds cover the unknown modulus below the table, but not the scatter of the measurement
+    nor the error of the power laws between rows, which decreases with the square of the row
+    spacing: for n = 0.6 and k = 0.1, near the glassy range, 3 % at 4 rows per decade, 0.8 % at 8
+    and 0.2 % at 16. ``l0`` is :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
 
     Raises
     ------
     ValueError
-        If a speed lies outside :func:`speed_range`: the table is then too narrow for it.
+        If a speed is outside :func:`speed_range`, because the table is too narrow.
 
     Examples
     --------
-    See :class:`TabulatedModulus`.
+    >>> rubber = TabulatedModulus(
+    ...     rubbery_modulus=1e6,
+    ...     frequencies=(0.1, 1.0, 10.0, 100.0),
+    ...     storage=(1.01e6, 1.1e6, 2e6, 4e6),
+    ...     loss=(3e4, 2e5, 9e5, 3e6),
+    ... )
+    >>> low, high = amplification(1.0, modulus=rubber)
+    >>> f"{low:.3f} to {high:.3f}"
+    '1.357 to 1.374'
     """
     v = np.asarray(positive(speed=speed))
     _refuse_outside(v, speed_range(modulus=modulus), "tip")
@@ -172,7 +183,7 @@ def speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
     """
     ends = np.array([modulus.frequencies[0], modulus.frequencies[-1]])
     low, high = _tables(modulus)
-    # both bounds must lie in the table
+    # both bounds must have their cut-off in the table
     first = ends[0] / integral.rest(ends[:1], high)[0]
     last = ends[1] / integral.rest(ends[1:], low)[0]
     return float(first / (2 * np.pi)), float(last / (2 * np.pi))
@@ -181,16 +192,16 @@ def speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
 def greenwood_amplification(speed: Values, *, modulus: TabulatedModulus) -> Interval:
     """Return bounds of effective over rubbery surface energy by Greenwood, at speeds v/l [1/s].
 
-    They hold what the solid may do below and above the table, and neither the scatter of the
-    measurement nor the error of the power laws between its rows: for n = 0.6 and k = 0.1, near
-    the glass, 4 % at 4 rows a decade, 1 % at 8 and 0.2 % at 16. Two decades below the fastest
-    speed of a table the bounds are some per cent apart, at its end a factor of two.
+    The bounds cover the unknown modulus below and above the table, but not the scatter of the
+    measurement nor the error of the power laws between rows: for n = 0.6 and k = 0.1, near
+    the glassy range, 4 % at 4 rows per decade, 1 % at 8 and 0.2 % at 16. Two decades below the
+    fastest speed of a table the bounds differ by some per cent, at its end by a factor of two.
     ``l`` is :func:`viscotack.theory.crack.greenwood.cohesive_zone_length`.
 
     Raises
     ------
     ValueError
-        If a speed lies outside :func:`greenwood_speed_range`: the table is then too narrow for it.
+        If a speed is outside :func:`greenwood_speed_range`, because the table is too narrow.
 
     Examples
     --------
@@ -212,9 +223,9 @@ def greenwood_amplification(speed: Values, *, modulus: TabulatedModulus) -> Inte
 
 
 def greenwood_speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
-    r"""Return the slowest and the fastest v/l [1/s] whose passage of the zone is in the table.
+    r"""Return the slowest and the fastest v/l [1/s] whose zone passage is covered by the table.
 
-    Where :math:`v/(l \Gamma)` lies between the first and the last frequency, by both bounds.
+    There :math:`v/(l \Gamma)` lies between the first and the last frequency, for both bounds.
 
     Examples
     --------
@@ -234,9 +245,9 @@ def greenwood_speed_range(*, modulus: TabulatedModulus) -> tuple[float, float]:
 def _refuse_outside(v: npt.NDArray, ends: tuple[float, float], length: str) -> None:
     if np.any(v < ends[0]) or np.any(v > ends[1]):
         raise InputError(
-            f"the table holds cracks of {ends[0]:.4g} to {ends[1]:.4g} {length} lengths a second, "
-            f"got {np.min(v):.4g} to {np.max(v):.4g}; for others measure a wider range of "
-            "frequencies"
+            f"the table covers cracks of {ends[0]:.4g} to {ends[1]:.4g} {length} lengths per "
+            f"second, got {np.min(v):.4g} to {np.max(v):.4g}; measure a wider range of "
+            "frequencies for others"
         )
 
 
@@ -253,7 +264,7 @@ def _zone_curves(modulus: TabulatedModulus) -> zone.Bounds:
 
 
 def _tables(modulus: TabulatedModulus) -> tuple[integral.Table, integral.Table]:
-    """Return the loss compliance in 1/E0 with the least and the most that may lie below it."""
+    """Return the loss compliance in 1/E0 with the bounds of its integral below the table."""
     E, stored, lost = modulus.rubbery_modulus, np.array(modulus.storage), np.array(modulus.loss)
     size = stored**2 + lost**2
     loss = E * lost / size

@@ -1,9 +1,9 @@
-r"""The Maugis-Dugdale equations without units, explicit in c/a and free of cancellation.
+r"""Dimensionless Maugis-Dugdale equations, explicit in c/a and without cancellation.
 
 Contact radius and cohesive radius in :math:`(\pi R^2 \Delta\gamma_0 / K)^{1/3}`, depth in
 :math:`(\pi^2 \Delta\gamma_0^2 R / K^2)^{1/3}`, force in :math:`\pi R \Delta\gamma_0`,
-:math:`K = \frac43 E^*`. The running variable is the excess :math:`\varepsilon = c/a - 1`, which
-keeps its digits where the cohesive zone is thin; :math:`t = \tan\varphi = \sqrt{c^2/a^2 - 1}`.
+:math:`K = \frac43 E^*`. The independent variable is the excess :math:`\varepsilon = c/a - 1`, which
+is accurate for thin cohesive zones; :math:`t = \tan\varphi = \sqrt{c^2/a^2 - 1}`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def contact_radius(excess: Any, lam: Any) -> Any:
 
 
 def force_and_depth(excess: Any, lam: Any, a: Any) -> tuple[Any, Any]:
-    """Return force and depth at a contact radius that solves the equation of the gap."""
+    """Return force and depth at a contact radius that satisfies the equation of the gap."""
     m, t, phi = angle(excess)
     return a**3 - lam * a**2 * (t + m**2 * phi), a**2 - 4 / 3 * lam * a * t
 
@@ -56,7 +56,7 @@ def depth_slope(excess: Any, lam: Any) -> Any:
 
 
 def _shrinkage(excess: Any, lam: Any, a: Any) -> Any:
-    """Return m dc/da - 1 along the curve, without the difference that vanishes in a thin zone."""
+    """Return m dc/da - 1 along the curve, without cancellation for a thin zone."""
     m, t, phi = angle(excess)
     ring = lam * a * (t**2 * phi - _tan_excess(t, phi)) + 4 * lam**2 / 3 * excess
     by_zone = lam * a * (m * phi + t / m) + 4 * lam**2 / 3 * (m * phi / t + 1 / m - 1)
@@ -64,7 +64,7 @@ def _shrinkage(excess: Any, lam: Any, a: Any) -> Any:
 
 
 def _tan_excess(t: Any, phi: Any) -> Any:
-    """Return t - arctan(t), by its series where the difference would lose digits."""
+    """Return t - arctan(t), by its series where the difference would cancel."""
     u = np.minimum(t, 0.2)
     series = u**3 * np.polynomial.polynomial.polyval(-(u**2), 1 / np.arange(3.0, 29.0, 2.0))
     return np.where(t < 0.2, series, t - phi)

@@ -1,14 +1,15 @@
-r"""Which elastic theory holds at a load: the adhesion map of Johnson and Greenwood, as functions.
+r"""Adhesion map of Johnson and Greenwood: which elastic theory holds at a load.
 
-The map's axes are the Tabor number mu and the load in :math:`\pi R \Delta\gamma_0`, compression
-positive. Its boundaries are conventions of 5 % and of a factor 20; here each is computed from the
-Maugis-Dugdale contact with the strength of the Lennard-Jones traction, so that they join:
+The map's axes are the Tabor number mu (``tabor``) and the load in :math:`\pi R \Delta\gamma_0`,
+compression positive. Its boundaries are conventions of 5 % and of a factor 20; here each is
+computed from the Maugis-Dugdale contact with the strength of the Lennard-Jones traction, so that
+they join:
 
-- Hertz: the tensions add less than 5 % to the load,
-- JKR: they lift the surface, by :math:`\delta_a = a^2/R - \delta`, by more than 20 h0,
-- DMT: they lift it by less than h0/20,
-- rigid (Bradley): the contact of DMT is compressed by less than h0/20,
-- Maugis: anything in between.
+- Hertz: the tension contributes less than 5 % of the load,
+- JKR: it lifts the surface, by :math:`\delta_a = a^2/R - \delta`, by more than 20 h0,
+- DMT: it lifts the surface by less than h0/20,
+- rigid (Bradley): the indentation of the DMT contact is below h0/20,
+- Maugis: all other cases.
 
 Source: Johnson & Greenwood (1997), doi:10.1006/jcis.1997.4984.
 """
@@ -38,7 +39,7 @@ _GAP = (0.75 * np.pi) ** (-2 / 3)
 def hertz_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which adhesion adds less than 5 %.
 
-    From 40 (DMT) to 2520 (JKR).
+    The value ranges from 40 (DMT) to 2520 (JKR).
 
     Examples
     --------
@@ -57,8 +58,8 @@ def hertz_load(tabor: Values) -> Number:
 def jkr_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] above which JKR holds.
 
-    The adhesive lift is there 20 h0. Minus the pull-off force where it is larger along all of the
-    stable curve; never above :func:`hertz_load`.
+    The adhesive lift there is 20 h0. Equal to minus the pull-off force if the lift is larger along
+    the whole stable curve; never above :func:`hertz_load`.
 
     Examples
     --------
@@ -71,9 +72,8 @@ def jkr_load(tabor: Values) -> Number:
 def dmt_load(tabor: Values) -> Number:
     r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which DMT holds.
 
-    The adhesive lift is there h0/20. Minus the pull-off force where it is larger along all of the
-    stable curve, so that DMT holds nowhere;
-    never above :func:`hertz_load`.
+    The adhesive lift there is h0/20. Equal to minus the pull-off force if the lift is larger along
+    the whole stable curve, so that DMT holds nowhere; never above :func:`hertz_load`.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def dmt_load(tabor: Values) -> Number:
 
 
 def rigid_load(tabor: Values) -> Number:
-    r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which the sphere is as if rigid.
+    r"""Return the load [:math:`\pi R \Delta\gamma_0`] below which the sphere is effectively rigid.
 
     .. math:: \frac{P}{\pi R \Delta\gamma_0} = \frac{4}{3 \pi} (0.05/\mu)^{3/2} - 2
 
@@ -107,7 +107,12 @@ def regime(
 ) -> str:
     """Return "hertz", "jkr", "maugis", "dmt" or "rigid" at a force [N], positive in compression.
 
-    A force below that of pull-off counts as pull-off.
+    A tension above the pull-off force counts as pull-off.
+
+    Raises
+    ------
+    ValueError
+        If the force is not finite, or the Tabor number is outside the range of the map.
 
     Examples
     --------
@@ -157,5 +162,5 @@ def _load_at_lift(tabor: Values, lift: float) -> Any:
 
 
 def _zero(function: Callable[[Any], Any], lam: Any) -> Any:
-    """Return where a function that falls through zero with ln(c/a - 1) does so, or an end."""
+    """Return the zero of a function that decreases with ln(c/a - 1), or an end."""
     return halved(function, *(np.full(np.shape(lam), bound) for bound in _LOG_EXCESS))

@@ -1,10 +1,10 @@
 r"""Bradley: a rigid sphere and a rigid plane that attract by the Lennard-Jones 3-9 traction.
 
 Parameters: ``radius`` R of the sphere [m], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2],
-``equilibrium_gap`` h0 [m], where the traction of parallel planes vanishes (Eq. 2.1). The depth
-:math:`\delta` is that of the sphere below the place where the nearest gap is h0, so that the
-gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small against R, Tabor
-number tending to zero. For a deformable solid use :mod:`viscotack.theory.elastic.maugis`.
+``equilibrium_gap`` h0 [m], at which the traction of parallel planes vanishes (Eq. 2.1). The depth
+:math:`\delta` is zero where the smallest gap is h0, so that the
+gap is :math:`h_0 - \delta + r^2/2R` and the depth is below h0. Range: h0 small compared with R,
+Tabor number tending to zero. For a deformable solid use :mod:`viscotack.theory.elastic.maugis`.
 
 Source: Bradley (1932), Philosophical Magazine 13, 853 (no DOI known to this package), with the 3-9
 traction of Eq. 2.1, that of Greenwood (1997), doi:10.1098/rspa.1997.0070.
@@ -28,6 +28,11 @@ def force(
     .. math:: P = -2 \pi R \Delta\gamma_0
               \left[ \tfrac43 (h_0/h)^2 - \tfrac13 (h_0/h)^8 \right]
 
+    Raises
+    ------
+    ValueError
+        If the depth is not finite, or not below the equilibrium gap.
+
     Examples
     --------
     >>> P = force(0.0, radius=1e-6, work_of_adhesion=0.05, equilibrium_gap=3e-10)
@@ -50,7 +55,7 @@ def force(
 def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N], the positive number :math:`2 \pi R \Delta\gamma_0`.
 
-    It is reached at zero depth and depends on nothing but the surface energy.
+    It occurs at zero depth and depends only on radius and work of adhesion.
 
     Examples
     --------

@@ -1,9 +1,10 @@
 r"""DMT in the form of Maugis (DMT-M): Hertz plus the rigid sphere's constant attraction.
 
-Parameters: ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa], ``work_of_adhesion``
-:math:`\Delta\gamma_0` [J/m^2]. Range: small Tabor number, attraction that reaches far against
-the elastic deformation it causes, contact radius not negative. In between and for short range
-use :mod:`viscotack.theory.elastic.maugis`; for no contact at all
+Parameters: ``contact_radius`` a [m], ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa],
+``work_of_adhesion``
+:math:`\Delta\gamma_0` [J/m^2]. Range: small Tabor number, attraction of long range compared with
+the elastic deformation it causes, contact radius not negative. For intermediate and short range
+use :mod:`viscotack.theory.elastic.maugis`; for rigid bodies
 :mod:`viscotack.theory.elastic.bradley`.
 
 Source: Derjaguin, Muller & Toporov (1975), doi:10.1016/0021-9797(75)90018-1; in this form
@@ -61,7 +62,7 @@ def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
 def contact_radius_at_force(
     force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the contact radius [m] under a force [N] not below minus the pull-off force.
+    r"""Return the contact radius [m] under a force [N], at least minus the pull-off force.
 
     .. math:: a = \left[ \frac{3 R}{4 E^*} (P + 2 \pi R \Delta\gamma_0) \right]^{1/3}
 

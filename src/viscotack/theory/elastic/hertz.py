@@ -1,7 +1,8 @@
 r"""Hertz: a rigid sphere pressed into an elastic half-space without adhesion.
 
-Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E* [Pa].
-Range: contact radius small against R (parabolic profile), no adhesion. With short-range
+Parameters: ``contact_radius`` a [m], ``position`` r from the axis [m], ``radius`` R of the
+sphere [m], ``contact_modulus`` E* [Pa].
+Range: contact radius small compared with R (parabolic profile), no adhesion. With short-range
 adhesion use :mod:`viscotack.theory.elastic.jkr`, with long-range adhesion
 :mod:`viscotack.theory.elastic.dmt`.
 
@@ -60,7 +61,7 @@ def contact_radius_at_depth(depth: Values, *, radius: Values) -> Number:
 
 
 def contact_radius_at_force(force: Values, *, radius: Values, contact_modulus: Values) -> Number:
-    r"""Return the contact radius [m] under a force [N] that is not negative.
+    r"""Return the contact radius [m] under a non-negative force [N].
 
     .. math:: a = \left( \frac{3 P R}{4 E^*} \right)^{1/3}
 
@@ -123,7 +124,7 @@ def gap(position: Values, *, contact_radius: Values, radius: Values) -> Number:
 
     .. math:: g = \frac{r^2}{2 \pi R} \left( \sin 2\varphi - 2 \varphi \cos 2\varphi \right),
 
-    which keeps all digits next to the edge, where the gap grows as :math:`(r - a)^{3/2}`.
+    which is accurate next to the edge, where the gap grows as :math:`(r - a)^{3/2}`.
 
     Examples
     --------

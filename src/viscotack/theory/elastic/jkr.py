@@ -5,18 +5,18 @@ Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus``
 elastic solid; for a viscoelastic solid this is the infinitely slow limit. For a finite range
 use :mod:`viscotack.theory.elastic.maugis`, without adhesion :mod:`viscotack.theory.elastic.hertz`.
 
-Along the equilibrium curve the contact radius falls from the loaded state through the force
+Along the equilibrium curve the contact radius decreases from the loaded state through the force
 minimum (:func:`pull_off`, where a dead load detaches) to the depth minimum
-(:func:`instability`, where a rigid drive detaches) and on to zero on a branch that nothing
-holds. Formulas use, with Eq. 4.16,
+(:func:`instability`, where a rigid drive detaches) and further to zero on an unstable
+branch. Formulas use, with Eq. 4.16,
 
 .. math:: \hat a = \frac{a}{(\pi R^2 \Delta\gamma_0 / E^*)^{1/3}}, \quad
           \hat\delta = \frac{\delta}{(\pi^2 \Delta\gamma_0^2 R / E^{*2})^{1/3}}, \quad
           \hat P = \frac{P}{\pi R \Delta\gamma_0}.
 
-A JKR contact is a Hertz contact of the same radius lifted by a flat punch, by
-:math:`\delta_1 = \sqrt{2 \pi a \Delta\gamma_0 / E^*}`: pressure, displacement and gap of its
-surface follow. ``position`` is the distance r from the axis [m] there, ``contact_radius`` the
+A JKR contact is a Hertz contact of the same radius superposed with a flat punch displaced by
+:math:`\delta_1 = \sqrt{2 \pi a \Delta\gamma_0 / E^*}`; this gives the pressure, displacement and
+gap of its surface. There ``position`` is the distance r from the axis [m], ``contact_radius`` the
 radius a [m] of an equilibrium state.
 
 Source: Johnson, Kendall & Roberts (1971), doi:10.1098/rspa.1971.0141; Eq. 2.3 and 2.4.
@@ -37,13 +37,16 @@ from . import hertz
 
 _LENGTH = "a contact radius is a length"
 _SIGN = "a distance from the axis is not negative"
-_NO_DEPTH = "above that the contact is lost even on a rigid drive, see instability"
+_NO_DEPTH = "below it the contact detaches even from a rigid drive, see instability"
 _FAR = 1e30
 _NO_FORCE = "a stronger pull detaches, see pull_off_force"
 
 
 class Point(NamedTuple):
-    """A point of the equilibrium curve: contact radius [m], depth [m], force [N]."""
+    """A point of the equilibrium curve: contact radius [m], depth [m], force [N].
+
+    Returned by :func:`pull_off` and :func:`instability`.
+    """
 
     contact_radius: Number
     depth: Number
@@ -93,10 +96,10 @@ def depth(
 def contact_radius_at_depth(
     depth: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the contact radius [m] that a rigid drive holds at a depth [m].
+    r"""Return the stable contact radius [m] at a depth [m], for a rigid drive.
 
     The larger root of :math:`\hat a^2 - \sqrt{2 \hat a} = \hat\delta`, in closed form; the depth
-    must not lie below that of :func:`jkr.instability`.
+    must not be below that of :func:`jkr.instability`.
 
     Examples
     --------
@@ -113,9 +116,14 @@ def contact_radius_at_depth(
 def unstable_contact_radius_at_depth(
     depth: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the smaller contact radius [m] in equilibrium at a depth [m]; nothing holds it.
+    r"""Return the smaller contact radius [m] in unstable equilibrium at a depth [m].
 
     It exists between the depth of :func:`jkr.instability` and zero, where it vanishes.
+
+    Raises
+    ------
+    ValueError
+        If the depth is positive, or below that of the instability.
 
     Examples
     --------
@@ -137,10 +145,10 @@ def unstable_contact_radius_at_depth(
 def contact_radius_at_force(
     force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the contact radius [m] that a dead load holds at a force [N].
+    r"""Return the stable contact radius [m] at a force [N], for a dead load.
 
     The larger root of :math:`\frac43 \hat a^3 - \sqrt{8 \hat a^3} = \hat P`; the force must not
-    lie below minus :func:`jkr.pull_off_force`.
+    be below minus :func:`jkr.pull_off_force`.
 
     Examples
     --------
@@ -158,8 +166,13 @@ def unstable_contact_radius_at_force(
 ) -> Number:
     r"""Return the smaller contact radius [m] in equilibrium at a force [N].
 
-    It exists for tension up to :func:`jkr.pull_off_force`. A dead load does not hold it; a rigid
-    drive holds the part of it with a radius above that of :func:`jkr.instability`.
+    It exists for tension up to :func:`jkr.pull_off_force`. It is unstable under a dead load; with a
+    rigid drive it is stable for radii above that of :func:`jkr.instability`.
+
+    Raises
+    ------
+    ValueError
+        If the force is compressive, or a tension above the pull-off force.
 
     Examples
     --------
@@ -181,7 +194,7 @@ def unstable_contact_radius_at_force(
 def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N], the positive number :math:`\frac32\pi R\Delta\gamma_0`.
 
-    It does not depend on the modulus and holds for load and depth control alike.
+    It is independent of the modulus and holds for both load and depth control.
 
     Examples
     --------
@@ -194,6 +207,11 @@ def pull_off_force(*, radius: Values, work_of_adhesion: Values) -> Number:
 
 def pull_off(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the force minimum: :math:`\hat a^3 = 9/8, \hat\delta = -3^{1/3}/4, \hat P = -3/2`.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N].
 
     Examples
     --------
@@ -208,6 +226,11 @@ def pull_off(*, radius: Values, contact_modulus: Values, work_of_adhesion: Value
 
 def instability(*, radius: Values, contact_modulus: Values, work_of_adhesion: Values) -> Point:
     r"""Return the depth minimum: :math:`\hat a = 1/2, \hat\delta = -3/4, \hat P = -5/6`.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N].
 
     Examples
     --------
@@ -273,7 +296,12 @@ def pressure(
     .. math:: p(r) = \frac{2 E^*}{\pi R} \sqrt{a^2 - r^2}
               - \sqrt{\frac{2 E^* a \Delta\gamma_0}{\pi (a^2 - r^2)}}
 
-    The pressure has no value at the edge itself, where the tension is infinite.
+    The pressure is undefined at the edge itself, where the tension is infinite.
+
+    Raises
+    ------
+    ValueError
+        If a position is the contact edge, where the tension is infinite.
 
     Examples
     --------
@@ -327,7 +355,7 @@ def gap(
     r"""Return the gap [m] between sphere and surface; zero inside the contact.
 
     The gap of Hertz plus :math:`\delta_1 \frac{2}{\pi} \arccos(a/r)`; next to the edge it opens
-    as a crack, with :math:`\sqrt{r - a}`, and all digits are kept.
+    as a crack, with :math:`\sqrt{r - a}`, without cancellation.
 
     Examples
     --------
@@ -344,7 +372,7 @@ def _roots_at_depth(d: npt.NDArray[np.float64]) -> tuple[Any, Any]:
     r"""Return both roots s = sqrt(a) of :math:`s^4 - \sqrt2 s - d = 0`, d from -3/4.
 
     Ferrari's solution; m is the positive root of the resolvent m^3 + d m - 1/4 = 0. Differences
-    of nearly equal numbers are written as quotients. At d = -3/4 round-off may leave a tiny
+    of nearly equal numbers are written as quotients. At d = -3/4 round-off may cause a small
     negative number under a root.
     """
     # beyond that the root grows with the fourth root of the depth, to round-off

@@ -1,18 +1,18 @@
-r"""Elastic pull-off of a sphere with the Lennard-Jones 3-9 traction: a table made by the solver.
+r"""Elastic pull-off of a sphere with the Lennard-Jones 3-9 traction: a table from the solver.
 
 Between Bradley's rigid sphere and JKR no closed form exists for this traction. The pull-off force
 in units of JKR's, :math:`f(\mu) = P_{po} / (\tfrac32 \pi R \Delta\gamma_0)`, falls from 4/3 to 1
-with the Tabor number :math:`\mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3}`; Maugis-Dugdale of
-the same strength is up to 6 % lower. It is the slow limit of every viscoelastic sphere of
-:func:`viscotack.solve`, and its fast limit with the Tabor number of the glassy solid, see
+with the Tabor number (``tabor``) :math:`\mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3}`;
+Maugis-Dugdale of the same strength is up to 6 % lower. It is the slow limit of every viscoelastic
+sphere of :func:`viscotack.solve`, and its fast limit with the Tabor number of the glassy solid, see
 :mod:`viscotack.theory.sphere.bounds`.
 
-Range: computed for 0.01 <= mu <= 10; polynomials in ln mu hold the table to the errors
-``FORCE_ERROR`` and ``WORK_ERROR``, relative. Outside, the limits are continued with their powers of
+Range: computed for 0.01 <= mu <= 10; polynomials in ln mu represent the table with the relative
+errors ``FORCE_ERROR`` and ``WORK_ERROR``. Outside, the limits are continued with their powers of
 mu, :math:`\tfrac43 - f \sim \mu^{3/2}` and :math:`f - 1 \sim \mu^{-2} (c + \ln\mu)`, through the
 last value of the table: errors below 1e-3 of the force and 1 % of the work.
 
-Source: the table is this package's, remade by ``benchmarks/elastic_table.py``; limits of Bradley
+Source: this package; the table is computed by ``benchmarks/elastic_table.py``; limits of Bradley
 (1932), Philosophical Magazine 13, 853 (no DOI known to this package), and Johnson, Kendall &
 Roberts (1971), doi:10.1098/rspa.1971.0141.
 """
@@ -38,7 +38,7 @@ _JKR_WORK = 2 / 3 * 1.125 ** (2 / 3) * (0.6 * 4 ** (2 / 3) - 0.4) * np.pi ** (2 
 
 
 def _position(tabor: Any) -> Any:
-    """Return ln mu on the interval from -1 to 1."""
+    """Map ln mu to the interval from -1 to 1."""
     return 2 * np.log(tabor / _LOWEST) / np.log(_HIGHEST / _LOWEST) - 1
 
 
@@ -60,7 +60,7 @@ def pull_off_ratio(tabor: Values) -> Number:
     >>> f"{pull_off_ratio(3.24):.4f}"
     '1.0308'
     """
-    # what only stands for an array, as where formulas are exported, has no values to check
+    # traced arrays (used to export formulas) have no values to check
     mu: Any = tabor if isinstance(tabor, NDArrayOperatorsMixin) else positive(tabor=tabor)
     odds = np.exp(_series(mu, _FORCE_SERIES))
     inside = (4 / 3 + odds) / (1 + odds)
@@ -72,7 +72,7 @@ def pull_off_ratio(tabor: Values) -> Number:
 def work_ratio(tabor: Values) -> Number:
     r"""Return the work from zero force to pull-off [1.5 pi R w h0].
 
-    From Bradley's 0.2056 for a rigid sphere to JKR's :math:`0.8018 \pi^{2/3} \mu`.
+    It increases from Bradley's 0.2056 for a rigid sphere to JKR's :math:`0.8018 \pi^{2/3} \mu`.
 
     Examples
     --------
@@ -82,7 +82,7 @@ def work_ratio(tabor: Values) -> Number:
     mu = positive(tabor=tabor)
     inside = np.exp(_series(mu, _WORK_SERIES))
     rigid = _RIGID_WORK + (_WORK[0] - _RIGID_WORK) * (np.minimum(mu, _LOWEST) / _LOWEST) ** 1.5
-    # the excess over JKR, beside JKR, falls there with mu^-1.5
+    # the excess over JKR relative to JKR falls there with mu^-1.5
     high = np.maximum(mu, _HIGHEST)
     excess = (_WORK[-1] / (_JKR_WORK * _HIGHEST) - 1) * (_HIGHEST / high) ** 1.5
     soft = _JKR_WORK * high * (1 + excess)
@@ -122,7 +122,9 @@ def work_to_pull_off(
 def tabor_number(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
-    r"""Return :math:`\mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3}` (Eq. 2.2 as in Eq. 31).
+    r"""Return the Tabor number, dimensionless.
+
+    .. math:: \mu = (R \Delta\gamma_0^2 / E^{*2} h_0^3)^{1/3} \quad \text{(Eq. 2.2 as in Eq. 31)}
 
     Examples
     --------

@@ -4,12 +4,12 @@ A constant tension, the ``strength`` :math:`\sigma_0`, acts where the gap is bel
 :math:`\Delta\gamma_0 / \sigma_0`: in the ring a < r < c around the contact (c the cohesive
 radius). Parameters of all functions: ``radius`` R of the sphere [m], ``contact_modulus`` E*
 [Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` [Pa], all positive. The
-one group left is :func:`maugis_parameter`; small it means DMT, large JKR. Range: elastic solid,
-c small against R. A smooth traction of the same strength and work gives nearly the same curve:
-the pull-off force of a Lennard-Jones contact differs by up to 6 %.
+only dimensionless group is :func:`maugis_parameter`; DMT is its small, JKR its large limit. Range:
+elastic solid, c small compared with R. A smooth traction of the same strength and work gives nearly
+the same curve: the pull-off force of a Lennard-Jones contact differs by up to 6 %.
 
-With m = c/a everything is explicit, so a curve is traced by m from near 1 (pressed hard) to
-infinity, where the contact is a point; beyond that :func:`curve_without_contact` goes on.
+With m = c/a everything is explicit, so a curve is parametrised by m from near 1 (large load) to
+infinity, where the contact is a point; :func:`curve_without_contact` continues it.
 
 Source: Maugis (1992), doi:10.1016/0021-9797(92)90285-T, rederived for a rigid sphere.
 """
@@ -36,7 +36,10 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 class Point(NamedTuple):
-    """A point of the curve: contact radius [m], cohesive radius [m], depth [m], force [N]."""
+    """A point of the curve: ``contact_radius`` [m], ``cohesive_radius`` [m], depth [m], force [N].
+
+    Returned by :func:`curve`, :func:`curve_without_contact` and :func:`pull_off`.
+    """
 
     contact_radius: Number
     cohesive_radius: Number
@@ -62,6 +65,11 @@ def curve(
 
     and :math:`\bar P = \bar a^3 - \lambda \bar a^2 (t + m^2 \varphi)`,
     :math:`\bar\delta = \bar a^2 - \frac43 \lambda \bar a t`.
+
+    Raises
+    ------
+    ValueError
+        If the ratio is not above 1.
 
     Examples
     --------
@@ -114,7 +122,7 @@ def curve_without_contact(
     work_of_adhesion: Values,
     strength: Values,
 ) -> Point:
-    r"""Return the equilibrium state that attracts over a cohesive radius [m] but does not touch.
+    r"""Return the equilibrium state with attraction over a cohesive radius [m], without contact.
 
     A uniform tension over r < c lifts the surface by :math:`2 \sigma_0 c / E^*` at the centre
     and :math:`4 \sigma_0 c / \pi E^*` at c, where the gap is :math:`\Delta\gamma_0/\sigma_0`:
@@ -122,8 +130,14 @@ def curve_without_contact(
     .. math:: \delta = \frac{c^2}{2R} - \frac{4 \sigma_0 c}{\pi E^*}
               - \frac{\Delta\gamma_0}{\sigma_0}, \quad P = -\pi c^2 \sigma_0
 
-    From :func:`touching_radius`, where it joins :func:`curve`, down to zero, where the sphere
-    leaves the range of adhesion. A rigid drive holds it while :math:`c > 4 \sigma_0 R/\pi E^*`.
+    The ``cohesive_radius`` c extends from :func:`touching_radius`, where the states join
+    :func:`curve`, to zero, where the sphere leaves the range of adhesion. It is stable
+    with a rigid drive for :math:`c > 4 \sigma_0 R/\pi E^*`.
+
+    Raises
+    ------
+    ValueError
+        If the cohesive radius exceeds that at which the sphere touches.
 
     Examples
     --------
@@ -137,7 +151,7 @@ def curve_without_contact(
         work_of_adhesion=work_of_adhesion,
         strength=strength,
     )
-    c = at_least(0, "it is a length", cohesive_radius=cohesive_radius)
+    c = at_least(0, "a cohesive radius is a length", cohesive_radius=cohesive_radius)
     limit = np.asarray(touching_radius(radius=R, contact_modulus=E, work_of_adhesion=w, strength=s))
     if np.any(c > limit * (1 + ROUND_OFF)):
         raise InputError(
@@ -157,7 +171,9 @@ def pressure(
     contact_modulus: Values,
     strength: Values,
 ) -> Number:
-    r"""Return the pressure [Pa] at a distance [m] from the axis, positive in compression.
+    r"""Return the pressure [Pa] at a distance ``position`` [m] from the axis.
+
+    Positive in compression.
 
     Inside the contact
 
@@ -173,7 +189,7 @@ def pressure(
     '12.1 MPa'
     """
     s = positive(strength=strength)
-    a = at_least(0, "it is a length", contact_radius=contact_radius)
+    a = at_least(0, "a contact radius is a length", contact_radius=contact_radius)
     c = at_least(a, "it is the outer radius of the ring", cohesive_radius=cohesive_radius)
     p = hertz.pressure(position, contact_radius=a, radius=radius, contact_modulus=contact_modulus)
     r = np.asarray(position, dtype=float)
@@ -185,7 +201,9 @@ def pressure(
 def maugis_parameter(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
-    r"""Return :math:`\lambda = \sigma_0 (9 R / 2 \pi \Delta\gamma_0 E^{*2})^{1/3}`.
+    r"""Return the Maugis parameter, dimensionless.
+
+    .. math:: \lambda = \sigma_0 (9 R / 2 \pi \Delta\gamma_0 E^{*2})^{1/3}
 
     Examples
     --------
@@ -197,7 +215,7 @@ def maugis_parameter(
 
 
 def parameter_from_tabor(tabor: Values) -> Number:
-    r"""Return the Maugis parameter of a Lennard-Jones contact with a Tabor number.
+    r"""Return the Maugis parameter of a Lennard-Jones contact from ``tabor``, dimensionless.
 
     Peak tension and work of adhesion are those of the 3-9 traction (Eq. 2.1),
     :math:`\sigma_0 = 16 \Delta\gamma_0 / 9 \sqrt3 h_0`:
@@ -239,8 +257,13 @@ def pull_off(
 ) -> Point:
     r"""Return the force minimum, for a Maugis parameter from 1e-6 to 1e6.
 
-    It always lies on the part of the curve with contact: where the contact shrinks to a point
-    the force still rises with a^2.
+    It always lies on the part of the curve with contact, because the force still rises with a^2
+    where the contact shrinks to a point.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], cohesive radius [m], depth [m] and force [N].
 
     Examples
     --------

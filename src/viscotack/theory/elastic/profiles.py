@@ -1,12 +1,13 @@
-r"""Adhesion of vanishing range for any profile: flat punch, cone, power law, and the general rule.
+r"""Adhesion of vanishing range for any profile: flat punch, cone, power law, and general rule.
 
-Whatever the shape, adhesion lifts a contact of radius a by the flat punch that carries the
-stress intensity of the work of adhesion:
+For every shape, adhesion adds the displacement of a flat punch with the stress intensity of the
+work of adhesion:
 
 .. math:: \delta = \delta_1(a) - \sqrt{\frac{2 \pi a \Delta\gamma_0}{E^*}}, \quad
           P = P_1(a) - \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
 
 with the adhesionless depth and force at the same radius (Eq. 2.10 and 2.11). Parameters:
+``contact_radius`` a [m], ``position`` r from the axis [m],
 ``contact_modulus`` E* [Pa], ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2]; the indenter is
 rigid. Range: large Tabor number, elastic half-space, small slopes. A profile is
 :math:`z = A r^q`, with ``exponent`` q and ``coefficient`` A [m^(1-q)]: q = 1 is a cone of slope
@@ -103,6 +104,11 @@ def punch_pressure(
 
     .. math:: p = \frac{E^* \delta}{\pi \sqrt{a^2 - r^2}}
 
+    Raises
+    ------
+    ValueError
+        If a position is the edge of the punch, where the stress is infinite.
+
     Examples
     --------
     >>> p = punch_pressure(0.0, depth=-1e-6, contact_radius=1e-3, contact_modulus=1e6)
@@ -120,13 +126,13 @@ def punch_pressure(
 def punch_pull_off(
     *, contact_radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Point:
-    r"""Return where a flat punch comes off, all at once, under load and depth control alike.
+    r"""Return the pull-off of a flat punch, over its whole area, for load and depth control.
 
     .. math:: P = -\sqrt{8 \pi E^* a^3 \Delta\gamma_0}, \quad
               \delta = -\sqrt{2 \pi a \Delta\gamma_0 / E^*}
 
-    Range: the forces reach much less far than :math:`E^* \Delta\gamma_0/\sigma_0^2` is long beside
-    a; a small punch comes off uniformly, at its strength.
+    Range: :math:`E^* \Delta\gamma_0/\sigma_0^2` is small compared with a; a smaller punch
+    detaches uniformly, at the strength.
 
     Examples
     --------
@@ -200,8 +206,13 @@ def pull_off(
     .. math:: a^{q - 1/2} = \frac{3}{2 q A \kappa} \sqrt{2 \pi \Delta\gamma_0/E^*}, \quad
               P = -\frac{q - 1/2}{q + 1} \sqrt{8 \pi E^* a^3 \Delta\gamma_0}
 
-    The modulus drops out of the force for q = 2 alone. Range: q above 1/2; flatter tips keep no
+    The force is independent of the modulus only for q = 2. Range: q above 1/2; flatter tips have no
     force minimum.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N].
 
     Examples
     --------
@@ -219,6 +230,11 @@ def instability(
     r"""Return the depth minimum of a profile, where a rigid drive detaches.
 
     :math:`a^{q - 1/2}` is a third of that of :func:`pull_off`; range q above 1/2.
+
+    Returns
+    -------
+    Point
+        Contact radius [m], depth [m] and force [N].
 
     Examples
     --------

@@ -1,10 +1,10 @@
-r"""The JKR contact in which a test starts: relaxed, at a depth, under a force or with a radius.
+r"""Relaxed JKR contact at the start of a test: at a depth, under a force or with a radius.
 
-JKR holds for forces of short range. Two related questions have answers elsewhere. The relaxed
-contact of a traction law of finite range, which exists a little beyond the end of JKR's branch, is
-computed by the simulation (``viscotack.bem``) and learned from it
+JKR holds for forces of short range. The relaxed
+contact of a traction law of finite range, which exists slightly beyond the end of JKR's branch, is
+computed by the simulation (``viscotack.bem``) and approximated by a surrogate
 (:meth:`viscotack.surrogate.model.Surrogate.start_depth`). The adhesion map
-(:mod:`viscotack.theory.elastic.adhesion_map`) shows how far the two differ.
+(:mod:`viscotack.theory.elastic.adhesion_map`) shows the difference between the two.
 
 Source: as :mod:`viscotack.theory.elastic.jkr`, :mod:`viscotack.theory.elastic.profiles` and
 :mod:`viscotack.theory.elastic.indenter`, whose formulas are used.
@@ -35,7 +35,7 @@ from . import indenter, jkr, profiles
 from .jkr import Point
 
 _SPHERE, _HALF_SPACE = Sphere(1.0), HalfSpace()
-# Radii between which a contact is looked for, over the length beta, and their number.
+# Range of radii of the search, over the length beta, and their number.
 _RADII, _COUNT = (1e-4, 1e6), 600
 _TOLERANCE = 1e-13
 
@@ -48,7 +48,7 @@ def contact(
     work_of_adhesion: float,
     body: Body = _HALF_SPACE,
 ) -> Point | None:
-    r"""Compute the relaxed JKR contact of a start; None where JKR has none, and apart.
+    r"""Compute the relaxed JKR contact of a start; None if there is none, or for surfaces apart.
 
     Parameters
     ----------
@@ -59,15 +59,15 @@ def contact(
     contact_modulus, work_of_adhesion : float
         Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
     body : Body
-        What the shape presses.
+        The deformable body.
 
     Returns
     -------
     Point or None
-        Contact radius [m], depth [m] and force [N]. By depth and by radius: the contact that a
-        rigid drive holds; None below the depth or the radius of the depth minimum. By force: the
-        contact of the larger radius, which a dead load keeps; None below the force minimum. A
-        shape with several contacts has the largest.
+        Contact radius [m], depth [m] and force [N]. By depth and by radius: the contact that is
+        stable with a rigid drive; None below the depth or the radius of the depth minimum. By
+        force: the contact of the larger radius, stable under a dead load; None below the force
+        minimum. If a shape has several contacts, the largest is returned.
 
     Examples
     --------
@@ -106,10 +106,30 @@ def contact(
 def ends(
     shape: Shape, *, contact_modulus: float, work_of_adhesion: float, body: Body = _HALF_SPACE
 ) -> tuple[Point, Point]:
-    r"""Compute the contacts of the least depth and of the least force, beyond which JKR has none.
+    r"""Compute the contacts of the smallest depth and of the smallest force, the limits of JKR.
 
-    A rigid drive lets go at the first, a dead load at the second. A shape without closed forms is
-    searched around its length :math:`\beta`; the radii are good to five digits.
+    A rigid drive detaches at the first, a dead load at the second. For a shape without closed forms
+    radii near its length :math:`\beta` are searched, to five digits.
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter.
+    contact_modulus, work_of_adhesion : float
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+    body : HalfSpace, Layer or a user-defined body
+        Elastic body.
+
+    Returns
+    -------
+    tuple of Point
+        Contact radius [m], depth [m] and force [N] of the least depth and of the least force.
+
+    Examples
+    --------
+    >>> least_depth, least_force = ends(Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> f"{least_depth.depth * 1e6:.2f} um, {least_force.force * 1e3:.2f} mN"
+    '-4.89 um, -3.53 mN'
     """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     theory, case = _theory(shape, body, solid)
@@ -150,8 +170,8 @@ def contact_in_groups(
 def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: float = 2.0) -> float:
     r"""Estimate the radius of a large start [:math:`(\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}`].
 
-    Hertz's radius, of a power law with another exponent about: nothing is solved, so that any
-    number has an answer, and starts that are too large are refused before anything is.
+    This is the Hertz radius, approximate for an ``exponent`` of the profile other than 2. It is
+    explicit, so starts that are too large can be rejected before anything is solved.
 
     Examples
     --------
@@ -172,7 +192,23 @@ def radius_without_adhesion(start: Start | Apart, *, tabor: float, exponent: flo
 def curve(
     shape: Shape, *, contact_modulus: float, work_of_adhesion: float, body: Body = _HALF_SPACE
 ) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """Return JKR's depth [m] and force [N] as functions of the contact radius [m]."""
+    r"""Return JKR's depth [m] and force [N] as functions of the contact radius [m].
+
+    Parameters
+    ----------
+    shape : shape of revolution
+        Rigid indenter.
+    contact_modulus, work_of_adhesion : float
+        Relaxed :math:`E_0^*` [Pa] and :math:`\Delta\gamma_0` [J/m^2].
+    body : HalfSpace, Layer or a user-defined body
+        Elastic body.
+
+    Examples
+    --------
+    >>> depth, force = curve(Sphere(5e-3), contact_modulus=2e6, work_of_adhesion=0.15)
+    >>> f"{depth(3e-4) * 1e6:.2f} um, {force(3e-4) * 1e3:.2f} mN"
+    '6.11 um, 0.13 mN'
+    """
     solid = {"contact_modulus": contact_modulus, "work_of_adhesion": work_of_adhesion}
     theory, case = _theory(shape, body, solid)
     return partial(theory.depth, **case), partial(theory.force, **case)
@@ -181,16 +217,26 @@ def curve(
 def largest_radius(
     function: Callable[[Any], Any], value: float, *, length: float = 1.0
 ) -> float | None:
-    r"""Compute the largest radius at which a depth or a force has a value; None for no such radius.
+    r"""Compute the largest radius at which a depth or a force has a value, or None.
 
     Parameters
     ----------
     function : callable
-        Of radii, ascending beyond the largest root.
+        Function of radii, increasing beyond the largest root.
     value : float
-        The wanted depth or force.
+        Required depth or force.
     length : float
         Scale of the radii, :math:`\beta`; from 1e-4 to 1e6 of it are searched.
+
+    Returns
+    -------
+    float or None
+        Radius in the unit of `length`.
+
+    Examples
+    --------
+    >>> f"{largest_radius(lambda a: a**2 - 1, 3.0):.3f}"
+    '2.000'
     """
     radii = length * np.geomspace(*_RADII, _COUNT)
     below = np.flatnonzero(function(radii) <= value)
@@ -216,13 +262,13 @@ def _theory(shape: Shape, body: Body, solid: dict[str, float]) -> tuple[Any, dic
 
 
 def _length(shape: Shape, solid: dict[str, float]) -> float:
-    """Return the length beta, along which adhesion and elasticity balance."""
+    """Return the length beta, at which adhesion and elasticity balance."""
     adhesion = solid["work_of_adhesion"] / solid["contact_modulus"]
     return float(np.cbrt(equivalent_radius(shape, adhesion) ** 2 * adhesion))
 
 
 def _least(function: Callable[[Any], Any], length: float) -> float:
-    """Return the radius at which a function that falls and then grows is least."""
+    """Return the radius of the minimum of a function that decreases and then increases."""
     found: Any = scipy.optimize.minimize_scalar(
         lambda x: function(length * np.exp(x)), bounds=(-5.0, 5.0), method="bounded"
     )

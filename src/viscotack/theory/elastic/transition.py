@@ -1,6 +1,6 @@
-r"""Between DMT and JKR by two numbers: the equation that tip experiments are fitted with.
+r"""Carpick's equation: interpolation between DMT and JKR for fits to tip experiments.
 
-Carpick, Ogletree and Salmeron write the contact radius under a load P between the limits as
+Carpick, Ogletree and Salmeron express the contact radius under a load P as
 
 .. math:: \frac{a}{a_0} = \left( \frac{\alpha + \sqrt{1 + P/P_{po}}}{1 + \alpha} \right)^{2/3}
 
@@ -47,9 +47,14 @@ def contact_radius(
 
 
 def maugis_parameter(transition: Values) -> Number:
-    r"""Return the Maugis parameter, :math:`\lambda = -0.924 \ln(1 - 1.02 \alpha)`.
+    r"""Return the dimensionless Maugis parameter, :math:`\lambda = -0.924 \ln(1 - 1.02 \alpha)`.
 
     The transition number must be below 1/1.02, where lambda is infinite.
+
+    Raises
+    ------
+    ValueError
+        If the transition number is not in [0, 1/1.02).
 
     Examples
     --------
@@ -66,9 +71,9 @@ def maugis_parameter(transition: Values) -> Number:
 
 
 def transition(maugis_parameter: Values) -> Number:
-    r"""Return the transition number of a Maugis parameter, inverse of :func:`maugis_parameter`.
+    r"""Return the transition number (dimensionless), the inverse of :func:`maugis_parameter`.
 
-    Never above 1/1.02; the fit leaves out the last 2 % before JKR.
+    At most 1/1.02: the fit does not cover the last 2 % before JKR.
 
     Examples
     --------
@@ -81,6 +86,8 @@ def transition(maugis_parameter: Values) -> Number:
 
 def pull_off_force(maugis_parameter: Values, *, radius: Values, work_of_adhesion: Values) -> Number:
     r"""Return the pull-off force [N] by the fit to Maugis-Dugdale, within 2 %.
+
+    With :math:`\lambda` = ``maugis_parameter``,
 
     .. math:: \frac{P_{po}}{\pi R \Delta\gamma_0} = \frac74
               - \frac14 \, \frac{4.04 \lambda^{1.4} - 1}{4.04 \lambda^{1.4} + 1}
@@ -100,6 +107,8 @@ def contact_radius_without_load(
     maugis_parameter: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
     r"""Return the contact radius [m] without load by the fit to Maugis-Dugdale, within 2 %.
+
+    With :math:`\lambda` = ``maugis_parameter``,
 
     .. math:: \frac{a_0}{(3 \pi R^2 \Delta\gamma_0/4 E^*)^{1/3}} = 1.54 + 0.279 \,
               \frac{2.28 \lambda^{1.3} - 1}{2.28 \lambda^{1.3} + 1}

@@ -1,4 +1,4 @@
-"""A flat punch comes off a layer: a module for each step, and the functions asked most."""
+"""Detachment of a flat punch from a layer; one module per topic, and the main functions."""
 
 from viscotack.geometry import Bonded, Frictionless
 from viscotack.renamed import earlier_names

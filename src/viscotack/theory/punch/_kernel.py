@@ -1,14 +1,14 @@
-r"""A rigid punch pressed into a layer: the integral equation, solved once for all sizes.
+r"""Integral equation of a rigid punch on a layer, solved once for all sizes.
 
-Lengths in half widths a, lambda = a/b. Under a pressure p = phi(t) / sqrt(1 - t^2) the surface
-of the layer sinks by
+Lengths in half widths a, lambda = a/b. A pressure p = phi(t) / sqrt(1 - t^2) displaces the surface
+of the layer by
 
     (2/pi) int p(s) int_0^inf kappa(u)/u cos(u lambda (t - s)) du ds,
 
-with the transfer function kappa of the base, and the punch makes that 1. The logarithm in the
+with the transfer function kappa of the base; under the punch this equals 1. The logarithm in the
 kernel is diagonal in Chebyshev polynomials, the rest is analytic for |Im(lambda t)| < 2, so
-Gauss-Chebyshev points converge geometrically. What matters is then a function of lambda alone, held
-by Chebyshev polynomials in ln(1 + lambda) up to where the two edges no longer know of each other.
+Gauss-Chebyshev points converge geometrically. The results are functions of lambda alone,
+represented by Chebyshev polynomials in ln(1 + lambda) up to where the two edges no longer interact.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from viscotack.errors import InputError
 from viscotack.geometry import Base, Bonded
 from viscotack.theory._roots import halved
 
-# kappa differs from 1 - exp(-2u) by u^2 exp(-2u): nothing is left at this u.
+# kappa differs from 1 - exp(-2u) by u^2 exp(-2u), negligible above this u.
 _CUT = 22.0
-# Spacing and degree with which the smooth part of the kernel is held to round-off.
+# Spacing and degree of the spline of the smooth part of the kernel, for round-off accuracy.
 _SPACING, _SPLINE = 0.03, 7
-# Gauss-Chebyshev points of a half: the pressure has an edge layer of a thickness.
+# Gauss-Chebyshev points of a half: the pressure has an edge layer of one thickness.
 _POINTS, _PER_THICKNESS = 22, 3
-# exp(-this) of the interaction of the edges is left where a table ends.
+# The table ends where the interaction of the edges is exp(-this).
 _FORGOTTEN = 30.0
-# A table of a layer nearer to incompressible would not end.
+# For a layer closer to incompressible the table would be too long.
 LARGEST_POISSON_RATIO = 0.49
 
 
@@ -65,8 +65,8 @@ def curve(base: Base) -> Curve:
     """Return the state of a punch on a layer with this base, computed on first use."""
     if isinstance(base, Bonded) and base.poisson_ratio > LARGEST_POISSON_RATIO:
         raise InputError(
-            f"poisson_ratio of a bonded layer must be at most {LARGEST_POISSON_RATIO} here, got "
-            f"{base.poisson_ratio}: the nearer to 0.5, the farther its edges feel each other"
+            f"poisson_ratio of a bonded layer must be at most {LARGEST_POISSON_RATIO}, got "
+            f"{base.poisson_ratio}, because the interaction of the edges decays too slowly near 0.5"
         )
     longest = _FORGOTTEN / _decay(base) + 1
     degree = 40 + 2 * int(longest)
@@ -85,19 +85,19 @@ def curve(base: Base) -> Curve:
 
 
 def states(ratios: Array, base: Base) -> tuple[Array, Array]:
-    """Return S, the force of a punch sunk by 1, and phi(1), the strength of its edges, per a/b."""
+    """Return S, the force of a punch at unit depth, and phi(1), its edge intensity, per a/b."""
     smooth = _smooth_kernel(2 * float(np.max(ratios)), base)
     force, edge = np.array([_state(float(ratio), smooth) for ratio in ratios]).T
     return force, edge
 
 
 def _half_plane(ratio: Any) -> Any:
-    """Return what 1/S has of the logarithm of a thick layer; nothing for a thin one."""
+    """Return the logarithmic part of 1/S for a thick layer; zero for a thin one."""
     return np.log1p(ratio**-2.0) / np.pi
 
 
 def _decay(base: Base) -> float:
-    """Return y with which edges forget each other as exp(-y a/b): the first zero of kappa(iy/2)."""
+    """Return y of the edge interaction exp(-y a/b): the first zero of kappa(iy/2)."""
     if not isinstance(base, Bonded):
         return 2 * np.pi
     # q sin y = y

@@ -1,21 +1,21 @@
-r"""The flat punch on an elastic layer of any thickness: the exact curve between thin and thick.
+r"""Flat punch on an elastic layer of any thickness: the exact curve between thin and thick.
 
-A punch that is moved by delta carries the force :math:`P/L = E^* S(a) \, \delta`, and comes off,
-all at once, when the energy that its edges release pays for the interface:
+A punch displaced by delta carries the force :math:`P/L = E^* S(a) \, \delta`, and detaches
+over its whole area when the energy release rate of its edges equals the work of adhesion:
 
 .. math:: \frac14 E^* \delta^2 S'(a) = \Delta\gamma_0, \quad
           \bar\sigma_{po} = \frac{S}{2a} \sqrt{\frac{4 E^* \Delta\gamma_0}{S'}}.
 
-S depends on a/b and on how the layer rests on its base. For a thin layer it is
-:math:`2 \zeta a/b + c` but for exponentially small terms, so that the pull-off stress is that of
+S depends on a/b and on the boundary condition of the base. For a thin layer it is
+:math:`2 \zeta a/b + c` up to exponentially small terms, so the pull-off stress is that of
 :func:`viscotack.theory.punch.laws.thin_layer_pull_off_stress` times :math:`1 + (c/2\zeta) \, b/a`,
 with c/2 = 0.177131575829 on a frictionless base; for a thick one
-:math:`1/S \to (2/\pi) \ln(b/a)` and a constant. In between it is computed, to 1e-11 on a
-frictionless base and 1e-9 on a bonded one: once for each base, in a tenth of a second to two
-seconds, then from Chebyshev polynomials in ln(1 + a/b).
+:math:`1/S \to (2/\pi) \ln(b/a)` plus a constant. In between it is computed, to 1e-11 on a
+frictionless base and 1e-9 on a bonded one: once per base, in 0.1 to 2
+seconds, and then interpolated by Chebyshev polynomials in ln(1 + a/b).
 
 Parameters as in :mod:`viscotack.theory.punch.laws`. Range: forces of short range (a cohesive zone
-small beside a and b: no cap by the strength), linear elastic layer, a punch without friction.
+small compared with a and b: no limit by the strength), linear elastic layer, frictionless punch.
 
 Source: this package; the transfer function of the layer is that of Maghami, PhD thesis (2025),
 Eq. 3.19 to 3.22, after Bentall and Johnson.
@@ -62,7 +62,8 @@ def energy_release_rate(
 ) -> Number:
     r"""Return the energy [J/m^2] that the receding edges release, :math:`E^* \delta^2 S'(a)/4`.
 
-    Of each edge and length. The punch comes off where it reaches the work of adhesion.
+    Per edge and unit length, at a ``depth`` :math:`\delta` [m]. The punch detaches when it
+    reaches the work of adhesion.
 
     Examples
     --------
@@ -87,8 +88,8 @@ def pull_off_stress(
 ) -> Number:
     """Return the mean pull-off stress [Pa] of an elastic layer of any thickness.
 
-    Falls with the thickness, without end towards thin layers: the strength of the interface,
-    which caps it, is not known here. 1e5 thicknesses take a few hundredths of a second.
+    It decreases with the thickness, without an upper limit for thin layers, because the strength of
+    the interface is not included. 1e5 thicknesses take a few hundredths of a second.
 
     Examples
     --------
@@ -144,9 +145,9 @@ def work_of_separation(
 
     .. math:: w_{sep} = \Delta\gamma_0 \frac{S}{a S'}
 
-    From no force to pull-off, where all of the contact opens. The work of adhesion for a thin
-    layer; for a thick one it grows with :math:`\ln(b/a)`, because the punch is moved against
-    the base. A slow and a fast viscoelastic layer take the same.
+    From zero force to pull-off, where the whole contact opens. It equals the work of adhesion for a
+    thin layer; for a thick one it grows with :math:`\ln(b/a)`, because the punch is displaced
+    relative to the base. It is the same for a slow and a fast viscoelastic layer.
 
     Examples
     --------
@@ -168,9 +169,14 @@ def thickness(
     work_of_adhesion: Values,
     base: Base,
 ) -> Number:
-    """Return the thickness [m] of the elastic layer with a wanted pull-off stress [Pa].
+    """Return the thickness [m] of the elastic layer with a given pull-off stress [Pa].
 
-    The stress must lie above that of the half-plane, the least that any layer has.
+    The stress must exceed that of the half-plane, the smallest of all layers.
+
+    Raises
+    ------
+    ValueError
+        If the stress does not exceed that of the half-plane.
 
     Examples
     --------
@@ -188,8 +194,8 @@ def thickness(
     if np.any(wanted <= least):
         lowest = np.min(np.broadcast_to(sigma, wanted.shape)[wanted <= least])
         raise InputError(
-            f"stress must be above that of a half-plane, got {lowest:.6g} Pa: every "
-            "layer holds more"
+            f"stress must exceed that of a half-plane, {lowest:.6g} Pa, because every "
+            "layer has a higher pull-off stress"
         )
     state = curve(base)
     # the stress rises with a/b, at least as the thin-layer law of a frictionless base
@@ -202,6 +208,6 @@ def thickness(
 
 
 def _pad(thickness: Values, half_width: Values, **others: Values) -> Any:
-    """Return a/b, a and the others, checked."""
+    """Return a/b, a and the others, validated."""
     b, a, *rest = positive(thickness=thickness, half_width=half_width, **others)
     return a / b, a, *rest

@@ -1,6 +1,7 @@
-r"""What the retraction curve of a flat punch on a layer says: its surface energy, its work.
+r"""Surface energy and work from the retraction curve of a flat punch on a layer.
 
-From a simulation or a rig. Parameters as in :mod:`viscotack.theory.punch.laws`; stress is the
+The curve may be simulated or measured. Parameters as in :mod:`viscotack.theory.punch.laws`; stress
+is the
 force over the area of the punch, tension positive.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.29, 3.30 and 3.36.
@@ -29,10 +30,10 @@ def surface_energy(
     contact_modulus: Values,
     base: Base,
 ) -> Number:
-    r"""Return the surface energy [J/m^2] that a measured pull-off stress stands for.
+    r"""Compute the surface energy [J/m^2] from a measured pull-off stress.
 
-    Eq. 3.29 without its restriction to thin layers: an elastic contact as wide as the ligament
-    that is left at pull-off carries the force :math:`2 a \bar\sigma_{po}`.
+    Eq. 3.29 without its restriction to thin layers: an elastic contact with the width of the
+    ligament at pull-off carries the force :math:`2 a \bar\sigma_{po}`.
 
     Parameters
     ----------
@@ -45,7 +46,7 @@ def surface_energy(
     contact_modulus : array_like
         Rubbery E0* [Pa].
     base : Frictionless or Bonded
-        What the layer rests on.
+        Boundary condition of the layer.
 
     Examples
     --------
@@ -70,14 +71,14 @@ def thin_layer_surface_energy(
     contact_modulus: Values,
     base: Base,
 ) -> Number:
-    r"""Return the surface energy [J/m^2] of a measured pull-off stress, for a thin layer.
+    r"""Compute the surface energy [J/m^2] from a ``pull_off_stress`` [Pa], for a thin layer.
 
     .. math:: \Delta\gamma_{eff} = \frac{\bar\sigma_{po}^2 b}{2 \zeta E_0^*}
               \left( \frac{a}{a_c} \right)^2
 
-    Eq. 3.29, and 3.30 over the work of adhesion. Parameters as :func:`surface_energy`, which holds
-    for every thickness. A ``UserWarning`` is given for a layer thicker than
-    :math:`b_1 = 4 \zeta a/\pi`, on which this formula promises more than there is.
+    Eq. 3.29, and 3.30 over the work of adhesion. Parameters as for :func:`surface_energy`, which
+    holds for every thickness. Issues a ``UserWarning`` for a layer thicker than :math:`b_1 = 4
+    \zeta a/\pi`, where this formula overestimates the energy.
 
     Examples
     --------
@@ -91,8 +92,8 @@ def thin_layer_surface_energy(
     )
     if np.any(b * base.foundation > 4 / np.pi * a):
         warnings.warn(
-            "the layer is thicker than b1 = 4 zeta a/pi somewhere, where the thin-layer formula "
-            "overstates the surface energy: use theory.punch.curve.surface_energy",
+            "the layer is thicker than b1 = 4 zeta a/pi, where the thin-layer formula "
+            "overestimates the surface energy: use theory.punch.curve.surface_energy",
             UserWarning,
             stacklevel=2,
         )
@@ -100,29 +101,34 @@ def thin_layer_surface_energy(
 
 
 def work_of_separation(depth: Values, stress: Values) -> float:
-    r"""Return the work [J/m^2] that separates the punch, per area, of a retraction curve.
+    r"""Compute the work of separation [J/m^2] of a punch, per area, from a retraction curve.
 
     .. math:: w_{sep} = \int_{-\infty}^{\delta_P} \bar\sigma \, d\delta
 
     from the last zero of the force before its maximum, at :math:`\delta_P`, to the end of the
     curve (Eq. 3.36, whose limits and scale are misprinted; over the work of adhesion it is
-    :math:`\hat w_{sep}`). From the start where that is in tension already.
+    :math:`\hat w_{sep}`), or from a start in tension.
 
     Parameters
     ----------
     depth : array_like, shape (N,)
-        Depth [m], positive into the layer, as it comes in time; falling in retraction.
+        Depth [m], positive into the layer, in order of time; decreasing in retraction.
     stress : array_like, shape (N,)
         Mean stress [Pa], tension positive.
 
+    Raises
+    ------
+    ValueError
+        If depth and stress have different shapes, are not finite, or there is no tension.
+
     Notes
     -----
-    By trapezoids: second order in the step. For the elastic layer see
+    Trapezoidal rule, second order in the step. For the elastic layer see
     :func:`viscotack.theory.punch.crossover.work_of_separation`.
 
     Examples
     --------
-    An elastic layer, 10 kPa/um, that lets go at 3 um:
+    An elastic layer, 10 kPa/um, that detaches at 3 um:
 
     >>> w = work_of_separation([1e-6, -1e-6, -3e-6, -3e-6], [-1e4, 1e4, 3e4, 0.0])
     >>> f"{w:.3f} J/m^2"
@@ -134,10 +140,10 @@ def work_of_separation(depth: Values, stress: Values) -> float:
             f"depth and stress must be two lists of one length, got shapes {d.shape} and {s.shape}"
         )
     if not (np.all(np.isfinite(d)) and np.all(np.isfinite(s))):
-        raise InputError("depth and stress must be finite: leave out what was not measured")
+        raise InputError("depth and stress must be finite; remove missing values")
     top = int(np.argmax(s))
     if s[top] <= 0:
-        raise InputError(f"the curve has no tension, its largest stress is {s[top]:.6g} Pa")
+        raise InputError(f"the curve has no tension; its largest stress is {s[top]:.6g} Pa")
     pressed = np.flatnonzero(s[:top] <= 0)
     if pressed.size:
         i = int(pressed[-1])
@@ -163,6 +169,6 @@ def _checked(
     )
     if np.any(c > a):
         raise InputError(
-            "ligament must not be wider than the punch: it is the half width still in contact"
+            "ligament (the half width still in contact) must not exceed the half width of the punch"
         )
     return s * a / c, b, a, c, E

@@ -1,12 +1,12 @@
-r"""How thick must the pad be: design answers for a flat punch on a viscoelastic layer.
+r"""Design formulas for a flat punch on a viscoelastic layer: thickness for a pull-off stress.
 
-The pull-off stress at a crack speed, or at a retraction speed, falls with the thickness, from the
-strength :math:`\sigma_0` to the half-plane; these functions turn that round. Which way a pad comes
-off, over thickness and speed, is :mod:`viscotack.theory.punch.map`.
+The pull-off stress at a crack speed, or at a retraction speed, decreases with the thickness, from
+the strength :math:`\sigma_0` to the half-plane; these functions invert it. The detachment regime
+over thickness and speed is computed by :mod:`viscotack.theory.punch.map`.
 
-The pad and the law of its edges are those of :mod:`viscotack.theory.punch.unloading`, whose range
-and errors hold here: the stress comes out up to 19 % high, and so does the thickness, by up to
-twice as much on thin layers.
+The pad and the crack law of its edges are those of :mod:`viscotack.theory.punch.unloading`, with
+its range and errors: the stress is up to 19 % too high, and so is the thickness, by up to twice as
+much on thin layers.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ from viscotack.theory.crack import CrackLaw
 from . import rate, unloading
 from .pad import Pad
 
-# Thickest layer, in half widths, of an answer at a crack speed (a half-plane to 1e-4) and of one
-# at a retraction speed.
+# Largest thickness, in half widths, for a given crack speed (a half-plane to 1e-4) and
+# for a given retraction speed.
 _HALF_PLANE, _THICKEST = 100.0, 5.0
 _TOLERANCE = 1e-12
 
 
 def pull_off_stress(thickness: Values, pad: Pad, law: CrackLaw, *, crack_speed: Values) -> Number:
-    r"""Return the mean stress [Pa] at which edges move at a crack speed [m/s], contact still whole.
+    r"""Return the mean stress [Pa] at which the edges of a full contact have a crack speed [m/s].
 
     .. math:: \bar\sigma = \bar\sigma_{el} \sqrt{\Gamma(v)}, \quad
               \Gamma < (\sigma_0/\bar\sigma_{el})^2
 
-    with the exact elastic stress. From the elastic one of a slow crack to the smaller of
-    :math:`1/\sqrt k` times that and the strength. A ligament narrower than the punch carries less
-    in proportion.
+    with the exact elastic stress. It ranges from the elastic stress of a slow crack to the smaller
+    of :math:`1/\sqrt k` times that and the strength. A ligament narrower than the punch carries
+    less in proportion.
 
     Examples
     --------
@@ -64,10 +64,10 @@ def pull_off_stress(thickness: Values, pad: Pad, law: CrackLaw, *, crack_speed: 
 def thickness_at_crack_speed(
     stress: Values, pad: Pad, law: CrackLaw, *, crack_speed: float
 ) -> Number:
-    """Return the thickness [m] with a wanted pull-off stress [Pa] at a crack speed [m/s].
+    """Return the thickness [m] with a given pull-off stress [Pa] at a crack speed [m/s].
 
-    The inverse of :func:`pull_off_stress`, for a wanted stress below the strength and above that
-    of a layer of 100 a. Some 20 ms each.
+    The inverse of :func:`pull_off_stress`, for a stress below the strength and above that
+    of a layer of 100 a. Takes 20 ms per value.
 
     Examples
     --------
@@ -90,10 +90,10 @@ def thickness_at_crack_speed(
 
 
 def thickness_at_speed(stress: Values, pad: Pad, law: CrackLaw, *, speed: float) -> Number:
-    """Return the thickness [m] with a wanted pull-off stress [Pa] at a retraction speed [m/s].
+    """Return the thickness [m] with a given pull-off stress [Pa] at a retraction speed [m/s].
 
-    The inverse of :func:`viscotack.theory.punch.unloading.pull_off`, for a wanted stress
-    below the strength and above that of a layer of 5 a. Some 50 ms each.
+    The inverse of :func:`viscotack.theory.punch.unloading.pull_off`, for a stress
+    below the strength and above that of a layer of 5 a. Takes 50 ms per value.
 
     Examples
     --------
@@ -116,7 +116,7 @@ def thickness_at_speed(stress: Values, pad: Pad, law: CrackLaw, *, speed: float)
 
 
 def _thickness(wanted: Values, pad: Pad, stress: Callable[[float], Any], thickest: float) -> Number:
-    """Return where a stress that falls with the thickness takes the wanted values."""
+    """Return the thickness at which a stress that decreases with it has given values."""
     sigma, s0, a = positive(stress=wanted), pad.strength, pad.half_width
     if np.any(sigma >= s0):
         raise InputError(
@@ -126,10 +126,10 @@ def _thickness(wanted: Values, pad: Pad, stress: Callable[[float], Any], thickes
     lowest = float(stress(thickest * a))
     if np.any(sigma <= lowest):
         raise InputError(
-            f"stress must be above that of a layer {thickest:g} times as thick as the half width, "
+            f"stress must exceed that of a layer {thickest:g} times as thick as the half width, "
             f"{lowest:.6g} Pa, got {np.min(sigma):.6g} Pa"
         )
-    # up to here the elastic layer comes off at the strength
+    # up to this thickness the elastic layer detaches at the strength
     thin = np.log(pad.elastic_thickness(s0)) - 1e-6
     thick = np.log(thickest * a)
 

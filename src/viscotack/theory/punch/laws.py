@@ -1,10 +1,10 @@
-r"""The flat punch at the two ends of thickness: the half-plane and the thin layer.
+r"""Flat punch in the limits of thickness: half-plane and thin layer.
 
 Parameters: ``half_width`` a [m], ``thickness`` b [m], ``contact_modulus`` E* = E/(1 - nu^2) [Pa],
 ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``strength`` :math:`\sigma_0` [Pa], all
 positive, and ``base``, ``Frictionless()`` or ``Bonded(poisson_ratio=...)``. Stress is the mean over
-the punch, tension positive; the depth of a pulled punch is negative.
-:mod:`viscotack.theory.punch.regimes` joins the ends.
+the punch, tension positive; the depth of a punch in tension is negative.
+:mod:`viscotack.theory.punch.regimes` joins the limits.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.9 and appendix I.
 """
@@ -25,14 +25,14 @@ __getattr__ = earlier_names(
     {"thin_layer_pull_off_depth": "viscotack.theory.punch.laws.thin_layer_depth_at_pull_off"},
 )
 
-# The thin-layer law of a bonded layer asks for a Poisson ratio up to this (appendix I).
+# Largest Poisson ratio of the thin-layer law of a bonded layer (appendix I).
 _THIN_POISSON = 0.45
 
 
 def fracture_length(
     *, contact_modulus: Values, work_of_adhesion: Values, strength: Values
 ) -> Number:
-    r"""Return the half width a0 [m] below which a punch on a half-plane comes off at its strength.
+    r"""Return the half width a0 [m] below which a punch on a half-plane detaches at the strength.
 
     .. math:: a_0 = \frac{\pi E^* \Delta\gamma_0}{2 \sigma_0^2} \quad \text{(Eq. 3.3)}
 
@@ -53,7 +53,7 @@ def fracture_length(
 def half_plane_pull_off_stress(
     half_width: Values, *, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the mean stress [Pa] that pulls a punch off a half-plane.
+    r"""Return the mean pull-off stress [Pa] of a punch on a half-plane.
 
     .. math:: \bar\sigma_{po} = \sqrt{\frac{\pi E^* \Delta\gamma_0}{2 a}} \quad \text{(Eq. 3.2)}
 
@@ -74,13 +74,13 @@ def half_plane_pull_off_stress(
 def thin_layer_pull_off_stress(
     thickness: Values, *, contact_modulus: Values, work_of_adhesion: Values, base: Base
 ) -> Number:
-    r"""Return the mean stress [Pa] that pulls a wide punch off a thin layer.
+    r"""Return the mean pull-off stress [Pa] of a wide punch on a thin layer.
 
     .. math:: \bar\sigma_{po} = \sqrt{\frac{2 \zeta E^* \Delta\gamma_0}{b}}
               \quad \text{(Eq. 3.9, appendix I)}
 
-    Range: b0 < b << a; low by 0.177 b/a of itself on a frictionless base. A bonded layer with a
-    Poisson ratio above 0.45 gives a ``UserWarning``.
+    Range: b0 < b << a; too low by a fraction 0.177 b/a on a frictionless base. A bonded layer with
+    a Poisson ratio above 0.45 causes a ``UserWarning``.
 
     Examples
     --------
@@ -100,11 +100,11 @@ def thin_layer_pull_off_stress(
 def thin_layer_depth_at_pull_off(
     thickness: Values, *, contact_modulus: Values, work_of_adhesion: Values, base: Base
 ) -> Number:
-    r"""Return the depth [m] at which a wide punch comes off a thin layer, negative.
+    r"""Return the depth at pull-off [m] of a wide punch on a thin layer, negative.
 
     .. math:: \delta_{po} = -\sqrt{\frac{2 b \Delta\gamma_0}{\zeta E^*}} \quad \text{(Eq. 3.9)}
 
-    Exact but for terms of the order exp(-2 pi a/b), frictionless. Range otherwise as
+    Exact up to terms of the order exp(-2 pi a/b) on a frictionless base. Otherwise as
     :func:`thin_layer_pull_off_stress`.
 
     Examples
@@ -121,12 +121,17 @@ def thin_layer_depth_at_pull_off(
 
 
 def stiffening(base: Base) -> float:
-    r"""Return zeta, how much stiffer a thin layer is than one that slides on its base.
+    r"""Return zeta, the ratio of a thin layer's stiffness to that on a frictionless base.
 
     .. math:: \zeta = \frac{(1 - \nu)^2}{1 - 2 \nu} \quad \text{(bonded, appendix I)}
 
-    A ``UserWarning`` is given for a Poisson ratio above 0.45, where only layers much thinner than
-    the punch is wide obey the thin-layer law; at 0.5 there is none, and a ``ValueError``.
+    Issues a ``UserWarning`` for a Poisson ratio above 0.45, where only extremely thin
+    layers obey the thin-layer law; raises ``ValueError`` at 0.5, where it does not exist.
+
+    Raises
+    ------
+    ValueError
+        If a bonded layer has a Poisson ratio of 0.5.
 
     Examples
     --------
@@ -135,13 +140,13 @@ def stiffening(base: Base) -> float:
     """
     if base.foundation == 0:
         raise InputError(
-            "the thin-layer law has no answer for a bonded layer with a Poisson ratio of 0.5: it "
-            "cannot be stretched without flowing sideways"
+            "the thin-layer law does not apply to a bonded layer with a Poisson ratio of 0.5, "
+            "which stretches only by sideways flow"
         )
     if isinstance(base, Bonded) and base.poisson_ratio > _THIN_POISSON:
         warnings.warn(
-            f"the thin-layer law of a bonded layer asks for a Poisson ratio of {_THIN_POISSON} at "
-            f"most, got {base.poisson_ratio}: use theory.punch.crossover",
+            "the thin-layer law of a bonded layer needs a Poisson ratio of at most "
+            f"{_THIN_POISSON}, got {base.poisson_ratio}: use theory.punch.crossover",
             UserWarning,
             stacklevel=3,
         )

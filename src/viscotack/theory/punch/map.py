@@ -1,6 +1,6 @@
-"""Which way a flat punch comes off a viscoelastic layer: a map over thickness and speed.
+"""Detachment regimes of a flat punch on a viscoelastic layer, over thickness and speed.
 
-Pad, law of its edges and range are those of :mod:`viscotack.theory.punch.unloading`.
+Pad, crack law of its edges and range are those of :mod:`viscotack.theory.punch.unloading`.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from .pad import Pad
 
 
 class RegimeMap(NamedTuple):
-    """How a pad comes off over thickness (rows) and retraction speed (columns), SI.
+    """Detachment of a pad over thickness (rows) and speed (columns), from :func:`regime_map`.
 
     Attributes
     ----------
     thickness : ndarray, shape (N,)
-        Of the layer [m].
+        Thickness of the layer [m].
     speed : ndarray, shape (M,)
-        Of retraction [m/s].
+        Retraction speed [m/s].
     regime : ndarray of str, shape (N, M)
         One of :data:`viscotack.theory.punch.regimes.REGIMES`.
     stress : ndarray, shape (N, M)
         Mean pull-off stress [Pa].
     crack_speed : ndarray, shape (N, M)
-        Of each edge at pull-off [m/s]; infinite where the contact opens at once.
+        Speed of each edge at pull-off [m/s]; infinite if the whole contact opens simultaneously.
     amplification : ndarray, shape (N, M)
         Effective over rubbery surface energy at pull-off.
     boundaries : Thicknesses
@@ -49,11 +49,16 @@ class RegimeMap(NamedTuple):
 
 
 def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> RegimeMap:
-    """Return how a pad comes off, over lists of thicknesses [m] and retraction speeds [m/s].
+    """Compute the detachment regimes over thicknesses [m] and retraction speeds [m/s].
 
-    Cohesive where the crack at pull-off is so fast that on a half-space it would take more than
-    the size allows; elsewhere a thin layer below b1 and a half-plane above. 40 by 40 in half a
+    Cohesive if the energy of the crack at pull-off on a half-space would exceed the limit of the
+    finite size; otherwise a thin layer below b1 and a half-plane above. A 40 by 40 map takes half a
     second.
+
+    Raises
+    ------
+    ValueError
+        If the axes are not one-dimensional arrays.
 
     Examples
     --------
@@ -74,7 +79,7 @@ def regime_map(thickness: Values, speed: Values, pad: Pad, law: CrackLaw) -> Reg
     b, r = (np.atleast_1d(x) for x in positive(thickness=thickness, speed=speed))
     if b.ndim > 1 or r.ndim > 1:
         raise InputError(
-            f"thickness and speed must be lists, the axes of the map, got shapes {b.shape} and "
+            f"thickness and speed must be one-dimensional arrays, got shapes {b.shape} and "
             f"{r.shape}"
         )
     state = unloading.pull_off(r, pad, law, thickness=b[:, None])

@@ -1,8 +1,9 @@
-r"""What a flat punch is pulled off: the pad, as the theories of this wing take it.
+r"""The pad: layer, punch and interface, as input of the theories in this room.
 
-Its thickness b is not a part of it: it is what the theories vary, or look for. Nor is its solid,
-which matters to the edges alone, as a :class:`viscotack.theory.crack.law.CrackLaw`; a pad has the
-contact modulus, rubbery where speed matters.
+Its thickness b is a separate argument, because the theories vary or solve for it. So is its
+viscoelastic solid, which matters only at the edges, as a
+:class:`viscotack.theory.crack.law.CrackLaw`; a pad contains the contact modulus, rubbery if speed
+matters.
 """
 
 from __future__ import annotations
@@ -26,15 +27,15 @@ class Pad:
     Parameters
     ----------
     half_width : float
-        Of the punch, a [m].
+        Half width a of the punch [m].
     contact_modulus : float
         E* = E/(1 - nu^2) of the layer [Pa].
     work_of_adhesion : float
         :math:`\Delta\gamma_0` [J/m^2].
     strength : float
-        Of the interface, :math:`\sigma_0` [Pa].
+        Strength of the interface :math:`\sigma_0` [Pa].
     base : Frictionless or Bonded
-        How the layer rests on what is below it.
+        Boundary condition of the layer on its base.
 
     Examples
     --------
@@ -73,7 +74,7 @@ class Pad:
         )
 
     def elastic_stress(self, thickness: Values) -> Number:
-        """Return the exact mean pull-off stress [Pa] at thicknesses [m], not capped by strength."""
+        """Return the exact mean pull-off stress [Pa] at thicknesses [m], without strength limit."""
         return crossover.pull_off_stress(thickness, **self._elastic())
 
     def elastic_depth(self, thickness: Values) -> Number:
@@ -81,11 +82,11 @@ class Pad:
         return crossover.depth_at_pull_off(thickness, **self._elastic())
 
     def elastic_thickness(self, stress: Values) -> Number:
-        """Return the thickness [m] of the exact elastic layer with a pull-off stress [Pa]."""
+        """Return the thickness [m] of the exact elastic layer with a given pull-off stress [Pa]."""
         return crossover.thickness(stress, **self._elastic())
 
     def crack_law(self, theory: str, *, material: Material) -> CrackLaw:
-        """Return the law of the edges of this pad, with its rubbery ``contact_modulus``.
+        """Return the crack law of the edges of this pad, with its rubbery ``contact_modulus``.
 
         Its length is the cohesive zone of :mod:`viscotack.theory.crack.greenwood`, a0/2, or a0 for
         "persson-brener" (appendix II of the thesis).

@@ -1,13 +1,13 @@
-r"""The flat punch on a viscoelastic layer: the energy a crack takes, and how size limits it.
+r"""Flat punch on a viscoelastic layer: energy of the edge cracks, limited by the finite size.
 
-A fast crack takes :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` times the work of adhesion,
+The energy of a fast crack is :math:`\Gamma = \Delta\gamma_{eff}/\Delta\gamma_0` works of adhesion,
 on a half-space up to glassy over rubbery modulus, 1/k. On a layer the mean stress cannot exceed
-the strength of the interface, so that :math:`\Gamma` stays below :math:`(\pi/4) \, b/a_0`. The
-theories of Greenwood and of Persson and Brener are corrected for it by their glassy end: the
-larger of k and the inverse of that limit, :math:`k_b`, takes the place of k, as
-:meth:`viscotack.theory.crack.law.CrackLaw.limited` has it for any spectrum; for one retardation
+the strength of the interface, so :math:`\Gamma` is below :math:`(\pi/4) \, b/a_0`. The
+theories of Greenwood and of Persson and Brener are corrected by their glassy limit: the
+larger of k and the inverse of that limit, :math:`k_b`, replaces k, as in
+:meth:`viscotack.theory.crack.law.CrackLaw.limited` for any spectrum; for one retardation
 time this is Eq. 3.35 and, for Persson and Brener, Eq. 4 of appendix II. Below the thickness b0 the
-limit is under 1 and holds at every speed.
+limit is below 1 and holds at every speed.
 
 Speeds are those of the crack [m/s], opening. The crack is that of the edges of a
 :class:`viscotack.theory.punch.pad.Pad`, by its method ``crack_law``.
@@ -31,13 +31,13 @@ from .regimes import regime_thicknesses
 
 
 def largest_amplification(thickness: Values, pad: Pad) -> Number:
-    r"""Return the effective over the rubbery surface energy that the size of the pad allows.
+    r"""Return the effective over rubbery surface energy allowed by the size of the pad.
 
     .. math:: \Gamma_{max} = \frac{\min(b, b_1)}{b_0}
               = \frac\pi4 \frac{b}{\zeta a_0} \;(b < b_1), \quad \frac{a}{a_0} \;(b > b_1)
 
-    where the mean stress is the strength (Eq. 3.31, which is for b < b1). The material sets
-    another limit, 1/k. Below 1 the pad comes off at its strength at any speed.
+    where the mean stress equals the strength (Eq. 3.31, which is for b < b1). The material gives
+    another limit, 1/k. Below 1 the pad detaches at its strength at any speed.
 
     Examples
     --------
@@ -62,13 +62,13 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
     crack_speed : array_like
         Speed [m/s] at which each edge recedes, not negative.
     law : CrackLaw
-        Of the edges, on a half-space.
+        Crack law of the edges on a half-space.
     largest : array_like
-        What the size allows: :func:`largest_amplification`, or infinity for a half-space.
+        Limit by the size: :func:`largest_amplification`, or infinity for a half-space.
 
     Notes
     -----
-    1e5 speeds take 0.1 s; every different ``largest`` below 1/k costs 1 to 5 ms.
+    1e5 speeds take 0.1 s; every distinct ``largest`` below 1/k takes 1 to 5 ms.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
         at_least(0, "a crack that closes is another problem", crack_speed=crack_speed),
         _positive_limit(largest),
     )
-    # below b0 the strength decides at every speed
+    # below b0 the strength limits the stress at every speed
     found = np.array(np.minimum(limit, 1.0))
     for limited, here in _limited(law, limit):
         found[here] = limited.amplification(v[here])
@@ -100,8 +100,13 @@ def amplification(crack_speed: Values, law: CrackLaw, *, largest: Values) -> Num
 def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Number:
     """Return the crack speed [m/s] at which an amplification is reached.
 
-    Parameters as :func:`amplification`, which must be at least 1 and below both ``largest`` and
-    glassy over rubbery modulus.
+    Parameters as for :func:`amplification`. The amplification must be at least 1 and below both
+    ``largest`` and glassy over rubbery modulus.
+
+    Raises
+    ------
+    ValueError
+        If the amplification is not in its range.
 
     Examples
     --------
@@ -119,14 +124,18 @@ def crack_speed(amplification: Values, law: CrackLaw, *, largest: Values) -> Num
     '54.2 mm/s'
     """
     gamma, limit = np.broadcast_arrays(
-        at_least(1, "the slowest crack takes the work of adhesion", amplification=amplification),
+        at_least(
+            1,
+            "the energy of the slowest crack is the work of adhesion",
+            amplification=amplification,
+        ),
         _positive_limit(largest),
     )
     most = np.minimum(limit, law.largest)
     if np.any((gamma >= most) & (gamma > 1)):
         raise InputError(
-            "amplification must stay below what size and material allow, reached at infinite "
-            f"speed: got {np.max(gamma):.6g} of at most {np.min(most):.6g}"
+            "amplification must be below the limits of size and material, which are reached at "
+            f"infinite speed: got {np.max(gamma):.6g}, limit {np.min(most):.6g}"
         )
     found = np.zeros(gamma.shape)
     for limited, here in _limited(law, limit):
@@ -142,7 +151,7 @@ def _positive_limit(largest: Values) -> Any:
 
 
 def _limited(law: CrackLaw, limit: Any) -> Iterator[tuple[CrackLaw, Any]]:
-    """Yield each law that a crack obeys, and where; none where the limit is 1 or below."""
+    """Yield each limited law and its elements; nothing if the limit is 1 or below."""
     ratios = np.maximum(1 / limit, law.material.modulus_ratio)
     for ratio in np.unique(ratios[ratios < 1]):
         yield law.limited(modulus_ratio=float(ratio)), ratios == ratio

@@ -1,9 +1,9 @@
-r"""The flat punch on an elastic layer, plane strain: closed forms of the three regimes.
+r"""Flat punch on an elastic layer in plane strain: closed forms of the three regimes.
 
-A rigid punch of the half width a sits on a layer of the thickness b, itself on a rigid base, and
-is pulled off. A very thin layer comes off all at once at the strength of the interface
-(cohesive), a thin one when the energy stored over its thickness pays for the interface, a thick
-one as a half-plane, by a crack from the edges:
+A rigid punch of half width a is pulled off a layer of thickness b on a rigid base. A very thin
+layer detaches simultaneously over the whole area at the strength of the interface (cohesive), a
+thin one when the energy stored over its thickness equals the work of adhesion, a thick one like a
+half-plane, by cracks from the edges:
 
 .. math:: \bar\sigma_{po} = \sigma_0 \;(b < b_0), \quad
           \sqrt{\frac{2 \zeta E^* \Delta\gamma_0}{b}} \;(b_0 \le b \le b_1), \quad
@@ -12,13 +12,13 @@ one as a half-plane, by a crack from the edges:
 A :class:`viscotack.theory.punch.pad.Pad` has the half width a, the contact modulus E*, the work of
 adhesion :math:`\Delta\gamma_0`, the strength :math:`\sigma_0` and the base: ``Frictionless()``,
 with zeta = 1, or ``Bonded(poisson_ratio=...)``, with :math:`\zeta = (1 - \nu)^2/(1 - 2\nu)`. Stress
-is the mean over the punch, tension positive. Of a viscoelastic layer the rubbery modulus decides in
-the slowest retraction and the glassy one in the fastest (:func:`limits`).
+is the mean over the punch, tension positive. For a viscoelastic layer the rubbery modulus applies
+in the slowest retraction and the glassy one in the fastest (:func:`limits`).
 
-Range: the formulas are the branches of a smooth curve. Where they meet, at b1, the exact stress is
-23.5 % higher (frictionless); :mod:`viscotack.theory.punch.crossover` has it for every b/a.
+Range: the formulas are branches of a smooth curve. Where they meet, at b1, the exact stress is
+23.5 % higher (frictionless); :mod:`viscotack.theory.punch.crossover` computes it for every b/a.
 The thin-layer law of a bonded layer holds for nu up to 0.45 (appendix I), and there only for very
-thin ones: it is too high by 0.55 b/a of itself at 0.45, by 2.7 b/a at 0.49. Above 0.45 it warns.
+thin ones: it is too high by a fraction 0.55 b/a at 0.45, by 2.7 b/a at 0.49. It warns above 0.45.
 
 Source: Maghami, PhD thesis (2025), Eq. 3.1 to 3.16 and appendix I; Maghami, Tricarico, Ciavarella &
 Papangelo (2024), Engineering Fracture Mechanics 298, 109898.
@@ -39,7 +39,11 @@ REGIMES = ("cohesive", "thin layer", "half-plane")
 
 
 class Thicknesses(NamedTuple):
-    """Where the regimes meet: b0 slow, b0 fast and b1, each a thickness [m]."""
+    """Thicknesses [m] at which the regimes meet.
+
+    b0 slow (``cohesive``), b0 fast (``cohesive_fast``) and b1 (``half_plane``), returned by
+    :func:`regime_thicknesses`.
+    """
 
     cohesive: Number
     cohesive_fast: Number
@@ -47,7 +51,10 @@ class Thicknesses(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """The mean pull-off stress [Pa] of the slowest and of the fastest retraction."""
+    """Mean pull-off stress [Pa] of the slowest (``slow``) and the fastest (``fast``) retraction.
+
+    Returned by :func:`limits`.
+    """
 
     slow: Number
     fast: Number
@@ -60,8 +67,8 @@ def regime_thicknesses(pad: Pad, *, modulus_ratio: Values) -> Thicknesses:
               b_{0\infty} = \frac{b_0}{k}, \quad b_1 = \frac4\pi \zeta a
 
     (Eq. 3.10, 3.16, 3.11, appendix I), with the rubbery contact modulus and k = ``modulus_ratio``
-    in (0, 1]. Where b0 exceeds b1, that is for a < a0 (b0 fast: for a < a0/k), the punch comes off
-    at its strength at every thickness, and a half-plane is never seen.
+    in (0, 1]. If b0 exceeds b1, that is for a < a0 (b0 fast: for a < a0/k), the punch detaches
+    at its strength at every thickness, and the half-plane regime does not exist.
 
     Examples
     --------
@@ -80,7 +87,7 @@ def regime_thicknesses(pad: Pad, *, modulus_ratio: Values) -> Thicknesses:
 
 
 def pull_off_stress(thickness: Values, pad: Pad) -> Number:
-    """Return the mean pull-off stress [Pa] by the regime the layer is in (Eq. 3.12).
+    """Return the mean pull-off stress [Pa] by the regime of the layer (Eq. 3.12).
 
     Examples
     --------
@@ -99,8 +106,8 @@ def pull_off_stress(thickness: Values, pad: Pad) -> Number:
 def limits(thickness: Values, pad: Pad, *, modulus_ratio: Values) -> Limits:
     """Return the pull-off stress [Pa] of the slowest and the fastest retraction (Eq. 3.6, 3.15).
 
-    With the rubbery contact modulus of the pad, and with that over ``modulus_ratio``. The strength
-    caps both.
+    They follow from the rubbery contact modulus of the pad, and from that over ``modulus_ratio``.
+    The strength limits both.
 
     Examples
     --------
@@ -118,7 +125,12 @@ def limits(thickness: Values, pad: Pad, *, modulus_ratio: Values) -> Limits:
 
 
 def regime(thickness: Values, pad: Pad) -> Any:
-    """Return which of ``REGIMES`` an elastic layer is in: a word, or an array of words.
+    """Return the regime of an elastic layer, one of ``REGIMES``: a word, or an array of words.
+
+    Returns
+    -------
+    str or ndarray of str
+        "cohesive", "thin layer" or "half-plane".
 
     Examples
     --------

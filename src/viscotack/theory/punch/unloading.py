@@ -1,30 +1,31 @@
-r"""Pulling a flat punch off a viscoelastic layer at a given speed: where the edges are at pull-off.
+r"""Retraction of a flat punch from a viscoelastic layer at a given speed: the state at pull-off.
 
-While the punch is pulled, :math:`v = r t` above the free surface, the layer under it stores energy
-and its two edges recede as cracks. Relaxed in the bulk, viscoelastic at the edges:
+During retraction, :math:`v = r t` above the free surface, the layer under the punch stores energy
+and its two edges recede as cracks. With a relaxed bulk and viscoelastic edges,
 
 .. math:: \Gamma(V) = \frac{v^2}{v_0^2}, \quad V = -\frac{da_c}{dt}, \quad
           \bar\sigma = \frac{E_0^*}{2a} S(a_c/b) \, v,
 
-with v0 the elastic pull-off depth, taken positive. In a layer the energy released hardly depends
-on the length of the ligament :math:`a_c` that is left. Without this dependence, which moves the
-stress by less than 1 % up to b = 5a and a Poisson ratio of 0.45, the whole motion is one integral,
+with v0 the elastic pull-off depth, taken positive. In a layer the energy release rate hardly
+depends on the half width of the remaining ligament :math:`a_c`. Neglecting this dependence, which
+changes the stress by less than 1 % up to b = 5a and a Poisson ratio of 0.45, the motion is one
+integral,
 
 .. math:: \frac{a_c}{a} = 1 - \frac{v_0}{r a} \int_1^{v/v_0} V(\Gamma = u^2) \, du,
 
-and pull-off the point of largest stress. The amplification is limited by
+and pull-off is the point of largest stress. The amplification is limited by
 :math:`(\sigma_0/\bar\sigma_{el})^2`, with the exact elastic pull-off stress of
-:mod:`viscotack.theory.punch.crossover`, so that the stress stays below the strength.
+:mod:`viscotack.theory.punch.crossover`, so the stress does not exceed the strength.
 
-The crack is that of the edges of the pad, :meth:`viscotack.theory.punch.pad.Pad.crack_law`;
-``speed`` r [m/s] that of retraction, positive.
+The crack law is that of the edges of the pad, :meth:`viscotack.theory.punch.pad.Pad.crack_law`;
+``speed`` r [m/s] is the retraction speed, positive.
 
-Range: b < 5a, a relaxed start, a cohesive zone small beside a and b. The bulk is taken as relaxed;
-that it is not, in fast retraction, hardly moves the stress, but makes pull-off come at a much
-smaller depth. Against 35 simulations of a standard solid with Lennard-Jones forces (k = 0.1,
+Range: b < 5a, a relaxed start, a cohesive zone small compared with a and b. The bulk is assumed
+relaxed; in fast retraction this hardly changes the stress, but pull-off occurs at a much
+smaller depth. Compared with 35 simulations of a standard solid with Lennard-Jones forces (k = 0.1,
 a = 65 a0, strength E0*/20, b from 1.5 to 324 a0, r from 0.01 to 100 h0/tau0) the stress is 1 % low
-to 19 % high, 10 % high in the median, nearest where the pad comes off at its strength; the ligament
-is right to 0.1 a; the depth to 25 % up to r = 1 h0/tau0 and not usable from 10 on.
+to 19 % high, 10 % high in the median, closest where the pad detaches at its strength; the ligament
+is accurate to 0.1 a; the depth to 25 % up to r = 1 h0/tau0, and not usable above 10 h0/tau0.
 
 Source: this package, after the thin layer of Maghami, PhD thesis (2025), chapter 3.
 """
@@ -41,16 +42,16 @@ from viscotack.theory.crack import CrackLaw
 from . import crossover, rate
 from .pad import Pad
 
-# Crack speeds that are followed, in r a/v0: slower ones take no part of the ligament, and pull-off
-# is at one of (a_c/a)(v0/v)/(d ln S/d ln a_c), which is below 2 up to b = 5a.
+# Crack speeds of the grid, in r a/v0: slower ones do not shorten the ligament, and pull-off
+# occurs at (a_c/a)(v0/v)/(d ln S/d ln a_c), which is below 2 up to b = 5a.
 _SLOWEST, _FASTEST = 1e-8, 10.0
 _PER_DECADE = 120
-# A state of the motion for each rate, and of them so many at a time.
+# States of the motion per rate, and number of states per batch.
 _BLOCK = 2**18
 
 
 class PullOff(NamedTuple):
-    """The state at pull-off: floats or arrays of one shape, SI.
+    """State at pull-off, returned by :func:`pull_off`: floats or arrays of one shape, SI.
 
     Attributes
     ----------
@@ -61,8 +62,8 @@ class PullOff(NamedTuple):
     ligament : array_like
         Half width still in contact [m].
     crack_speed : array_like
-        Speed of each edge [m/s]; infinite where the contact opens at once, at its strength all over
-        or because the layer is elastic.
+        Speed of each edge [m/s]; infinite if the whole contact opens simultaneously, at its
+        strength or because the layer is elastic.
     amplification : array_like
         Effective over rubbery surface energy.
     """
@@ -75,10 +76,10 @@ class PullOff(NamedTuple):
 
 
 def pull_off(speed: Values, pad: Pad, law: CrackLaw, *, thickness: Values) -> PullOff:
-    """Return the state at pull-off from retraction speeds [m/s] and thicknesses [m], broadcast.
+    """Compute the state at pull-off for retraction speeds [m/s] and thicknesses [m], broadcast.
 
-    By trapezoids over a fine grid of crack speeds: the stress to 1e-5 or better. Every different
-    thickness costs 2 to 5 ms, every speed 0.3 ms.
+    Uses the trapezoidal rule over a fine grid of crack speeds: the error of the stress is below
+    1e-5. Every distinct thickness takes 2 to 5 ms, every speed 0.3 ms.
 
     Examples
     --------
@@ -109,7 +110,7 @@ def _at_thickness(speed: Any, b: float, pad: Pad, law: CrackLaw) -> Any:
     a, elastic, v0 = pad.half_width, float(pad.elastic_stress(b)), -float(pad.elastic_depth(b))
     largest = (pad.strength / elastic) ** 2
     if largest <= 1 or law.largest <= 1:
-        # at the strength all over, or at the elastic stress, and at once: no crack in motion
+        # detachment at the strength, or elastic: no moving crack
         stress = min(pad.strength, elastic)
         state = stress, -v0 * stress / elastic, a, np.inf, min(1.0, largest)
         return np.repeat(np.array(state)[:, None], speed.size, axis=1)
@@ -123,7 +124,7 @@ def _at_thickness(speed: Any, b: float, pad: Pad, law: CrackLaw) -> Any:
         r = speed[i : i + rows, None]
         left = np.maximum(1 - lost / r, 0.0)
         best = np.argmax(_stress(left, u, b, v0, pad), axis=1)
-        # the top of a parabola in ln of the crack speed, through three states
+        # maximum of a parabola in ln of the crack speed through three states
         near = np.clip(best, 1, u.size - 2)[:, None] + np.array([-1, 0, 1])
         left, wide = np.take_along_axis(left, near, axis=1), u[near]
         t = _top(_stress(left, wide, b, v0, pad))
@@ -139,7 +140,7 @@ def _at_thickness(speed: Any, b: float, pad: Pad, law: CrackLaw) -> Any:
 
 
 def _stress(left: Any, u: Any, b: float, v0: float, pad: Pad) -> Any:
-    """Return the mean stress over the punch, nothing without a ligament."""
+    """Return the mean stress over the punch; zero without a ligament."""
     a, E = pad.half_width, pad.contact_modulus
     ligament = a * np.where(left > 0, left, 1.0)
     stiffness = crossover.stiffness(b, half_width=ligament, contact_modulus=E, base=pad.base)
@@ -147,7 +148,7 @@ def _stress(left: Any, u: Any, b: float, v0: float, pad: Pad) -> Any:
 
 
 def _top(values: Any) -> Any:
-    """Return where the parabola through values at -1, 0 and 1 has its top, the middle if flat."""
+    """Return the position of the maximum of the parabola through values at -1, 0 and 1."""
     before, middle, after = values.T
     bend = np.minimum(before - 2 * middle + after, 0.0)
     flat = bend == 0
@@ -161,7 +162,7 @@ def _at(t: Any, values: Any) -> Any:
 
 
 def _motion(drive: Any, largest: float, law: CrackLaw) -> tuple[Any, Any]:
-    """Return the crack speeds [m/s] that the drives r a/v0 can cause, and their amplifications."""
+    """Return the crack speeds [m/s] of the drives r a/v0, and their amplifications."""
     low, high = np.log10([_SLOWEST * np.min(drive), _FASTEST * np.max(drive)])
     crack = np.logspace(low, high, round(_PER_DECADE * (high - low)) + 1)
     return crack, np.asarray(rate.amplification(crack, law, largest=largest))

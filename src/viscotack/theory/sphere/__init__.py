@@ -1,4 +1,4 @@
-"""A sphere comes off a viscoelastic solid."""
+"""Theories of the detachment of a sphere from a viscoelastic solid."""
 
 from . import bounds, detachment, rate, unloading
 

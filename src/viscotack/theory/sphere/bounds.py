@@ -1,15 +1,15 @@
-r"""Between which limits a viscoelastic sphere detaches: the slow and the fast end, and the preload.
+r"""Limits of the detachment of a viscoelastic sphere: slow and fast retraction, and the preload.
 
-Retracted slowly from a relaxed contact the solid is rubbery, retracted fast it is glassy. With the
-modulus ratio :math:`k = E_0/E_\infty` the fast problem is an elastic one of the modulus
-:math:`E_0^*/k` and, because the contact was made relaxed, of the radius :math:`R/k`: its Tabor
-number is :math:`\mu k^{1/3}`, and the force in units of JKR's goes to
+In slow retraction from a relaxed contact the solid is rubbery, in fast retraction glassy. With the
+modulus ratio :math:`k = E_0/E_\infty` the fast problem is an elastic one of modulus
+:math:`E_0^*/k` and, because the contact formed relaxed, of radius :math:`R/k`: its Tabor
+number is :math:`\mu k^{1/3}`, and the force in units of JKR's tends to
 :math:`f(\mu k^{1/3})/k`, with the elastic f of :mod:`viscotack.theory.elastic.lennard_jones`.
 
 Parameters: ``radius`` R [m], ``contact_modulus`` the rubbery :math:`E_0^*` [Pa],
 ``work_of_adhesion`` :math:`\Delta\gamma_0` [J/m^2], ``equilibrium_gap`` h0 [m], ``modulus_ratio`` k
-in (0, 1]. Force and work are positive numbers. These are limits in rate; that everything
-in between stays between them is what simulations show, not a theorem.
+in (0, 1]. Force and work are positive numbers. These are limits in rate; simulations show that all
+intermediate rates lie between them, but there is no proof.
 
 Source: Maghami, PhD thesis (2025), sections 4.4 and 4.7, appendices VIII and IX, published as
 doi:10.1016/j.jmps.2024.105844 and doi:10.1016/j.ijsolstr.2025.113584, with the fast limit by
@@ -61,8 +61,8 @@ def glassy_force(
 
     .. math:: P = \frac{f(\mu k^{1/3})}{k} \, \tfrac32 \pi R \Delta\gamma_0
 
-    From 1/k times that of JKR (short range) to 4/(3k) times (long range). For a smaller contact
-    see :func:`glassy_force_at_radius`.
+    It ranges from 1/k times that of JKR (short range) to 4/(3k) times (long range). For a smaller
+    contact see :func:`glassy_force_at_radius`.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def glassy_force_at_radius(
     work_of_adhesion: Values,
     modulus_ratio: Values,
 ) -> Number:
-    r"""Return the fast limit of the pull-off force [N] from a relaxed contact radius [m].
+    r"""Return the fast limit of the pull-off force [N] from a relaxed ``contact_radius`` [m].
 
     .. math:: P = \sqrt{8 \pi E_0^* a_0^3 \Delta\gamma_0 / k} - \frac{4 E_0^* a_0^3}{3 R}
 
@@ -113,10 +113,10 @@ def glassy_force_at_radius(
 def rubbery_work(
     *, radius: Values, contact_modulus: Values, work_of_adhesion: Values, equilibrium_gap: Values
 ) -> Number:
-    r"""Return the work to pull-off [J] of the slowest retraction, of the Lennard-Jones traction.
+    r"""Return the work to pull-off [J] of the slowest retraction, for the Lennard-Jones traction.
 
-    Eq. 46, :func:`viscotack.theory.elastic.jkr.work_to_pull_off`, is its limit for a short range
-    and lies below it for every Tabor number.
+    Eq. 46, :func:`viscotack.theory.elastic.jkr.work_to_pull_off`, is its short-range limit
+    and a lower bound for every Tabor number.
 
     Examples
     --------
@@ -144,9 +144,9 @@ def glassy_work(
 ) -> Number:
     r"""Return the work to pull-off [J] of the fastest retraction from a large relaxed contact.
 
-    That of an elastic sphere of radius R/k and modulus :math:`E_0^*/k`; for a short range
-    :math:`0.8018 \, k^{-2/3} \mu \pi^{2/3} \tfrac32 \pi R \Delta\gamma_0 h_0`. "Large" is a relaxed
-    radius :math:`\hat a_0 \ge (9/2k)^{1/3}` and more: work is counted from zero force.
+    It equals that of an elastic sphere of radius R/k and modulus :math:`E_0^*/k`; for a short range
+    :math:`0.8018 \, k^{-2/3} \mu \pi^{2/3} \tfrac32 \pi R \Delta\gamma_0 h_0`. "Large" means a
+    relaxed radius :math:`\hat a_0 \ge (9/2k)^{1/3}`, because the work is counted from zero force.
 
     Examples
     --------
@@ -168,13 +168,16 @@ def glassy_work(
 def glassy_work_estimate(
     contact_radius: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the glassy estimate of the work [J] from the radius at pull-off [m] (Eq. 43).
+    r"""Return the glassy estimate of the work [J] from the ``contact_radius`` at pull-off [m].
+
+    Eq. 43:
 
     .. math:: \hat w = \tfrac43 \hat a_{po}^2 \mu \pi^{2/3}, \quad
               W = 2 \pi a_{po}^2 \Delta\gamma_0
 
-    The energy of a glassy flat punch of that radius; k drops out. An estimate, not a bound: in the
-    fast limit of JKR it is 1.8 times :func:`glassy_work`, at mu = 0.8 it is equal to simulations.
+    The energy of a glassy flat punch of that radius; k cancels. It is an estimate, not a bound: in
+    the fast limit of JKR it is 1.8 times :func:`glassy_work`, at mu = 0.8 it agrees with
+    simulations.
 
     Examples
     --------
@@ -194,8 +197,8 @@ def smallest_full_radius(
 
     .. math:: \hat a_0 = (9/8k)^{1/3}
 
-    in the limit of short range, from :func:`glassy_force_at_radius`; cohesive zones that are not
-    small ask for more.
+    in the limit of short range, from :func:`glassy_force_at_radius`; larger cohesive zones need a
+    larger radius.
 
     Examples
     --------
@@ -211,23 +214,23 @@ def smallest_full_radius(
 def threshold_contact_radius(
     force: Values, *, radius: Values, contact_modulus: Values, work_of_adhesion: Values
 ) -> Number:
-    r"""Return the contact radius [m] from which a pull-off force [N] no longer grows with preload.
+    r"""Return the contact radius [m] above which a pull-off force [N] is independent of preload.
 
     .. math:: \frac{P}{\pi R \Delta\gamma_0} = 0.3 \, \hat a_{0t}^{2.7}
 
     Parameters
     ----------
     force : array_like
-        Pull-off force that is expected at the rate [N], positive and not below that of JKR.
+        Expected pull-off force at the rate [N], positive and not below that of JKR.
 
     Notes
     -----
     The thesis's fit to simulations at mu = 3.24, modulus ratio 0.1, exponents 0.4 to 1.6 and rates
-    from 3 to 1e6 h0/tau0, with the threshold where dP/da0 is 0.1 in these units; it ends at
-    1.5/k. Used for smaller modulus ratios it is an extrapolation.
-    Even there it asks for up to half as much again as simulations do, and where the bulk creeps on
-    more preload lowers the force: :func:`viscotack.threshold_contact_radius` computes the answer
-    for a problem, and :func:`viscotack.advise` says what pressing harder does.
+    from 3 to 1e6 h0/tau0, with the threshold where dP/da0 is 0.1 in these units; valid up to
+    1.5/k. For smaller modulus ratios it is an extrapolation.
+    Even in its range it exceeds the simulated threshold by up to a half, and if the bulk continues
+    to creep, more preload lowers the force: :func:`viscotack.threshold_contact_radius` computes the
+    threshold for a problem, and :func:`viscotack.advise` the effect of a larger preload.
 
     Examples
     --------

@@ -1,14 +1,14 @@
-r"""The state at pull-off from the rate of retraction alone, slow, fast or in between.
+r"""State at pull-off from the retraction rate, slow, fast or intermediate.
 
-Three statements about the moment of the largest tension, with no constant fitted to it:
+Three conditions at the moment of the largest tension, without fitted constants:
 
-- the edge is a crack of Persson and Brener with the amplification
-  :math:`\Gamma = \Gamma_{PB}(v)`, in a JKR contact of that energy: the tension is largest at
+- the edge is a Persson-Brener crack with the amplification
+  :math:`\Gamma = \Gamma_{PB}(v)`, in a JKR contact of that energy: the largest tension is
 
   .. math:: P = \tfrac32 \pi R \, \Gamma \Delta\gamma_0, \quad
             a = \left(\frac{9 \pi R^2 \Gamma \Delta\gamma_0}{8 E_0^*}\right)^{1/3};
 
-- the bulk answers what was retracted in the time t since the start with its compliance of that
+- the bulk responds to the retraction during the time t since the start with its compliance at that
   time, :math:`\kappa = E_0 C(t)`, from 1 (relaxed) to k (glassy):
 
   .. math:: r \, t = \kappa \left[ \delta_l + \frac{3^{1/3}}{4} \, h \, \Gamma^{2/3} \right],
@@ -20,19 +20,18 @@ Three statements about the moment of the largest tension, with no constant fitte
             \quad l = (\pi R^2 \Delta\gamma_0/E_0^*)^{1/3}.
 
 Slow retraction leads to JKR; fast retraction to :math:`\Gamma = \kappa^{-1} = 1/k`, the fast limit
-of :mod:`viscotack.theory.sphere.bounds`. It is exact where the bulk is relaxed or glassy and the
-forces have a short range; the compliance of one time for all of a history is the approximation
-between.
+of :mod:`viscotack.theory.sphere.bounds`. It is exact if the bulk is relaxed or glassy and the
+forces have a short range; otherwise the compliance at one time approximates the history.
 
-Range: Tabor number 1 and more, and a start larger than a by a fifth or more. Of 275 simulations
-(power laws and standard solids, k 1e-3 to 0.3, n 0.3 to 1.6, rates 0.1 to 1e8 h0/tau0, mu to 8;
-alpha = pi/9 in the tip length, as fitted in the thesis) nine of ten have a speed within 17 % of
-this one, and a force within 8 % of this one times the elastic
-:func:`viscotack.theory.elastic.lennard_jones.pull_off_ratio`. The worst are 2 times off: in speed
-where the bulk is halfway between rubber and glass, in force where mu is near 1 and the start
-light. Below mu = 1 nine of ten speeds are within a third; forces are not.
+Range: Tabor number of at least 1, and a start larger than a by at least a fifth. For 275
+simulations (power laws and standard solids, k 1e-3 to 0.3, n 0.3 to 1.6, rates 0.1 to 1e8 h0/tau0,
+mu to 8; alpha = pi/9 in the tip length, as fitted in the thesis) nine of ten speeds agree within 17
+%, and nine of ten forces within 8 % after multiplication by the elastic
+:func:`viscotack.theory.elastic.lennard_jones.pull_off_ratio`. The worst differ by a factor of 2: in
+speed if the bulk is halfway between rubber and glass, in force if mu is near 1 and the start light.
+Below mu = 1 nine of ten speeds agree within a third; forces do not.
 
-Source: this package; ``benchmarks/rate_law.py`` measures the scatter again. No DOI: the parts are
+Source: this package; ``benchmarks/rate_law.py`` measures the scatter. No DOI: the parts are
 Persson & Brener (2005), doi:10.1103/PhysRevE.71.036123, and Johnson, Kendall & Roberts (1971),
 doi:10.1098/rspa.1971.0141.
 """
@@ -52,13 +51,13 @@ from viscotack.theory.elastic import jkr
 
 # Depth at the largest tension, -3^(1/3)/4, and da/d(depth) there, 3^(1/3)/2, of JKR.
 _DEPTH, _SLOPE = np.cbrt(3) / 4, np.cbrt(3) / 2
-# Round-off of the root of ln t, and rounds in which the law settles.
+# Tolerance of the root of ln t, and number of iterations of the law.
 _ROUND_OFF, _SETTLED = 1e-14, 5
 _TOLERANCE = 1e-12
 
 
 class State(NamedTuple):
-    """The state at pull-off, SI; each a float or an array of the shape of the speeds.
+    """State at pull-off, returned by :func:`at_pull_off`, SI; floats or arrays of the speeds.
 
     Attributes
     ----------
@@ -93,32 +92,32 @@ def at_pull_off(
     contact_modulus: float,
     work_of_adhesion: float,
 ) -> State:
-    r"""Return the state at pull-off of a sphere retracted at speeds r [m/s], positive.
+    r"""Compute the state at pull-off of a sphere retracted at speeds r [m/s], positive.
 
     Parameters
     ----------
     speed : array_like
         Retraction speed [m/s].
     law : CrackLaw
-        Of the edge; the bulk creeps as its material does. The scatter above is that of Persson and
-        Brener with the length of
+        Crack law of the edge; the bulk creeps as its material. The accuracy above holds for Persson
+        and Brener with the length of
         :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
     depth : float
         Depth of the relaxed start [m].
     radius, contact_modulus, work_of_adhesion : float
-        Of the relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
+        Relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
 
     Raises
     ------
     ValueError
-        If the start has no contact, or one that is smaller than the state at pull-off: the
-        preload then decides and not the rate.
+        If the start has no contact, or one smaller than the state at pull-off, because then the
+        force depends on the preload.
 
     Notes
     -----
-    One equation for t. As t grows, creep being concave, t/kappa grows and with it Gamma; kappa
-    grows, so v falls and Gamma(v) of the law with it: there is one root,
-    between bounds that are known.
+    One equation for t. Creep is concave, so t/kappa and Gamma increase with t; kappa
+    increases, so v and Gamma(v) of the law decrease. Therefore there is one root,
+    between known bounds.
 
     Examples
     --------
@@ -148,8 +147,8 @@ def at_pull_off(
         i = int(np.argmax(a))
         raise InputError(
             f"the relaxed contact radius of {start:.3g} m at the start is below the {a[i]:.3g} m "
-            f"at which a heavier preload would detach at {np.ravel(speed)[i]:.3g} m/s; press "
-            "deeper, or pull slower"
+            f"needed for detachment at {np.ravel(speed)[i]:.3g} m/s to be independent of the "
+            "preload; press deeper, or retract more slowly"
         )
     return state
 
@@ -163,14 +162,24 @@ def unlimited(
     contact_modulus: float,
     work_of_adhesion: float,
 ) -> State:
-    r"""Return the state of :func:`at_pull_off` also where the start is smaller than the state.
+    r"""Compute the state of :func:`at_pull_off`, also for a start smaller than the state.
 
-    It then says what the bulk has relaxed in the time that this depth takes, not the force. Speeds
-    and depths are broadcast; other parameters as there.
+    It then describes the relaxation of the bulk during the retraction from this depth, not the
+    force. Speeds and depths are broadcast; other parameters as there.
+
+    Returns
+    -------
+    State
+        Force [N], contact radius [m], crack speed [m/s] and more.
+
+    Raises
+    ------
+    ValueError
+        If the depth is not above that of the pull-off of the relaxed contact.
 
     Examples
     --------
-    A deeper start takes longer, so that the bulk has crept farther and the force is smaller:
+    A deeper start takes longer, so the bulk creeps further and the force is smaller:
 
     >>> from viscotack.materials import StandardSolid
     >>> solid = StandardSolid(
@@ -206,14 +215,14 @@ def unlimited(
     )
 
     def edge(log_time: Any) -> tuple[Any, Any, Any]:
-        """Return Gamma^(2/3) that the travel asks for, the edge speed and kappa."""
+        """Return Gamma^(2/3) required by the travel, the edge speed and kappa."""
         time = np.exp(log_time)
         compliance = np.asarray(modes.creep(time))
         asked = (r * time / compliance - d) / (_DEPTH * height)
         root = np.sqrt(np.clip(asked, 1.0, k ** (-2 / 3)))
         return asked, _SLOPE * length / height * r / (compliance * root), compliance
 
-    # the compliance grows with time, and the speed falls with it and with the energy
+    # the compliance increases with time, and the speed decreases with it and with the energy
     fastest, slowest = (
         _SLOPE * length / height * np.asarray(r / modes.creep(np.exp(end))) for end in (low, high)
     )
@@ -223,7 +232,7 @@ def unlimited(
     )
 
     def crack(gamma: Any, v: Any) -> Any:
-        """Return the amplification of a tip that has grown by gamma, at a speed."""
+        """Return the amplification of a tip enlarged by gamma, at a speed."""
         y = np.log(np.clip(gamma, 1.0, 1 / k) * law.tip_length / (unit * v))
         return amplification(np.atleast_1d(y)).reshape(np.shape(y))
 
@@ -235,7 +244,7 @@ def unlimited(
     asked, v, compliance = edge(best)
     gamma = asked**1.5
     for _ in range(_SETTLED):
-        # the speed is right to round-off, and the law settles on its energy
+        # the speed is accurate to round-off; iterate the law for its energy
         gamma = crack(gamma, v)
     a = length * np.cbrt(9 / 8 * gamma)
     return State(*(plain(x) for x in (1.5 * load * gamma, a, v, gamma, np.exp(best), compliance)))

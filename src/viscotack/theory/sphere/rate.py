@@ -1,24 +1,24 @@
-r"""From the rate of unloading to the speed of the crack at pull-off: the thesis's fit.
+r"""Crack speed at pull-off from the unloading rate: the fit of the thesis.
 
 .. math:: \hat v = 2.887 \, \hat r^{1.171}, \quad \hat v = v \tau_0 / l_0 \quad \text{(Eq. 4.24)}
 
-was fitted to simulations of a sphere. What :math:`\hat r` is has three readings, named apart here:
+was fitted to simulations of a sphere. The definition of :math:`\hat r` has three interpretations:
 
 - as printed, :func:`rate_in_tip_lengths`, :math:`r \tau_0 / l_0`;
-- as the authors' published script computes it, :func:`rate_as_published`,
+- as in the authors' published script, :func:`rate_as_published`,
   :math:`\hat r_u / (3.24 \pi^{2/3})` with :math:`\hat r_u = r \tau_0/h_0`, for every row;
-- the same at the Tabor number of the case, :func:`rate_in_contact_heights`,
+- the same with the Tabor number of the case, :func:`rate_in_contact_heights`,
   :math:`r \tau_0 / (\pi^2 \Delta\gamma_0^2 R / E_0^{*2})^{1/3}`, the scale of depth of Eq. 4.16.
 
 The last two agree at mu = 3.24, the only Tabor number of the fit; the first agrees with neither
-unless :math:`l_0` happens to be the depth scale. Range of the fit: mu = 3.24, modulus ratios 0.01
-to 0.1, exponents 0.4 to 1.6, preload above the threshold, crack speeds over some 10 decades. A
-simulation of a standard solid (k = 0.1, mu = 3.24) moves at 0.9 to 3 times the fitted speed.
+unless :math:`l_0` equals the depth scale. Range of the fit: mu = 3.24, modulus ratios 0.01
+to 0.1, exponents 0.4 to 1.6, preload above the threshold, crack speeds over some 10 decades. The
+simulated speed of a standard solid (k = 0.1, mu = 3.24) is 0.9 to 3 times the fitted one.
 
-Simulations over Tabor numbers 0.3 to 8, modulus ratios 1e-3 to 0.3 and rates 0.1 to 1e8 leave it
-by a factor of 7 in nine of ten cases, and the reading with the own Tabor number by 40; in the
-range of the fit by 5 (``benchmarks/rate_law.py``). It reproduces the authors' tables. For an
-answer take :mod:`viscotack.theory.sphere.detachment`, which leaves them by 1.25 in speed.
+For simulations over Tabor numbers 0.3 to 8, modulus ratios 1e-3 to 0.3 and rates 0.1 to 1e8, nine
+of ten cases differ by up to a factor of 7, and by 40 with the Tabor number of the case; in the
+range of the fit by 5 (``benchmarks/rate_law.py``). The fit reproduces the authors' tables. For
+predictions use :mod:`viscotack.theory.sphere.detachment`, which differs by 1.25 in speed.
 
 Source: Maghami, PhD thesis (2025), Eq. 4.24, published as doi:10.1016/j.jmps.2024.105844.
 """
@@ -34,7 +34,7 @@ from viscotack.theory._scales import contact_scales
 
 COEFFICIENT, EXPONENT = 2.887, 1.171
 FITTED_TABOR = 3.24
-# Beyond this factor from the Tabor number of the fit there is nothing that supports it.
+# Ratio to the Tabor number of the fit above which a warning is issued.
 _NEAR = 1.25
 
 
@@ -45,9 +45,9 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
     ----------
     rate : array_like
         :math:`\hat r` by one of the three functions below, not negative.
-    tabor : array_like
-        Tabor number of the case. It does not enter; a ``UserWarning`` is given where it is not
-        the 3.24 of the fit within a quarter.
+        tabor : array_like
+            Tabor number of the case. It has no effect; a ``UserWarning`` is issued if it differs
+            from the 3.24 of the fit by more than a quarter.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
     far = np.abs(np.log(mu / FITTED_TABOR)) > np.log(_NEAR)
     if np.any(far):
         warnings.warn(
-            f"the fit of crack speed to rate was made at a Tabor number of {FITTED_TABOR} alone, "
+            f"the fit of crack speed to rate was made only at a Tabor number of {FITTED_TABOR}; "
             f"this one is {np.ravel(mu)[np.argmax(np.ravel(far))]:.3g}; use theory.unloading "
             "instead",
             UserWarning,
@@ -69,7 +69,7 @@ def crack_speed(rate: Values, *, tabor: Values) -> Number:
 
 
 def rate_in_tip_lengths(speed: Values, *, time_unit: Values, tip_length: Values) -> Number:
-    r"""Return :math:`r \tau_0 / l_0`, the rate of Eq. 4.24 as printed, of a speed [m/s].
+    r"""Return :math:`r \tau_0 / l_0`, the rate of Eq. 4.24 as printed, from a speed [m/s].
 
     ``time_unit`` [s] and ``tip_length`` [m] of
     :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
@@ -82,15 +82,15 @@ def rate_in_tip_lengths(speed: Values, *, time_unit: Values, tip_length: Values)
     >>> f"{crack_speed(rate, tabor=3.24):.2e}"
     '9.99e+08'
     """
-    r = at_least(0, "retraction counts positive", speed=speed)
+    r = at_least(0, "a retraction speed is positive", speed=speed)
     t, l0 = positive(time_unit=time_unit, tip_length=tip_length)
     return plain(r * t / l0)
 
 
 def rate_as_published(rate: Values) -> Number:
-    r"""Return :math:`\hat r_u / (3.24 \pi^{2/3})` of a rate :math:`\hat r_u = r \tau_0/h_0`.
+    r"""Return :math:`\hat r_u / (3.24 \pi^{2/3})` from a rate over :math:`h_0/\tau_0`.
 
-    What the authors' published tables and models hold, at every Tabor number.
+    This is the rate in the authors' published tables and models, at every Tabor number.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def rate_in_contact_heights(
     contact_modulus: Values,
     work_of_adhesion: Values,
 ) -> Number:
-    r"""Return :math:`r \tau_0 / (\pi^2 \Delta\gamma_0^2 R / E_0^{*2})^{1/3}` of a speed [m/s].
+    r"""Return :math:`r \tau_0 / (\pi^2 \Delta\gamma_0^2 R / E_0^{*2})^{1/3}` from a speed [m/s].
 
     Examples
     --------
@@ -117,7 +117,7 @@ def rate_in_contact_heights(
     >>> f"{rate_in_contact_heights(1e-4, time_unit=0.02, **case):.3f}"
     '0.296'
     """
-    r = at_least(0, "retraction counts positive", speed=speed)
+    r = at_least(0, "a retraction speed is positive", speed=speed)
     t = positive(time_unit=time_unit)
     _, height, _ = contact_scales(radius, contact_modulus, work_of_adhesion)
     return plain(r * t / height)

@@ -1,19 +1,19 @@
-r"""The whole unloading curve of a viscoelastic sphere from the motion of its contact edge.
+r"""Unloading curve of a viscoelastic sphere from the motion of its contact edge.
 
-The bulk is relaxed, so that depth, force and contact radius hang together as in JKR with a work
-of adhesion G, and the edge recedes as a crack of Persson and Brener with that energy:
+The bulk is relaxed, so depth, force and contact radius are related as in JKR with a work
+of adhesion G, and the edge recedes as a Persson-Brener crack with that energy:
 
 .. math:: \delta = \frac{a^2}{R} - \sqrt{\frac{2 \pi a G}{E_0^*}}, \quad
           P = \frac{4 E_0^* a^3}{3 R} - \sqrt{8 \pi E_0^* a^3 G}, \quad
           \frac{G}{\Delta\gamma_0} = \Gamma\!\left(-\frac{da}{dt}\right), \quad
           \frac{d\delta}{dt} = -r
 
-after Muller (1999) (no DOI known to this package; taken up by Ciavarella (2021),
+after Muller (1999) (no DOI known to this package; used by Ciavarella (2021),
 doi:10.1080/01694243.2021.1882766), with the law of :mod:`viscotack.theory.crack.persson_brener` in
-place of a power law. Range: large Tabor number, and time enough for the bulk to relax while the
-edge moves: slow or moderate retraction. In fast retraction the bulk stiffens as well, and the curve
-is only near. Against simulations of power-law solids (k = 0.1, n 0.4 to 1.6, deep preload) with
-alpha = pi/9 in the tip length, the pull-off force is
+place of a power law. Range: large Tabor number, and retraction slow enough for the bulk to relax
+while the edge moves. In fast retraction the bulk stiffens as well, and the curve
+is only approximate. Compared with simulations of power-law solids (k = 0.1, n 0.4 to 1.6, deep
+preload) with alpha = pi/9 in the tip length, the pull-off force is
 
 - at mu = 3.24: 3 % low up to rates of 10 h0/tau0, all of it the range of the forces (the
   elastic :func:`viscotack.theory.elastic.lennard_jones.pull_off_ratio`), and up to 18 % low at 100
@@ -39,27 +39,27 @@ from viscotack.theory._scales import contact_scales
 from viscotack.theory.crack import CrackLaw
 from viscotack.theory.elastic import jkr
 
-# Parts of the way of Gamma from 1 to 1/k between which the law is tabulated; beyond it is straight.
+# Fractions of the range of Gamma from 1 to 1/k that are tabulated; linear beyond.
 _LOW, _HIGH = 1e-10, 1 - 1e-4
 _PER_DECADE = 12
-# ln of the times of passage that are looked at first, in which steps, and where looking ends.
+# ln of the first passage times, their step, and the end of the search.
 _SPAN, _COARSE, _WIDEST = 16.0, 2.0, 500.0
-# Beyond the table the speed grows with this power of Gamma: all but a wall at 1/k.
+# Power of Gamma of the speed beyond the table, which approximates a wall at 1/k.
 _WALL = 3e3
-# Gamma - 1 that no longer counts.
+# Gamma - 1 that is negligible.
 _FIRST = 1e-5
-# Curves end at this part of the radius scale, or where Gamma k is beyond this: an edge in free run.
+# Curves end at this fraction of the radius scale, or where Gamma k exceeds this: an unstable edge.
 _SMALLEST = 1e-3
 _GLASSY = 1.03
 # ln of the largest dimensionless speed of such an edge.
 _FREE = 600.0
 _TOLERANCE = 1e-8
-# Longest step beside the radius at the start.
+# Longest step relative to the radius at the start.
 _LONGEST = 0.02
 
 
 class Unloading(NamedTuple):
-    """An unloading curve: arrays of equal length, SI.
+    """An unloading curve, returned by :func:`retraction`: arrays of equal length, SI.
 
     Attributes
     ----------
@@ -102,34 +102,34 @@ def retraction(
     contact_modulus: float,
     work_of_adhesion: float,
 ) -> Unloading:
-    """Return the curve of a sphere that is pulled off a relaxed contact at a constant speed.
+    """Compute the curve of a sphere retracted from a relaxed contact at constant speed.
 
     Parameters
     ----------
     depth : float
         Depth of the relaxed start [m], not below that of :func:`jkr.instability`.
     law : CrackLaw
-        Of the edge. The errors above are those of Persson and Brener with the length of
+        Crack law of the edge. The errors above hold for Persson and Brener with the length of
         :func:`viscotack.theory.crack.persson_brener.crack_tip_length`.
     speed : float
         Retraction speed r [m/s], positive.
     radius, contact_modulus, work_of_adhesion : float
-        Of the relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
+        Relaxed contact, as in :mod:`viscotack.theory.elastic.jkr` [m, Pa, J/m^2].
 
     Returns
     -------
     Unloading
-        Until the contact has vanished, or has only the glassy equilibrium left.
+        Curve until the contact has vanished, or has only the glassy equilibrium left.
 
     Raises
     ------
     ValueError
-        If the material is elastic, for which :mod:`viscotack.theory.elastic.jkr` is the curve.
+        If the material is elastic; then :mod:`viscotack.theory.elastic.jkr` gives the curve.
 
     Notes
     -----
     The equation is stiff near the start, where the edge creeps in equilibrium with the drive; an
-    implicit method takes it, in 5 to 10 ms. Its errors are about 2e-5 of the force, and where
+    implicit method solves it in 5 to 10 ms. Its errors are about 2e-5 of the force. Where
     the edge is slower than at Gamma = 1.00001 the curve is that of JKR to this precision.
 
     Examples
@@ -146,7 +146,7 @@ def retraction(
     '9.71 mN'
     """
     if law.largest <= 1:
-        raise InputError("an elastic solid has no rate; its curve is that of theory.jkr")
+        raise InputError("an elastic solid has no rate dependence; use theory.jkr")
     r = float(positive(speed=speed))
     case = dict(radius=radius, contact_modulus=contact_modulus, work_of_adhesion=work_of_adhesion)
     length, height, load = (float(x) for x in contact_scales(**case))
@@ -155,11 +155,11 @@ def retraction(
     # edge speed in the scale of contact radius per scale of depth travelled
     unit = law.speed_unit / length * height / r
     log_speed = _log_speed(law)
-    # a slower edge is in equilibrium to within _FIRST anyhow, and would only be stiffer
+    # a slower edge is in equilibrium within _FIRST, and would only make the problem stiffer
     unit = min(unit, math.exp(-log_speed(math.log(_FIRST))))
 
     def amplification(path: float, a: float) -> tuple[float, float]:
-        """Return Gamma and the depth; the path is what drive and edge have moved together."""
+        """Return Gamma and the depth; the path is the combined motion of drive and edge."""
         d = d0 - path + (start - a)
         return max(a**2 - d, 0.0) ** 2 / (2 * a), d
 
@@ -167,7 +167,7 @@ def retraction(
         gamma, _ = amplification(path, max(float(state[0]), _SMALLEST))
         if gamma <= 1:
             return [0.0]
-        # neither a waiting edge nor a running one makes this large
+        # bounded for both slow and fast edges
         return [-1 / (1 + math.exp(min(-log_speed(math.log(gamma - 1)), _FREE)) / unit)]
 
     solver = scipy.integrate.LSODA(
@@ -196,7 +196,7 @@ def retraction(
     speeds = [log_speed(math.log(x - 1)) if x > 1 else -np.inf for x in gamma.tolist()]
     edge = unit * np.exp(np.minimum(speeds, _FREE))
     return Unloading(
-        # round-off moves the drive back while only the edge runs
+        # remove backward motion of the drive by round-off while only the edge moves
         time=np.maximum.accumulate(d0 - d) * height / r,
         depth=d * height,
         contact_radius=a * length,
@@ -211,14 +211,14 @@ def _log_speed(law: CrackLaw) -> Callable[[float], float]:
     return _tabulated(law.reduced())
 
 
-# half of the work, and the same at every load, speed and size
+# cached: half of the work, and the same for every load, speed and size
 @lru_cache(maxsize=32)
 def _tabulated(law: CrackLaw) -> Callable[[float], float]:
-    """Return that function of a law with dimensionless speeds."""
+    """Tabulate that function for a law with dimensionless speeds."""
     k = law.material.modulus_ratio
     speeds, odds = _table(law)
     spline = scipy.interpolate.CubicSpline(odds, speeds)
-    # plain numbers: the function is asked for one at a time, thousands of times
+    # plain floats, because the function is evaluated thousands of times with scalars
     knots, cubics = odds.tolist(), spline.c.T.tolist()
     slowest, fastest, slope = float(speeds[0]), float(speeds[-1]), float(spline(odds[0], 1))
     # of the last Gamma - 1, from its odds
@@ -243,7 +243,7 @@ def _table(law: CrackLaw) -> tuple[Array, Array]:
     first, last = (np.log(part / (1 - part)) for part in (_LOW, _HIGH))
     low, high = -_SPAN, _SPAN
     while max(-low, high) < _WIDEST:
-        # coarsely first, to learn where the law is anything but straight
+        # coarse first, to find where the law is curved
         times = np.arange(high, low, -_COARSE)
         odds = law.passage(times).log_odds
         if odds[0] < first and odds[-1] > last:
@@ -257,6 +257,6 @@ def _table(law: CrackLaw) -> tuple[Array, Array]:
             return np.array(found.log_speed[rows], float), np.array(found.log_odds[rows], float)
         low, high = low if odds[-1] > last else 2 * low, high if odds[0] < first else 2 * high
     raise InputError(
-        "the solid creeps over so many decades of time that the speed of the edge cannot be "
-        "tabulated; give it a modulus ratio farther from 1, or a narrower spectrum"
+        "the creep of the solid covers too many decades of time for the speed of the edge to be "
+        "tabulated; use a modulus ratio farther from 1, or a narrower spectrum"
     )

@@ -1,7 +1,7 @@
-"""Contacts whose edge is a steady crack: receding from rest, and through any history.
+"""Contacts whose edge is a steady crack: recession from rest, and any loading history.
 
-Lengths along the surface in beta, heights in beta^2/R, forces in R dg, times in the unit of the
-material; :func:`viscotack.crack_contact` takes a problem in any units.
+Lengths along the surface are in beta, heights in beta^2/R, forces in R dg, times in the material's
+unit; :func:`viscotack.crack_contact` accepts a problem in any units.
 """
 
 from . import growing, history, recession

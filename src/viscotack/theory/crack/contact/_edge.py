@@ -1,4 +1,4 @@
-"""The energy of an edge as a table: fast, for one speed or for thousands."""
+"""Tabulated energy of an edge, for fast scalar and vectorised evaluation."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import numpy as np
 from viscotack.arrays import Array
 from viscotack.theory.crack.steady import SteadyCrack, energy_of_odds
 
-# ln of the odds of Gamma at both ends of the table, and its rows.
+# ln of the odds of Gamma at both ends of the table, and number of rows.
 _ODDS, _ROWS = (-14.0, 12.0), 8000
-# Rows of other tables over the speed.
+# Number of rows of other tables over the speed.
 _OTHERS = 1000
-# What is gained by the slowest crack of an interface that grows with the opening speed.
+# Gamma - 1 of the slowest crack of an interface that grows with the opening speed.
 _GAINED = 1e-6
 
 
 class Even:
-    """Values at even distances, straight between, constant beyond the ends."""
+    """Linear interpolation on a uniform grid, constant beyond the ends."""
 
     def __init__(self, first: float, last: float, values: Array) -> None:
         self._first, self._per = first, (values.size - 1) / (last - first)
@@ -29,20 +29,20 @@ class Even:
 
     def __call__(self, x: Any) -> Any:
         """Return the values at x."""
-        # two plain functions: np.clip takes longer than all the rest where arrays are small
+        # minimum and maximum, because np.clip dominates the time for small arrays
         place = np.minimum(np.maximum((x - self._first) * self._per, 0.0), self._last)
         i = place.astype(np.intp)
         return self._values[i] + (place - i) * self._rise[i]
 
     def one(self, x: float) -> float:
-        """Return the value at one x, without the overhead of arrays."""
+        """Return the value at a scalar x, without array overhead."""
         place = min(max((x - self._first) * self._per, 0.0), float(self._last))
         i = int(place)
         return float(self._values[i] + (place - i) * self._rise[i])
 
 
 class Edge:
-    """Gamma against ln V of a crack that opens (sign 1) or closes (-1)."""
+    """Gamma as a function of ln V for an opening (sign 1) or closing (-1) crack."""
 
     def __init__(self, crack: SteadyCrack, sign: int) -> None:
         k = crack.modes.instantaneous
@@ -68,13 +68,13 @@ class Edge:
             return self._gamma(np.log(speed))
 
     def one(self, speed: float) -> float:
-        """Return Gamma at one speed; one below zero is round-off in the place of the edge."""
+        """Return Gamma at one speed; negative speeds count as zero (round-off of the edge)."""
         if self.elastic or speed <= 0:
             return 1.0
         return self._gamma.one(log(speed))
 
     def table(self, quantity: Callable[[Array], Array]) -> Even | None:
-        """Return a quantity of the speed over ln V where Gamma changes, None where it does not."""
+        """Tabulate a function of the speed over ln V; None if Gamma is constant."""
         if self.elastic:
             return None
         first, last = self._span

@@ -1,4 +1,4 @@
-"""The bulk's memory: modes of the creep for annuli, and the hereditary travel of a retraction."""
+"""Memory of the bulk: modes of the creep, and the hereditary travel of a retraction."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from viscotack.materials.interconversion import reciprocal
 
 
 class Chain(NamedTuple):
-    """Creep in exponential modes: compliance at once, weights, retardation times."""
+    """Creep in exponential modes: instantaneous compliance, weights, retardation times."""
 
     instantaneous: float
     weights: Array
     times: Array
 
     def step(self, dt: float) -> tuple[Array, Array, Array, float]:
-        """Return decay, weights of the old and of the new e, and the compliance of a step."""
+        """Return decay, weights of the old and the new e, and the compliance of a step."""
         x = dt / self.times
         mean = np.where(x < 1e-8, 1 - x / 2, -np.expm1(-x) / np.maximum(x, 1e-300))
         decay = np.exp(-x)
@@ -35,7 +35,7 @@ def chain_of(modes: Modes) -> Chain:
 def hereditary_travel(chain: Chain, time: Array) -> Array:
     r"""Return :math:`\int_0^t \psi(s) ds`, psi the relaxation from 1/k to 1.
 
-    What is retracted at a constant speed, as an elastic solid would have had to be.
+    It is the travel of an elastic solid equivalent to a retraction at constant unit speed.
     """
     if not chain.times.size:
         return np.asarray(time, dtype=float)

@@ -1,11 +1,11 @@
-r"""A shape as its contact feels it: the depth of each of its annuli, by Abel's transform.
+r"""Depth of each annulus of an axisymmetric contact, by Abel's transform.
 
 .. math:: g(s) = s \int_0^s \frac{f'(r)}{\sqrt{s^2 - r^2}} dr
 
-is the depth at which a contact without adhesion has the radius s; a contact of radius a and depth
-D carries :math:`P = 2 \int_0^a (D - g(s)) ds`, and its edge has the energy
+is the depth at which a contact without adhesion has radius s; a contact of radius a and depth
+D carries :math:`P = 2 \int_0^a (D - g(s)) ds`, and the energy release rate at its edge is
 :math:`(D - g(a))^2/2 \pi a`, with lengths along the surface in :math:`\beta`, heights in
-:math:`\beta^2/R` and forces in R dg, for which E* and dg are 1.
+:math:`\beta^2/R` and forces in R dg, in which E* and dg are 1.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from viscotack.errors import InputError
 from viscotack.theory.elastic import indenter
 from viscotack.theory.elastic.relaxed import largest_radius
 
-# Radii between which a shape of the user's is tabulated [beta], and rows a decade.
+# Radii between which a user-defined shape is tabulated [beta], and rows per decade.
 _RADII, _ROWS = (1e-6, 1e4), 60
 
 
@@ -63,18 +63,18 @@ class Profile:
         return self._total(np.maximum(s, self._inner[0]))
 
     def relaxed_depth(self, radius: Any) -> Any:
-        """Return the depth of a relaxed contact with its adhesion (JKR)."""
+        """Return the depth of a relaxed adhesive contact (JKR)."""
         return self.depth(radius) - np.sqrt(2 * np.pi * np.asarray(radius))
 
     def relaxed_force(self, radius: Any) -> Any:
-        """Return the force of a relaxed contact with its adhesion (JKR)."""
+        """Return the force of a relaxed adhesive contact (JKR)."""
         a = np.asarray(radius)
         return 2 * (a * self.relaxed_depth(a) - self.total(a))
 
 
 @lru_cache(maxsize=32)
 def profile_of(shape: Any) -> Profile:
-    """Return the profile of a reduced shape, kept."""
+    """Return the profile of a reduced shape (cached)."""
     return Profile(shape)
 
 
@@ -91,7 +91,7 @@ def radius_at_force(profile: Profile, force: float) -> float:
 def _found(radius: float | None, name: str) -> float:
     if radius is None:
         raise InputError(
-            f"there is no relaxed contact at this {name}: forces of short range let go of "
-            "the contact there; start deeper"
+            f"no relaxed contact exists at this {name}, because a contact with short-range forces "
+            "detaches earlier; start deeper"
         )
     return radius

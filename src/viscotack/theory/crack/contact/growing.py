@@ -1,14 +1,14 @@
-r"""Edges of many interfaces that grow with the opening speed, of one solid: for grids and fits.
+r"""Edges of many interfaces that grow with the opening speed, on one solid: for grids and fits.
 
-A crack costs a table of its own for every reference speed (over h0 per unit of time) and exponent,
-0.4 to 2 s. At one speed :math:`\ln(\Gamma - 1)` and the work of the interface are smooth in the
-growth at an opening speed and in the exponent: cubic splines in ln G and n, from a lattice. Below
-its least growth energies go in proportion to the growth towards those of the law at rest. Receding
-contacts (:func:`.recede`) take from it an edge of their own for each case.
+A table of cracks for one reference speed (over h0 per unit of time) and exponent takes
+0.4 to 2 s. At one speed :math:`\ln(\Gamma - 1)` and the energy of the interface are smooth
+functions of the growth at an opening speed and of the exponent: cubic splines in ln G and n on a
+lattice. Below its smallest growth, energies are interpolated in proportion to the growth towards
+the law at rest. Receding contacts (:func:`.recede`) use one edge per case.
 
-A solid beside (:class:`NeighbourEdges`) costs nothing. In units that shrink with the crack, as
-:mod:`viscotack.theory.crack.steady._grown` has it, a crack with growth is one of the law at rest,
-of the speed Q V: the bulk of the neighbour has the energy of its own crack at rest at that speed.
+A similar solid (:class:`NeighbourEdges`) needs no further cracks. In scaled units
+(:mod:`viscotack.theory.crack.steady._grown`) a crack with growth equals one of the law at rest
+at the speed Q V: the neighbour's bulk has the energy of its own crack at rest at that speed.
 """
 
 from __future__ import annotations
@@ -31,34 +31,34 @@ from viscotack.traction.growing import reference_speed as speed_of_growth
 
 from ._edge import Edge
 
-# Rows of a table over ln V; an energy beyond the last crack goes on with this slope at least, found
-# over so much of ln V.
+# Rows of a table over ln V; above the last crack the energy is extrapolated with at least this
+# slope, determined over this range of ln V.
 _ROWS, _LEAST_SLOPE, _NEAR = 500, 0.2, 0.5
-# What counts as the first and as the largest energy: beyond, tables are extrapolated.
+# Smallest and largest energy in the tables; beyond, they are extrapolated.
 _GAINED, _LIMIT = 1.0001, 250.0
 _ORDER = 3
-# Between growths of the lattice, ln; and what is gained by cracks that cannot be told from elastic.
+# Distance between growths of the lattice (ln), and Gamma - 1 of cracks close to elastic.
 _APART, _NOTHING = np.log(6.0), 1e-300
-# By what a stronger bulk takes from the work of the interface, see :class:`NeighbourEdges`.
+# Effect of a stronger bulk on the energy of the interface, see :class:`NeighbourEdges`.
 _LONGER = 1.6
 _ROUND_OFF = 1e-9
 
 
 class GrowingCracks:
-    """The opening cracks of a solid with Gent-Schultz growth, over amounts and powers of it.
+    """Opening cracks of a solid with Gent-Schultz growth, over amounts and exponents of growth.
 
     Parameters
     ----------
     material : viscoelastic material
         Reduced, or in SI: speeds are then those of a law with h0 = 1 m.
     growths : (float, float)
-        Least and largest growth G that are wanted.
+        Smallest and largest growth G.
     speeds : (float, float)
-        At one of the opening speeds between these [h0 per unit of time].
+        Range of the opening speeds at which the growth is defined [h0 per unit of time].
     exponents : sequence of float
-        Of the lattice, four at least, ascending.
+        Exponents of the lattice, at least four, ascending.
     base : Traction
-        The reduced law at rest.
+        Reduced law at rest.
     """
 
     def __init__(
@@ -74,8 +74,8 @@ class GrowingCracks:
         rising = 0 < growths[0] < growths[1] and 0 < speeds[0] <= speeds[1]
         if n.size <= _ORDER or np.any(np.diff(n) <= 0) or not rising:
             raise InputError(
-                "a lattice has four exponents at least, ascending, and growths and speeds from the "
-                f"smaller to the larger; got {n.tolist()}, {growths!r} and {speeds!r}"
+                "a lattice needs at least four ascending exponents, and growths and speeds from "
+                f"the smaller to the larger; got {n.tolist()}, {growths!r} and {speeds!r}"
             )
         self._middle = float(np.sqrt(speeds[0] * speeds[1]))
         self._log_growths = np.log(np.array(growths))
@@ -107,12 +107,12 @@ class GrowingCracks:
     def edges(self, reference_speed: Values, exponent: Values) -> GrowingEdges:
         """Return the edges of cases, each with its reference speed and exponent.
 
-        An infinite reference speed is an interface that does not grow.
+        An infinite reference speed means no growth.
 
         Raises
         ------
         ValueError
-            If one grows by more than those of the lattice, or has an exponent beside it.
+            If a case grows by more than the lattice, or its exponent is outside the lattice.
         """
         v0, n = (np.ravel(x) for x in np.broadcast_arrays(reference_speed, exponent))
         first, last = self._exponents[0], self._exponents[-1]
@@ -128,12 +128,12 @@ class GrowingCracks:
         low, high = self._ends(n)
         if np.any(log_growth > high + 1e-6):
             raise InputError(
-                "the interface grows by more than any of the lattice: by "
-                f"{np.exp(np.max(log_growth - high)):.3g} times as much"
+                "the growth of the interface exceeds the lattice by a factor of "
+                f"{np.exp(np.max(log_growth - high)):.3g} (widen the lattice)"
             )
         part = (log_growth - low) / (high - low)
         found = self._spline(np.column_stack([np.clip(part, 0.0, 1.0), n]))
-        # less than the least of the lattice: in proportion, from the law at rest
+        # below the smallest growth of the lattice: proportional to the growth, from the law at rest
         share = np.exp(np.minimum(log_growth - low, 0.0))[:, None]
         gained, work = (
             (1 - share) * rest + share * np.exp(found[:, k]) for k, rest in enumerate(self._at_rest)
@@ -142,13 +142,13 @@ class GrowingCracks:
         return GrowingEdges(self.modes, self._log_speed, tables, n, which.ravel())
 
     def _ends(self, exponent: Array) -> tuple[Array, Array]:
-        """Return ln of least and largest growth at the middle speed, of exponents."""
+        """Return ln of the smallest and largest growth at the middle speed, for exponents."""
         low, high = self._log_growths
         return low - exponent * self._half, high + exponent * self._half
 
 
 class GrowingEdges:
-    """An edge for each case, as :func:`.recede` takes it in the place of a crack."""
+    """Edges of many cases, accepted by :func:`.recede` in place of a crack."""
 
     def __init__(
         self,
@@ -163,11 +163,11 @@ class GrowingEdges:
         (self._gained, self._log_work), self._which = tables, which
 
     def amplification(self, speed: Any) -> Any:
-        """Return the energies of the cases at their speeds, the cases along the last axis."""
+        """Return the energies of the cases at their speeds, with the cases along the last axis."""
         return 1 + np.exp(self._at(self._gained, speed))
 
     def interface_work(self, speed: Any) -> Any:
-        """Return what the interfaces take [works of adhesion]."""
+        """Return the energies dissipated by the interfaces [works of adhesion]."""
         return np.exp(np.maximum(self._at(self._log_work, speed), 0.0))
 
     def _at(self, table: Array, speed: Any) -> Any:
@@ -179,25 +179,26 @@ class GrowingEdges:
 
 
 class NeighbourEdges:
-    r"""The same edges of a solid beside the one whose cracks are known.
+    r"""Edges of the same interfaces on a solid similar to one with known cracks.
 
     .. math:: \ln \Gamma_2(V) = \ln \Gamma_1(V) + t \ln \frac{\Gamma_2^0(Q V)}{\Gamma_1^0(Q V)},
               \quad t = \max \left( 0, 1 - 1.6 \, n \, \frac{Q - 1}{Q} \right)
 
     with the energies :math:`\Gamma^0` of the law at rest, each in the units of its own solid. More
-    energy by the bulk makes the zone longer, so that the gap opens more slowly and the interface
-    takes less: where it grows much, little is left of what the bulk changes. The number 1.6 is
-    that of a zone which grows like :math:`\Gamma^{0.6}`. Of solids changed by a third energies are
-    those of their own cracks within 1.5 %, where the law at rest has up to 14 %.
+    energy in the bulk makes the zone longer, so the gap opens more slowly and the interface
+    dissipates less: with strong growth, a change of the bulk has little effect. The number 1.6
+    holds for a zone that grows like :math:`\Gamma^{0.6}`. For solids changed by a third, the
+    energies agree with those of their own cracks within 1.5 %, compared with up to 14 % for the law
+    at rest.
 
     Parameters
     ----------
     edges : GrowingEdges
-        Of the solid that is known, with reference speeds in h0 per unit of time of the other.
+        Edges on the known solid, with reference speeds in h0 per unit of time of the other.
     known : SteadyCrack
-        Its crack with the law at rest.
+        Crack of the known solid with the law at rest.
     neighbour : NeighbourCrack
-        That of the other solid.
+        Crack of the other solid with the law at rest.
     """
 
     def __init__(self, edges: GrowingEdges, known: SteadyCrack, neighbour: NeighbourCrack) -> None:
@@ -213,16 +214,16 @@ class NeighbourEdges:
         return self._edges.amplification(speed) * change**left
 
     def interface_work(self, speed: Any) -> Any:
-        """Return what the interfaces take [works of adhesion]."""
+        """Return the energies dissipated by the interfaces [works of adhesion]."""
         return self._edges.interface_work(speed)
 
 
 def lattice_spline(axes: Sequence[Array], values: Array) -> scipy.interpolate.NdBSpline:
-    """Return the cubic spline through values on a lattice, whose axes are their first ones."""
+    """Return the cubic spline through values on a lattice, whose axes come first."""
     knots, coefficients = [], values
     for i, axis in enumerate(axes):
         one = scipy.interpolate.make_interp_spline(axis, coefficients, k=_ORDER, axis=i)
-        # the spline has its axis first
+        # the spline axis comes first
         coefficients = np.moveaxis(one.c, 0, i)
         knots.append(one.t)
     return scipy.interpolate.NdBSpline(tuple(knots), coefficients, _ORDER)
@@ -236,9 +237,9 @@ def _tabulated(crack: SteadyCrack) -> tuple[float, float]:
 
 
 def _table(crack: SteadyCrack, log_speed: Array) -> Array:
-    """Return ln of what is gained and of the work of the interface at speeds.
+    """Return ln(Gamma - 1) and ln of the interface energy at speeds.
 
-    As powers of the speed beyond the cracks that are known.
+    Beyond the known cracks both are power laws of the speed.
     """
     ends = _tabulated(crack)
     inside = np.clip(log_speed, *ends)

@@ -1,37 +1,39 @@
-r"""A contact through any history: annuli, each with its viscoelastic spring, and two kinds of edge.
+r"""Contact with any loading history: annuli of viscoelastic springs and a moving edge.
 
-An annulus s in contact has the opening :math:`\chi_u = D - g(s)`, one outside what its creep has
-left; its elastic part :math:`\chi_e` follows from the chain
-:math:`\chi_u = c \chi_e + \sum_j w_j d_j`, :math:`\tau_j d_j' = \chi_e - d_j`, and is zero outside.
-The force is :math:`P = 2 \int_0^a \chi_e ds`. An edge that opens has
-:math:`\chi_e(a)^2/2 \pi a = \Gamma(V)`, one that closes :math:`[\chi_u(a)]^2/2 \pi a = \Gamma(-V)`
-with the jump of :math:`\chi_u` there: in front of a crack that opens nothing has crept, and behind
-one that closes the shape is given.
+An annulus s in contact has the opening :math:`\chi_u = D - g(s)`; outside the contact the opening
+is the remaining creep. Its elastic part :math:`\chi_e` follows from the chain :math:`\chi_u = c
+\chi_e + \sum_j w_j d_j`, :math:`\tau_j d_j' = \chi_e - d_j`, and is zero outside. The force is
+:math:`P = 2 \int_0^a \chi_e ds`. An opening edge satisfies :math:`\chi_e(a)^2/2 \pi a = \Gamma(V)`,
+a closing edge :math:`[\chi_u(a)]^2/2 \pi a = \Gamma(-V)` with the jump of :math:`\chi_u` there: the
+material ahead of an opening crack has no creep due to it, and the shape behind a closing crack is
+given.
 
-**Two memories.** In front of the edge lies what the outside remembers, behind it what the inside
-does. Of a relaxed contact the one is zero and the other :math:`d_j = \chi_e`, so that lift and
-jump are both D - g(a), both energies are 1, and the edge rests. Each memory evolves on its own. An
-annulus that is closed starts from its outer memory; one that is opened keeps its inner one. The two
-annuli beside the edge have both, and take over the part of the other that the edge has passed of
-the way between them. The jump is measured a zone in front of the edge, an annulus at least: right
-at the edge an opening of 1e-12 would leave the memory of the inside, hence the jump
-:math:`c \chi_e` of energy k^2.
+**Two memories.** The material ahead of the edge has the outer memory, that behind it the inner
+memory. In a relaxed contact the outer one is zero and the inner one :math:`d_j = \chi_e`, so lift
+and jump are both D - g(a), both energies are 1, and the edge is at rest. Each memory evolves
+separately. An annulus that closes starts from its outer memory; one that opens keeps its inner one.
+The two annuli next to the edge have both, and mix them by the fraction of the distance between them
+that the edge has passed. The jump is evaluated one zone ahead of the edge, at least one annulus:
+directly at the edge an opening of 1e-12 would leave the inner memory, hence a jump of :math:`c
+\chi_e` and energy k^2.
 
-**Which energy holds.** Only that of opening above 1: the edge opens; only that of closing below 1:
-it closes; neither: it rests. In motion both hold: just opened annuli have a small jump, just closed
-ones a large lift. Then it goes on as before, unless the drive moves the other way and the edge is
-slower than :math:`|\dot a| g'(a) < 3 |\dot D|` (the 3 is that of slow reversals: 10 gives forces
-3 % low, 1 gives 7 % high). The rate of the last step counts: that of a trial would decide about
-itself. An edge that turned does not turn back before the drive does.
+**Direction of motion.** If only the opening energy exceeds 1, the edge opens; if only the closing
+energy is below 1, it closes; if neither, it rests. During motion both may hold: just opened annuli
+have a small jump, just closed ones a large lift. Then the edge keeps its direction, unless the
+drive moves the other way and the edge is slower than :math:`|\dot a| g'(a) < 3 |\dot D|` (the 3 is
+calibrated to slow reversals: 10 gives forces 3 % low, 1 gives 7 % high). The rate of the last step
+is used, because that of a trial step would depend on the decision. After a reversal the edge does
+not reverse again before the drive does.
 
-**Steps.** Memories are exact for elastic parts straight in time. The rate of the edge at the end of
-a step is that of the parabola through this step and the one before, of second order, where the edge
-goes on as before.
+**Steps.** Memories are exact for elastic parts linear in time. The rate of the edge at the end of
+a step is that of the parabola through this step and the previous one, of second order, if the edge
+keeps its direction.
 
-**Range.** The machine feels, holds and is sprung by tensions that the range of the law has reduced,
-by a part that depends on the opening speed (`tension` of :class:`Contact`).
+**Range.** The force on the machine is reduced for the finite range of the law, by a fraction that
+depends on the opening speed (`tension` of :class:`Contact`).
 
-Units as in :mod:`._profile`, times in the unit of the material. Between the annuli the memory is
+Units as in :mod:`._profile`, times in the material's unit. Between annuli the memory is
+linear in g, which is exact for contacts formed at rest.
 straight in g, which is exact for what was brought in at rest.
 """
 
@@ -53,37 +55,38 @@ from ._edge import Edge
 from ._memory import Chain, chain_of
 from ._profile import Profile
 
-# Annuli, the part of them below the tenth of the largest radius, and how far beyond the start.
+# Number of annuli, fraction of them below a tenth of the largest radius, and margin beyond the
+# start.
 _ANNULI, _SMALLEST = 360, 0.01
-# Bounds of a step: change of the radius over it, of the drive over the height of JKR's pull-off,
-# of its length over the one before; and the first one over the time of a move.
+# Limits of a step: change of the radius, of the drive relative to the depth of JKR's pull-off,
+# and of its length relative to the previous one; and first step relative to the time of a move.
 _TRAVEL, _DRIVE, _GROWTH, _FIRST = 0.008, 0.07, 1.6, 1e-5
-# Rounds of a root and its tolerance; steps of a history at most.
+# Iterations of a root and its tolerance; largest number of steps of a history.
 _ROUNDS, _CLOSE, _MOST_STEPS = 60, 1e-10, 20_000
-# Radius [beta] below which nothing is left of a contact; and in the last retraction, where one that
-# snaps off behind a spring would close and open again without end, and without inertia.
+# Radius [beta] below which the contact has vanished; and the same in the last retraction, where
+# without inertia a contact behind a spring would otherwise close and open again repeatedly.
 _GONE, _LEFT = 0.02, 0.1
-# An energy is that of an edge at rest within round-off. An edge that could open as well as close
-# turns with the drive where it is slower than so many times what the drive asks of it.
+# Tolerance for the energy of an edge at rest. An edge that can both open and close follows the
+# drive if it is slower than this factor times the rate imposed by the drive.
 _EQUAL, _AGAINST = 1e-10, 3.0
 
 
 @dataclass(frozen=True)
 class Drive:
-    """What the machine does for a while.
+    """A motion of the machine.
 
     Parameters
     ----------
     control : str
-        "drive", "depth" or "force": what is given.
+        Controlled quantity: "drive", "depth" or "force".
     speed : float
-        How fast the given one grows [beta^2/R or R dg, per time unit].
+        Rate of the controlled quantity [beta^2/R or R dg, per time unit].
     duration : float
-        How long at most [time unit]; infinite until the end is met.
+        Largest duration [time unit]; infinite if only the end condition stops it.
     end : tuple of (str, float), or None
-        "depth", "force" or "radius" at which it ends before.
+        Optional end condition: "depth", "force" or "radius", and its value.
     target : float or None
-        In place of the speed: the given value when the duration is over.
+        In place of the speed: value of the controlled quantity at the end of the duration.
     """
 
     control: str
@@ -94,18 +97,18 @@ class Drive:
 
 
 class Curve(NamedTuple):
-    """A history: arrays over its steps.
+    """Computed history: arrays over its steps.
 
     Attributes
     ----------
     time, depth, force, radius : ndarray
-        Depth [beta^2/R], force that the machine feels [R dg], contact radius [beta].
+        Depth [beta^2/R], force on the machine [R dg], contact radius [beta].
     speed, amplification : ndarray
-        Of the edge, positive where it opens [E0* h0^2/(dg tau)], and its energy [dg].
+        Speed of the edge, positive for opening [E0* h0^2/(dg tau)], and its energy [dg].
     move : ndarray
-        Number of the drive.
+        Index of the drive.
     detached : bool
-        Whether the last step let go.
+        Whether the contact detached in the last step.
     """
 
     time: Array
@@ -119,16 +122,16 @@ class Curve(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Time, given value, depth, force, radius, and what the annuli remember.
+    """Time, controlled value, depth, force, radius, and memories of the annuli.
 
-    `memory` is that of the inside for annuli of less than the radius, of the outside for the
-    others. The two annuli beside the edge have the other one too, to interpolate up to the edge
-    from either side: `beside` is that of the inside at the first annulus beyond, and that of the
-    outside at the last one before. `elastic` goes one annulus beyond the edge. `travel` is the mean
-    rate of the radius over the last step and `step` its length, infinite where it was a jump or
-    there was none; `rate` is that of the radius at the end of it. `left` is the part of a tension
-    of short range that is left at this speed of the edge. `way` is the
-    sign of the last travel, 0 where there was none.
+    `memory` is the inner one for annuli below the radius, and the outer one for the
+    others. The two annuli next to the edge also have the other one, for interpolation up to the
+    edge from either side: `beside` is the inner memory at the first annulus beyond the edge, and
+    the outer one at the last annulus before it. `elastic` extends one annulus beyond the edge.
+    `travel` is the mean rate of the radius over the last step and `step` its length, infinite after
+    a jump or at the start; `rate` is the rate of the radius at its end. `left` is the fraction of
+    the short-range tension at this edge speed. `way` is the sign of the last motion of the edge, 0
+    at the start.
     """
 
     time: float
@@ -147,23 +150,23 @@ class _State(NamedTuple):
 
 
 class Contact:
-    """A shape on a solid with a steady crack for its edge.
+    """A shape on a solid whose contact edge is a steady crack.
 
     Parameters
     ----------
     crack : SteadyCrack
-        Of the solid and the reduced law.
+        Crack of the solid with the reduced law.
     profile : Profile
-        Of the reduced shape.
+        Profile of the reduced shape.
     tabor : float
         Tabor number.
     largest : float
         Largest radius of the history [beta].
     stiffness : float or None
-        Of the machine [R dg over beta^2/R]; None for a rigid one.
+        Stiffness of the machine [R dg over beta^2/R]; None for a rigid one.
     tension : callable, optional
-        Part of a tension of short range that the range of the law leaves, at opening speeds: what
-        the machine feels, holds and is sprung by. None where the range is no length at all.
+        Fraction of the short-range tension for the finite range of the law, as a function of
+        opening speeds; applied to the force on the machine. None for a law of zero range.
     """
 
     def __init__(
@@ -180,7 +183,7 @@ class Contact:
         self._chain: Chain = chain_of(crack.modes)
         self._opening, self._closing = Edge(crack, 1), Edge(crack, -1)
         inner = _SMALLEST * largest
-        # at even distances beyond the innermost
+        # equidistant beyond the innermost ones
         self._s = np.append(0.0, np.linspace(inner, largest, _ANNULI))
         self._inner, self._apart = inner, (largest - inner) / (_ANNULI - 1)
         self._g = np.asarray(profile.depth(self._s))
@@ -209,31 +212,32 @@ class Contact:
         return _State(0.0, drive, depth, force, radius, elastic, memory, beside, left)
 
     def apart(self, depth: float) -> _State:
-        """Return surfaces that do not touch, at a depth below zero."""
+        """Return separated surfaces, at a negative depth."""
         memory = np.zeros((self._s.size, self._chain.times.size))
         elastic = np.zeros(self._s.size)
         beside, left = np.zeros_like(memory[:2]), self._at_rest
         return _State(0.0, depth, depth, 0.0, 0.0, elastic, memory, beside, left)
 
     def last_inside(self, radius: float) -> int:
-        """Return the number of the last annulus of less than a radius, -1 if there is none."""
+        """Return the index of the last annulus below a radius, -1 if there is none."""
         if radius <= 0:
             return -1
         i = self.interval(radius)
         return i if self._s[i] < radius else i - 1
 
     def interval(self, radius: float) -> int:
-        """Return the number of the annulus from which on a radius lies."""
+        """Return the index of the annulus at the lower end of the interval of a radius."""
         i = int(max(radius - self._inner, 0.0) / self._apart) + (radius > self._inner)
         return min(i, self._s.size - 2)
 
     def run(self, start: _State, drives: tuple[Drive, ...]) -> Curve:
-        """Return the history of a start, until the contact lets go in the last drive or it ends."""
+        """Compute the history of a start, until detachment in the last drive or its end."""
         rows = [(start, 0.0, 1.0, 0)]
         state, detached, begins = start, False, [0.0]
         for number, drive in enumerate(drives):
             last = number == len(drives) - 1
-            # a time of its own for each drive: after a long one, short steps would be round-off
+            # use a separate time for each drive, because short steps after a long one would be lost
+            # in round-off
             state, detached = self._through(state._replace(time=0.0), drive, number, rows, last)
             begins.append(begins[-1] + state.time)
         columns = list(zip(*((*row[0][:5], *row[1:]) for row in rows), strict=True))
@@ -244,7 +248,7 @@ class Contact:
     def _through(
         self, state: _State, drive: Drive, number: int, rows: list[Any], last: bool
     ) -> tuple[_State, bool]:
-        """Go through one drive; append its steps."""
+        """Compute one drive and append its steps."""
         given = {"drive": state.drive, "depth": state.depth, "force": state.force}[drive.control]
         begin, end = state.time, state.time + drive.duration
         if drive.target is not None:
@@ -273,14 +277,14 @@ class Contact:
             fast = abs(moved) > _TRAVEL * scale and not jumped
             dt *= max(0.3, _TRAVEL * scale / abs(moved)) if fast else _GROWTH
         raise OutOfRange(
-            f"the history needs more than {_MOST_STEPS:,} steps; make it shorter, or simulate it"
+            f"the history needs more than {_MOST_STEPS:,} steps; shorten it, or simulate it"
         )
 
     def _drive(self, depth: float, force: float) -> float:
         return depth if self._stiffness is None else depth + force / self._stiffness
 
     def _left(self, rate: float) -> float:
-        """Return the part of a tension that is left while the radius changes at a rate."""
+        """Return the remaining fraction of the tension at a rate of the radius."""
         if self._tension is None or rate >= 0:
             return self._at_rest
         return self._tension.one(log(-self._mu2 * rate))
@@ -301,7 +305,7 @@ class Contact:
     def _to_the_end(
         self, state: _State, drive: Drive, given: float, begin: float, dt: float
     ) -> tuple[float, _State]:
-        """Return the step that ends where the drive does."""
+        """Return the step that ends at the end of the drive."""
         low, high = 0.0, dt
         found = state
         for _ in range(40):
@@ -319,7 +323,7 @@ class Contact:
     def _tried(
         self, state: _State, drive: Drive, given: float, begin: float, dt: float, least: float
     ) -> tuple[_State | None, bool]:
-        """Return the state after a step, None where it moved too far; and whether it jumped."""
+        """Return the state after a step (None if it moved too far), and whether it jumped."""
         time = state.time + dt
         value = given + drive.speed * (time - begin)
         step = _Step(self, state, drive.control, value, dt)
@@ -333,7 +337,7 @@ class Contact:
 
 
 class _Step:
-    """One step of a contact: what follows from a radius at its end."""
+    """One step of a contact, as a function of the radius at its end."""
 
     def __init__(
         self, contact: Contact, state: _State, control: str, value: float, dt: float
@@ -355,7 +359,7 @@ class _Step:
         self._until = self._outside(state.radius)[1]
 
     def _cumulated(self, memory: Array) -> Array:
-        """Return the integral of a memory, straight in g, up to each annulus."""
+        """Return the integral of a memory, linear in g, up to each annulus."""
         of = self._of
         rise = np.diff(memory) / of._dg
         parts = memory[:-1] * of._ds + rise * (of._total - of._g[:-1] * of._ds)
@@ -371,17 +375,17 @@ class _Step:
         return float(memory[i] + rise * (g - of._g[i])), float(total[i] + part)
 
     def _inside(self, a: float) -> tuple[float, float]:
-        """Return the memory of the inside at a radius, and its integral."""
+        """Return the inner memory at a radius, and its integral."""
         i = min(self._of.interval(a), max(self._last, 0))
         return self._memory_at(a, self._in, self._sum_in, i)
 
     def _outside(self, a: float) -> tuple[float, float]:
-        """Return the memory of the outside at a radius, and its integral."""
+        """Return the outer memory at a radius, and its integral."""
         i = max(self._of.interval(a), self._last)
         return self._memory_at(a, self._out, self._sum_out, i)
 
     def at(self, a: float) -> tuple[float, float, float]:
-        """Return depth, force and memory in front of the edge for a radius at the end."""
+        """Return depth, force and memory ahead of the edge for a radius at the end."""
         before = self._before.radius
         a = float(a)
         lag, whole = self._inside(min(a, before))
@@ -397,7 +401,7 @@ class _Step:
         elif self._control == "depth" or stiffness is None:
             depth = value
         else:
-            # without force the depth is the drive
+            # without force the depth equals the drive
             soft = 2 / (c * stiffness) * (left if value * a < whole else 1.0)
             depth = (value + soft * whole) / (1 + soft * a)
         force = 2 / c * (depth * a - whole)
@@ -416,26 +420,27 @@ class _Step:
             opens = self._goes_on_opening(drive)
             closes = not opens
         elif way * drive > 0:
-            # it turns with the drive, not against it: what it has just left would bring it back
+            # the edge reverses with the drive only; otherwise material it has just left would
+            # reverse it again
             opens, closes = opens and way < 0, closes and way > 0
         if closes:
             return self._closed(before)
         return self._opened(before) if opens else before
 
     def _lift(self, a: float, depth: float, lag: float) -> float:
-        """Return the energy of an edge that opens."""
+        """Return the energy of an opening edge."""
         lift = min((depth - float(self._of._profile.depth(a)) - lag) / self._c, 0.0)
         return lift**2 / (2 * np.pi * a)
 
     def _jump(self, a: float, depth: float) -> float:
-        """Return the energy of an edge that closes."""
+        """Return the energy of a closing edge."""
         of = self._of
         out, _ = self._outside(min(a + of._ahead, float(of._s[-1])))
         jump = min(depth - float(of._profile.depth(a)) - out, 0.0)
         return jump**2 / (2 * np.pi * a)
 
     def _goes_on_opening(self, drive: float) -> bool:
-        """Return whether an edge opens that could as well close, from the rate of the depth."""
+        """Return whether an edge that could also close keeps opening, at a rate of the depth."""
         travel = self._before.travel
         if travel == 0:
             return drive < 0
@@ -449,13 +454,13 @@ class _Step:
         return travel < 0
 
     def rate(self, a: float) -> float:
-        """Return the rate of the radius at the end, of second order where it goes on as before."""
+        """Return the rate of the radius at the end; second order in an unchanged direction."""
         mean, before = (a - self._before.radius) / self._dt, self._before
         if mean * before.travel <= 0:
             return mean
         ratio = self._dt / before.step
         rate = ((1 + 2 * ratio) * mean - ratio * before.travel) / (1 + ratio)
-        # a crack that slows down does not turn
+        # a decelerating crack does not reverse
         return rate if rate * mean > 0 else 0.0
 
     def _touches(self) -> bool:
@@ -464,7 +469,7 @@ class _Step:
         return self._value > float(self._out[0])
 
     def _opened(self, before: float) -> float:
-        """Return the largest radius at which the energy is that of a crack that opens."""
+        """Return the largest radius at which the energy equals that of an opening crack."""
 
         def excess(a: float) -> float:
             depth, _, lag = self.at(a)
@@ -480,7 +485,7 @@ class _Step:
         return 0.0
 
     def _closed(self, before: float) -> float:
-        """Return the smallest radius at which the energy is that of a crack that closes."""
+        """Return the smallest radius at which the energy equals that of a closing crack."""
         largest = float(self._of._s[-1])
 
         def excess(a: float) -> float:
@@ -494,12 +499,12 @@ class _Step:
                 return _bisected(excess, high, low)
             if high >= largest:
                 raise OutOfRange(
-                    "the contact grows beyond the largest radius that was expected; simulate it"
+                    "the contact grows beyond the largest expected radius; simulate it"
                 )
             grow *= 2
 
     def state(self, radius: float, time: float) -> _State:
-        """Return the state at the end of the step with a radius."""
+        """Return the state at the end of the step for a radius."""
         before, of = self._before, self._of
         if radius > 0:
             depth, force, _ = self.at(radius)
@@ -509,7 +514,7 @@ class _Step:
         b, was, now = before.radius, self._last, of.last_inside(radius)
         lag = self._out.copy()
         lag[: was + 1] = self._in[: was + 1]
-        # of the inside, at the first annulus beyond the edge; of the outside, at the last before
+        # inner memory at the first annulus beyond the edge, outer memory at the last one before it
         memory, then = before.memory * self._decay, before.elastic.copy()
         beyond, behind = before.beside * self._decay
         if was >= 0:
@@ -518,7 +523,8 @@ class _Step:
         memory += then[:, None] * self._old
         outside = memory[max(now, 0)].copy()
         if now == was:
-            # what the edge passed of the way between two annuli, it passed of their memories
+            # mix the memories by the fraction of the distance between two annuli that the edge has
+            # passed
             closed = max(radius - b, 0.0) / (of._s[was + 1] - b) if radius > 0 else 0.0
             beyond = beyond + closed * (memory[now + 1] - beyond)
             lag[now + 1] = (1 - closed) * self._in[now + 1] + closed * self._out[now + 1]
@@ -543,7 +549,7 @@ class _Step:
 
 
 def _bisected(excess: Callable[[float], float], negative: float, positive: float) -> float:
-    """Return where a function changes its sign, by regula falsi (Illinois)."""
+    """Return the sign change of a function, by regula falsi (Illinois)."""
     x0, x1 = negative, positive
     f0, f1 = excess(x0), max(excess(x1), 0.0)
     side = 0

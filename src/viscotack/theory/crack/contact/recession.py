@@ -1,13 +1,13 @@
-r"""A contact that recedes from rest at a constant speed: the whole curve of thousands of cases.
+r"""Contact receding from rest at constant speed, vectorised over thousands of cases.
 
-Inside the contact the opening has been zero at all times, so that the pressure is that of the
-relaxed solid at the hereditary depth :math:`D_e = D_0 - r \int_0^t \psi ds`, psi the relaxation
-from 1/k to 1: exact for forces of short range and any spectrum. The edge is the steady crack,
+The opening inside the contact has been zero at all times, so the pressure is that of the
+relaxed solid at the hereditary depth :math:`D_e = D_0 - r \int_0^t \psi ds`, with the relaxation
+psi from 1/k to 1: exact for forces of short range and any spectrum. The edge is the steady crack,
 
 .. math:: \frac{(D_e - g(a))^2}{2 \pi a} = \Gamma(V), \quad V = -\mu^2 \frac{da}{dt}.
 
-The radius is the variable: from one radius to the next the time is found in which the edge goes
-there. Units as in :mod:`._profile`; times in the unit of the material.
+The radius is the independent variable: for each radius the time is computed at which the edge
+reaches it. Units as in :mod:`._profile`; times in the material's unit.
 """
 
 from __future__ import annotations
@@ -25,16 +25,17 @@ from ._memory import Chain, chain_of, hereditary_travel
 from ._profile import Profile
 from .growing import GrowingEdges, NeighbourEdges
 
-# Radii of a curve, and the smallest: over the start's, and over the elastic pull-off's.
+# Number of radii of a curve, and the smallest one: over that of the start, and of the elastic
+# pull-off.
 _RADII, _SMALLEST = 160, 0.25
-# A crack that is fast at once takes up its energy where it began, and the tension may be largest
-# there: so many radii lie in the first step, from this part of the way on.
+# An edge that starts fast absorbs its energy near the start, where the tension may be largest:
+# number of additional radii in the first step, and fraction at which they begin.
 _AT_REST, _FIRST = 40, 1e-11
-# Part of the time by which the two may differ to be extrapolated.
+# Largest relative difference of two runs for which their times are extrapolated.
 _LARGE_ERROR = 0.05
-# Half of the first bracket of ln t around that of the step before, and rounds to the root.
+# Half-width of the first bracket of ln t around the previous step, and iterations to the root.
 _NEAR, _ROUNDS, _CLOSE = 0.2, 60, 1e-6
-# Rows of the travel as a table.
+# Number of rows of the tabulated travel.
 _ROWS = 4000
 
 
@@ -44,7 +45,7 @@ class Curves(NamedTuple):
     Attributes
     ----------
     time : ndarray
-        Since the start [unit of the material].
+        Time since the start [material's unit].
     radius : ndarray
         Contact radius [beta].
     depth : ndarray
@@ -52,7 +53,7 @@ class Curves(NamedTuple):
     force : ndarray
         Force of short-range adhesion [R dg], compression positive.
     speed : ndarray
-        Of the edge [E0* h0^2/(dg tau)], positive.
+        Speed of the edge [E0* h0^2/(dg tau)], positive.
     amplification : ndarray
         Energy at the edge [dg].
     """
@@ -74,33 +75,33 @@ def recede(
     tabor: Array,
     radii: int = _RADII,
 ) -> Curves:
-    """Return the curves of contacts that recede from relaxed ones.
+    """Compute the curves of contacts that recede from rest.
 
     Parameters
     ----------
     crack : SteadyCrack
-        Of the solid and the reduced law, for all of the cases; or an edge for each of them.
+        Crack of the solid with the reduced law, common to all cases; or one edge per case.
     profile : Profile
-        Of the reduced shape.
+        Profile of the reduced shape.
     radius, rate, tabor : ndarray
-        Of each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
+        For each case: radius of the relaxed start [beta], speed [beta^2/R per time unit of the
         material], Tabor number.
     radii : int
-        Of a curve; fewer are faster, and enough where near cases are compared.
+        Number of points of a curve; fewer are faster, and sufficient to compare similar cases.
     """
     a0, r, mu = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (radius, rate, tabor)))
     chain = chain_of(crack.modes)
     edge = crack if isinstance(crack, GrowingEdges | NeighbourEdges) else Edge(crack, 1)
     travel = _Travel(chain, profile, a0, r, mu)
     start = profile.relaxed_depth(a0)
-    # what the smallest, elastic contact has at pull-off, not to end above any of them
+    # end at the smallest radius at pull-off, that of the elastic contact
     least = np.minimum(_SMALLEST * _elastic_radius(profile), a0 / 2)
     way = a0 * np.exp(_parts(radii)[:, None] * np.log(least / a0))
 
     def marched(a: Array) -> tuple[Array, Array]:
         return _marched(a, profile, edge, travel, start=start, rate=r, mobility=mu**2)
 
-    # of first order in the steps: of two runs at the same radii the difference is the error
+    # first order in the steps: the difference of two runs at the same radii estimates the error
     (coarse, slow), (fine, fast) = marched(way[::2]), marched(way)
     a = way[::2]
     fine, fast = fine[::2], fast[::2]
@@ -109,8 +110,8 @@ def recede(
         effective = start - r * travel(time)
         return effective, np.minimum(effective - profile.depth(a), 0.0) ** 2 / (2 * np.pi * a)
 
-    # but where that is no small part, so that it may even be negative, or leads to more than a
-    # crack can take
+    # do not extrapolate if the difference is large, or leads to more energy than a
+    # crack can dissipate
     time = np.maximum(2 * fine - coarse, 0.0)
     bad = (np.abs(fine - coarse) > _LARGE_ERROR * fine) | (lifted(time)[1] > edge.limit)
     time = np.maximum.accumulate(np.where(bad, fine, time), axis=0)
@@ -121,13 +122,14 @@ def recede(
         depth=start - r * time,
         force=2 * (a * effective - profile.total(a)),
         speed=np.where(bad, fast, np.maximum(2 * fast - slow, 0.0)),
-        # beyond, where the contact jumps, no crack takes what is there
+        # beyond this point the contact jumps, because the available energy exceeds that of any
+        # crack
         amplification=np.minimum(energy, edge.limit),
     )
 
 
 def _parts(radii: int) -> Array:
-    """Return parts of the way of ln a; every second one is a coarser way."""
+    """Return fractions of ln a; every second one forms a coarser grid."""
     even = np.linspace(0.0, 1.0, radii)
     first = np.geomspace(_FIRST, even[1], _AT_REST * radii // _RADII)
     coarse = np.concatenate([[0.0], first, even[2:]])
@@ -144,7 +146,7 @@ def _marched(
     rate: Array,
     mobility: Array,
 ) -> tuple[Array, Array]:
-    """Return the times at which the edges are at radii, and their speeds on the way there."""
+    """Return the times at which the edges reach the radii, and their speeds."""
     time, speed = np.zeros_like(a), np.zeros_like(a)
     guess = np.full(start.shape, (travel.first + travel.last) / 2)
     for i in range(1, len(a)):
@@ -173,10 +175,10 @@ def _root(
     guess: Array,
     ends: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Return where a rising function passes zero, near a guess if it can be, and what is there.
+    """Return the zero of an increasing function near a guess, and the value there.
 
-    Where it does not between the ends, the nearer of them. Regula falsi; an end that stays loses
-    weight as Anderson and Bjorck have it.
+    If there is none between the ends, return the nearer end. Uses regula falsi with
+    Anderson-Bjorck weights.
     """
     low, high, width = guess - _NEAR, guess + _NEAR, _NEAR
     below, above = excess(low)[0], excess(high)[0]
@@ -211,7 +213,7 @@ def _root(
 
 
 class _Travel:
-    """The hereditary travel as a table in ln t, for times that matter."""
+    """Hereditary travel, tabulated in ln t over the relevant times."""
 
     def __init__(self, chain: Chain, profile: Profile, a0: Array, r: Array, mu: Array) -> None:
         far = np.max(profile.depth(a0) + 4 * np.sqrt(a0) + 4) * 30
@@ -224,7 +226,7 @@ class _Travel:
     def __call__(self, time: Array) -> Array:
         with np.errstate(divide="ignore"):
             log = np.log(time)
-        # before that the solid is glassy
+        # earlier the solid is glassy
         return np.exp(self._travel(log) + np.minimum(log - self.first, 0.0))
 
 

@@ -1,4 +1,4 @@
-"""The steady crack with its whole traction law: any law, any linear solid, opening and closing."""
+"""Steady crack with a full traction law, for any linear solid, opening and closing."""
 
 from . import comparison, cracks, neighbour
 from ._branch import energy_of_odds

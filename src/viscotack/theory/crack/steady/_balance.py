@@ -1,4 +1,4 @@
-"""Newton's method for the tractions of a law against those of the solid."""
+"""Newton's method for the balance of the law's tractions and those of the solid."""
 
 from __future__ import annotations
 
@@ -12,23 +12,24 @@ from viscotack.arrays import Array
 from ._mesh import Mesh
 
 _ITERATIONS = 30
-# Of the misfit of a gap [h0]: what counts as solved.
+# Tolerance of the misfit of a gap [h0].
 _CLOSE = 1e-10
-# Of a step that does not lessen the misfit, halvings until it is taken all the same; and how many
-# of such steps there may be.
+# Number of halvings of a step that does not reduce the misfit before it is accepted, and largest
+# number of such steps.
 _SHORTEST, _MOST_SHORT = 0.02, 3
-# Smallest gap [h0] that is looked at; a crack that would need less has not been found.
+# Smallest gap [h0]; a crack that would need a smaller one counts as not found.
 _LEAST_GAP = 0.4
-# Changes of the gap over an element below which means of law and stiffness are those of its middle.
+# Change of the gap over an element below which its means are evaluated at the middle.
 _FLAT, _FLAT_SLOPE = 1e-6, 1e-5
 
 
 class Law(NamedTuple):
-    """A reduced traction law and the gap at which the crack is pinned to place 0.
+    """A reduced traction law and the gap at which the crack is pinned to position 0.
 
-    Of a law that grows with the opening speed: the law at rest, its growth with the derivative of
-    that, the speed of the crack, and by what all tractions are divided. An element opens with the
-    speed of the crack times the slope there, and its mean tension grows as much (:func:`slopes`).
+    For a law that grows with the opening speed: the law at rest, its growth with its derivative,
+    the speed of the crack, and the divisor of all tractions. The opening speed of an element is the
+    speed of the crack times its slope, which determines the growth of its mean tension
+    (:func:`slopes`).
     """
 
     traction: Callable[[Array], Array]
@@ -42,7 +43,7 @@ class Law(NamedTuple):
     def means(self, gap: Array, mesh: Mesh) -> tuple[Array, Array, Array, Array | None]:
         """Return the mean traction of each element, and its derivatives.
 
-        By the gaps at its ends, and by its slope; None where that does not matter.
+        The derivatives are by the gaps at its ends, and by its slope (None if irrelevant).
         """
         mean, first, last = self.mean(gap)
         if self.growing is None:
@@ -58,7 +59,7 @@ class Law(NamedTuple):
         )
 
     def _attracting(self) -> Law:
-        """Return the part of the law that attracts."""
+        """Return the attractive part of the law."""
         return self._replace(
             traction=lambda gap: np.maximum(self.traction(gap), 0.0),
             energy=lambda gap: np.where(gap > 1, self.energy(gap), -1.0),
@@ -69,8 +70,8 @@ class Law(NamedTuple):
     def mean(self, gap: Array) -> tuple[Array, Array, Array]:
         """Return the mean traction of each element over its gaps, and its two derivatives.
 
-        The energy's difference over that of the gap: the work of all elements is then that of the
-        law, steps and kinks of it included.
+        This is the energy difference over the gap difference, so the work of all elements is
+        exactly that of the law, including steps and kinks.
         """
         change, middle = np.diff(gap), (gap[1:] + gap[:-1]) / 2
         traction, slope = self.traction(gap), self.stiffness(middle) / 2
@@ -82,7 +83,7 @@ class Law(NamedTuple):
         return mean, first, last
 
     def mixed(self, other: Law, part: float) -> Law:
-        """Return a law between this one and another."""
+        """Interpolate between this law and another."""
 
         def between(first: Any, second: Any) -> Callable[[Array], Array]:
             return lambda gap: (1 - part) * first(gap) + part * second(gap)
@@ -96,10 +97,10 @@ class Law(NamedTuple):
 
 
 def slopes(mesh: Mesh, gap: Array) -> Array:
-    """Return the slopes at the elements: means of those over two elements around both ends.
+    """Return the slopes of the elements, averaged over the two elements around each end.
 
-    An element alone may open where its neighbours close, so that a gap that goes to and fro from
-    node to node would feel the growth of a crack that opens.
+    A single element may open while its neighbours close; without averaging, a gap that oscillates
+    from node to node would cause growth.
     """
     x, around = mesh.x, np.empty_like(gap)
     wide = (x[2:] - x[:-2]).reshape(-1, *(1,) * (gap.ndim - 1))
@@ -111,8 +112,8 @@ def slopes(mesh: Mesh, gap: Array) -> Array:
 class System(NamedTuple):
     """The balance of a crack: kernel u = spread(mean tractions) + inflow, gap = 1 + opening u.
 
-    u is the field less its far part, then the amplitude A of the far part. ``spread`` None is the
-    identity.
+    u is the field minus its far part, followed by the amplitude A of the far part. ``spread`` None
+    is the identity.
     """
 
     mesh: Mesh
@@ -123,7 +124,7 @@ class System(NamedTuple):
 
 
 class Solution(NamedTuple):
-    """What balances: u, the gaps at the nodes, the law's and the solid's mean tractions."""
+    """Converged balance: u, gaps at the nodes, mean tractions of law and solid."""
 
     u: Array
     gap: Array
@@ -137,12 +138,12 @@ class Solution(NamedTuple):
 
 
 def solved(system: System, guess: Array) -> Solution | None:
-    """Return what balances near a guess, or None where nothing was found."""
+    """Solve the balance from a guess; None if Newton's method does not converge."""
     mesh, size = system.mesh, system.mesh.x.size
     kernel = np.concatenate([mesh.kernel, mesh.far_traction[:, None]], axis=1)
     largest = np.max(np.abs(mesh.kernel), axis=1)
     matrix = np.zeros((size + 1, size + 1))
-    # one gap is pinned, and the field is its far part alone at the open end
+    # one gap is pinned, and the field equals its far part at the open end
     matrix[-2] = system.opening[mesh.middle]
     matrix[-1, size - 2 : size] = -1.0, 1.0
     pinned = system.law.pinned - 1
@@ -154,7 +155,7 @@ def solved(system: System, guess: Array) -> Solution | None:
         if system.inflow is not None:
             right = right + system.inflow(u[-1])
         misfit = np.append(kernel @ u - right, [gap[mesh.middle] - 1 - pinned, u[-2] - u[-3]])
-        # as gaps, so that a stiff wall and a soft tail weigh the same
+        # measure misfits as gaps, so that a stiff wall and a soft tail have equal weights
         stiff = largest + np.abs(parts[1]) + np.abs(parts[2])
         size_of = max(np.max(np.abs(misfit[:-2]) / stiff), np.max(np.abs(misfit[-2:])))
         return gap, misfit, float(size_of), (parts, right)

@@ -1,8 +1,8 @@
-"""The cracks of one solid and law in one direction, from the slowest on, found as they are asked.
+"""Cracks of one solid and law in one direction, computed on demand from the slowest on.
 
-At speeds a third of a decade apart Newton's method takes the crack before as its guess. Between
+At speeds a third of a decade apart Newton's method starts from the previous crack. Between
 them ln of (Gamma - 1)/(1/k - Gamma), for closing of (1 - Gamma)/(Gamma - k), is a cubic spline in
-ln of the speed; the spline through every second one says how far it may be off.
+ln of the speed; the spline through every second crack gives the error estimate.
 """
 
 from __future__ import annotations
@@ -25,46 +25,55 @@ from ._mesh import Mesh
 
 STEP = np.log(10) / 4
 _SHORTEST_STEP = STEP / 64
-# Of the longest mode at the first speed that is solved, over the length of the crack; and speeds
-# below it for which Gamma - 1 = s V + b V^2 gives the odds, with the s of the slowest crack.
+# Decay length of the longest mode at the first computed speed, over the length of the crack; and
+# lower speeds at which Gamma - 1 = s V + b V^2 gives the odds, with s of the slowest crack.
 _SLOW, _SLOWER = 0.03, 12
-# Of ln of the odds: where the crack is as good as glassy; and the most speeds that are solved.
+# ln of the odds at which the crack is glassy; and largest number of computed speeds.
 _GLASSY, _MOST = np.log(2e3), 400
-# Points of the inverse between two speeds that are solved.
+# Points of the inverse between two computed speeds.
 _FINE = 16
-# The part of the difference to the coarser spline that is stated: of fourth order it is 1/16.
+# Stated fraction of the difference to the coarser spline, which has 16 times the error.
 _STATED = 0.25
 
 
 def energy_of_odds(odds: Array, modulus_ratio: float, sign: int = 1) -> Array:
-    """Return Gamma of the odds (Gamma - 1)/(1/k - Gamma); closing, (1 - Gamma)/(Gamma - k)."""
+    """Return the dimensionless energy Gamma of a crack from its odds.
+
+    The odds are (Gamma - 1)/(1/k - Gamma) for an opening crack (``sign`` 1) and
+    (1 - Gamma)/(Gamma - k) for a closing one (-1), with k = ``modulus_ratio``.
+
+    Examples
+    --------
+    >>> float(energy_of_odds(np.array(1.0), 0.1))
+    5.5
+    """
     limit = odds / modulus_ratio if sign > 0 else odds * modulus_ratio
     return (1 + limit) / (1 + odds)
 
 
 def stated(differs: Array, places: Array, at: Array) -> Array:
-    """Return the stated error at places: of the largest difference nearby, as splines cross."""
+    """Return the stated error at places, from the largest difference nearby."""
     near = [float(np.max(differs[np.abs(places - u) < 3 * STEP], initial=0.0)) for u in at.flat]
     return _STATED * np.reshape(near, at.shape)
 
 
 @cache
 def pools() -> ThreadpoolController:
-    """Return the threads of the libraries that are loaded; to look for them takes longer."""
+    """Return the thread pools of the loaded libraries (cached, because the search is slow)."""
     return ThreadpoolController()
 
 
 def walked(
     system: Callable[[float, Solution], System], before: float, crack: Solution, aim: float
 ) -> Solution | None:
-    """Return the crack at a place, from one at another, in steps that succeed; None if none do.
+    """Continue a crack from one place to another in steps that converge; None if none does.
 
-    The balance at a place may depend on the crack before.
+    The balance at a place may depend on the previous crack.
     """
     at, step = before, aim - before
     while True:
         towards = aim if abs(aim - at) <= abs(step) else at + step
-        # the matrices are small: more threads only wait for each other
+        # the matrices are small, so more threads do not help
         with pools().limit(limits=1, user_api="blas"):
             found = solved(system(towards, crack), crack.u)
         if found is not None:
@@ -78,7 +87,7 @@ def walked(
 
 
 class Branch:
-    """Cracks that open (sign 1) or close (sign -1).
+    """Opening (sign 1) or closing (sign -1) cracks.
 
     Parameters
     ----------
@@ -97,7 +106,7 @@ class Branch:
     ) -> None:
         self._mesh, self._law, self._modes, self._sign = mesh, law, modes, sign
         self._elastic, self._slow = start, slow
-        # what infinite speed takes of a crack that opens, and leaves of one that closes
+        # the distance of the limits of Gamma at infinite speed from 1
         self._limit = 1 / modes.instantaneous if sign > 0 else modes.instantaneous
         self._first = float(np.log(_SLOW * mesh.width / max(modes.times)))
         self._log_speed: list[float] = []
@@ -106,7 +115,7 @@ class Branch:
         self._splines: tuple[int, Any, Any] | None = None
 
     def gamma(self, log_speed: Array) -> Array:
-        """Return amplifications at ln of speeds: linear below the first, as they end above."""
+        """Return amplifications at ln of speeds; linear below the first speed."""
         self._reach(float(np.max(log_speed, initial=-np.inf)))
         fine, _ = self._curves()
         first, last = self._log_speed[0], self._log_speed[-1]
@@ -124,13 +133,13 @@ class Branch:
         fine, _ = self._curves()
         x = np.array(self._log_speed)
         grid = np.interp(np.arange(_FINE * (x.size - 1) + 1) / _FINE, np.arange(x.size), x)
-        # the odds rise; a spline that does not is one of round-off at the ends
+        # the odds increase; a decreasing spline is caused by round-off at the ends
         y = np.maximum.accumulate(fine(grid))
         inside = np.interp(odds, y, grid)
         return inside + np.minimum(odds - y[0], 0) + np.maximum(odds - y[-1], 0)
 
     def interpolation_error(self, log_speed: Array) -> Array:
-        """Return how far ln of the odds may be off for being interpolated."""
+        """Return the interpolation error of ln of the odds."""
         fine, coarse = self._curves()
         at = np.clip(log_speed, self._log_speed[0], self._log_speed[-1])
         between = self._log_speed[0] + STEP / 2 * np.arange(2 * len(self._log_speed))
@@ -139,7 +148,7 @@ class Branch:
         return stated(differs, between, at)
 
     def at(self, log_speed: float) -> Solution:
-        """Return the crack at ln of a speed, solved and not interpolated."""
+        """Return the crack at ln of a speed, computed without interpolation."""
         self._reach(log_speed)
         i = int(np.argmin(np.abs(np.array(self._log_speed) - log_speed)))
         return self._walk(self._log_speed[i], self._cracks[i], log_speed)
@@ -149,7 +158,7 @@ class Branch:
         return bool(self._odds) and (self._odds[-1] > _GLASSY or len(self._odds) >= _MOST)
 
     def _reach(self, log_speed: float) -> None:
-        """Solve the cracks up to ln of a speed and one beyond."""
+        """Compute the cracks up to ln of a speed, and one beyond."""
         least = max(log_speed, self._first) + STEP
         while not self._complete and (not self._odds or self._log_speed[-1] < least):
             self._append()
@@ -169,7 +178,7 @@ class Branch:
         self._odds.append(odds)
 
     def _begin(self, first: Solution) -> None:
-        """Put down the slow cracks below the first one that is solved."""
+        """Add the slow cracks below the first computed one."""
         over = self._gained(first) / (self._slow * np.exp(self._first))
         for i in range(-_SLOWER, 0):
             part = np.exp(i * STEP)
@@ -179,13 +188,13 @@ class Branch:
             self._cracks.append(self._elastic)
 
     def _walk(self, before: float, crack: Solution, aim: float) -> Solution:
-        """Return the crack at ln of a speed, from one at another, in steps that succeed."""
+        """Continue the crack from ln of one speed to another, in steps that converge."""
         found = walked(lambda x, _: self._system(np.exp(x)), before, crack, aim)
         if found is None:
             speed = self._sign * np.exp(aim)
             raise InputError(
                 f"no steady crack was found at the speed {speed:.4g} E0* h0^2/(dg tau); "
-                "ask a slower one, or simulate the contact"
+                "choose a slower one, or simulate the contact"
             )
         return found
 
@@ -199,7 +208,7 @@ class Branch:
         return System(self._mesh, self._law, own, closing_matrix(self._mesh, modes), inflow)
 
     def _gained(self, crack: Solution) -> float:
-        """Return how far the amplification is from 1, positive."""
+        """Return the positive distance of the amplification from 1."""
         return self._sign * (crack.amplification / self._elastic.amplification - 1)
 
     def _odds_of(self, gained: float) -> float:
@@ -207,7 +216,7 @@ class Branch:
             raise InputError(
                 "the slowest crack does not differ from the elastic one: the slowest retardation "
                 f"time of the solid, {max(self._modes.times):.3g} time units, is too long for its "
-                "weight; leave out modes that weigh next to nothing"
+                "weight; remove modes of negligible weight"
             )
         return float(np.log(gained / max(abs(self._limit - 1) - gained, 1e-12)))
 

@@ -1,21 +1,21 @@
-r"""Cracks that open with an interface that grows with the opening speed.
+r"""Opening cracks with an interface that grows with the opening speed.
 
-Along a steady crack the gap opens with :math:`\dot h = v \, dh/dx`, so that the balance is that of
-the law at rest with more tension where the slope is steep (:class:`._balance.Law`). What grows
-makes the crack shorter, by as much as the work Q that the interface takes, and a mesh made for the
-crack at rest is soon too coarse. So each crack is solved in its own units: tractions over Q,
+Along a steady crack the opening speed is :math:`\dot h = v \, dh/dx`, so the balance is that of
+the law at rest with more tension where the slope is steep (:class:`._balance.Law`). Growth
+shortens the crack by the factor Q, the energy dissipated by the interface, and the mesh of the
+crack at rest soon becomes too coarse. So each crack is computed in scaled units: tractions over Q,
 lengths times Q, and with :math:`y = Q v` for the speed,
 
 .. math:: \sigma' = \frac{\sigma_0 + \sigma_0^+ G(y \, dh/dx')}{Q}, \quad
           \Gamma = Q \, \Gamma', \quad v = y/Q .
 
-The modes of the solid have the lengths :math:`y \tau_j` there. Q is foreseen from those before.
+The modes of the solid have lengths :math:`y \tau_j` there. Q is predicted from previous cracks.
 
-From y to y the energy goes as :math:`\ln(\Gamma - 1)`, the speed as :math:`\ln Q`; both are cubic
-splines in ln y. Where growth is all, :math:`Q \sim (Q v)^n`: the energy goes towards
-:math:`v^{n/(1-n)}` while the solid is elastic, more steeply than tension at a place, because the
-crack becomes shorter; and an interface that grows in proportion to the speed has a crack of a
-largest speed.
+Between values of y, :math:`\ln(\Gamma - 1)` and :math:`\ln Q` are cubic
+splines in ln y. For dominant growth, :math:`Q \sim (Q v)^n`: the energy tends to
+:math:`v^{n/(1-n)}` while the solid is elastic, more steeply than the local tension, because the
+crack becomes shorter; an interface whose growth is proportional to the speed has a
+largest crack speed.
 """
 
 from __future__ import annotations
@@ -34,23 +34,23 @@ from ._branch import STEP, stated, walked
 from ._memory import lengths_of, opening_matrix
 from ._mesh import Mesh
 
-# Gained by the first crack that is solved, and by the last one; and how many there may be.
+# Gamma - 1 of the first and the last computed crack, and largest number of cracks.
 _FIRST, _LAST, _MOST = 1e-4, 300.0, 100
-# What has been gained where there may be no crack any more: a shorter table will do.
+# Gamma - 1 above which no further crack may exist: a shorter table is accepted.
 _ENOUGH = 4.0
-# Points of the inverse between two speeds that are solved.
+# Points of the inverse between two computed speeds.
 _FINE = 16
 
 
 class Grown:
-    """Cracks that open, of a solid and a growing law.
+    """Opening cracks of a solid with a growing law.
 
     Parameters
     ----------
     mesh, law, modes
         Of the crack at rest; times of the modes in the unit of time.
     growing : law that grows
-        Reduced, speeds in h0 per unit of time.
+        Reduced law, with speeds in h0 per unit of time.
     start : Solution
         The elastic crack of the law at rest.
     """
@@ -66,14 +66,14 @@ class Grown:
         self._table: tuple[int, Array, Array] | None = None
 
     def gamma(self, log_speed: Array) -> Array:
-        """Return amplifications at ln of speeds; that of the last crack beyond it."""
+        """Return amplifications at ln of speeds; constant beyond the last crack."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
         speed, gained = self._curve()
         below = _first_slope(speed, gained) * np.minimum(log_speed - speed[0], 0.0)
         return 1 + np.exp(np.interp(log_speed, speed, gained) + below)
 
     def work(self, log_speed: Array) -> Array:
-        """Return what the interface takes at ln of speeds [works of adhesion]."""
+        """Return the energies dissipated by the interface at ln of speeds [works of adhesion]."""
         self._reach(speed=float(np.max(log_speed, initial=-np.inf)))
         at = np.array(self._log_y) - np.array(self._log_work)
         return np.interp(log_speed, np.maximum.accumulate(at), self._works)
@@ -88,12 +88,12 @@ class Grown:
 
     @property
     def largest(self) -> float:
-        """The amplification of the last crack there is, or of the last that is looked for."""
+        """Amplification of the last crack that exists or is computed."""
         self._reach(gained=np.inf)
         return float(1 + np.exp(self._curve()[1][-1]))
 
     def interpolation_error(self, log_speed: Array) -> Array:
-        """Return by which part amplifications may be off for being interpolated."""
+        """Return the relative interpolation error of amplifications."""
         y = np.array(self._log_y)
         every = np.unique(np.append(np.arange(0, y.size, 2), y.size - 1))
         between = (y[1:] + y[:-1]) / 2
@@ -110,9 +110,9 @@ class Grown:
         return stated(worst, at, log_speed)
 
     def at(self, log_speed: float) -> tuple[Solution, float]:
-        """Return the crack at ln of a speed, solved, and the work by which it is divided.
+        """Return the crack at ln of a speed, computed, and the interface energy that scales it.
 
-        In its own units: lengths over 1/work, tractions over work.
+        The crack is in scaled units: lengths over 1/work, tractions over work.
         """
         self._reach(speed=log_speed)
         speed, _ = self._curve()
@@ -123,7 +123,8 @@ class Grown:
         found = solved(self._system(float(np.exp(y)), work), self._cracks[i].u)
         if found is None:
             raise InputError(
-                f"no steady crack was found at the speed {np.exp(log_speed):.4g}; ask one nearby"
+                f"no steady crack was found at the speed {np.exp(log_speed):.4g}; choose a nearby "
+                "speed"
             )
         return found, work
 
@@ -134,7 +135,7 @@ class Grown:
         )
 
     def _reach(self, *, speed: float = -np.inf, gained: float = -np.inf) -> None:
-        """Solve the cracks up to ln of a speed, or of what is gained, and one beyond."""
+        """Compute the cracks up to ln of a speed, or of Gamma - 1, and one beyond."""
         while not self._complete and (
             len(self._log_y) < 6
             or self._log_y[-1] - self._log_work[-1] < speed + STEP
@@ -155,15 +156,15 @@ class Grown:
             return
         if walked is None:
             raise InputError(
-                "no steady crack was found with an interface that grows so fast "
+                "no steady crack was found with such strong growth of the interface "
                 f"({self._growing}); simulate the contact"
             )
         found, work = walked
         gained = work * found.amplification / self._elastic.amplification - 1
         if not gained > 0:
             raise InputError(
-                "no steady crack was found at rest: the interface grows by too little to be told; "
-                "take the law at rest"
+                "no steady crack was found at rest, because the growth of the interface is too "
+                "small to resolve; use the law at rest"
             )
         self._log_y.append(y)
         self._log_work.append(float(np.log(work)))
@@ -172,7 +173,7 @@ class Grown:
         self._cracks.append(found)
 
     def _slowest(self) -> float:
-        """Return ln of the first y: where next to nothing is gained."""
+        """Return ln of the first y, where Gamma - 1 is negligible."""
         y = np.linspace(np.log(1e-30), np.log(1e30), 1201)
         modes = float(np.dot(self._modes.weights, self._modes.times))
         slow = np.array([self._work(self._elastic, float(np.exp(u))) - 1 for u in y])
@@ -180,22 +181,22 @@ class Grown:
         return float(y[int(np.argmax(some > _FIRST))])
 
     def _work(self, crack: Solution, y: float) -> float:
-        """Return the work of the interface along a crack in its own units."""
+        """Return the interface energy along a crack in scaled units."""
         energy = np.where(crack.gap > 1, self._law.energy(crack.gap), -1.0)
         opening = y * slopes(self._mesh, crack.gap)
         return 1 + float(np.sum(self._growing.growth(opening) * np.diff(energy)))
 
     def _foreseen(self, crack: Solution, y: float) -> float:
-        """Return by what the tractions of a crack are divided: its work, from those before."""
+        """Predict the interface energy, which divides the tractions, from previous cracks."""
         if len(self._log_y) < 2:
             return self._work(crack, float(np.exp(y)))
         slope = (self._log_work[-1] - self._log_work[-2]) / (self._log_y[-1] - self._log_y[-2])
-        # solved with another y the divisor is the same function of it
+        # for another y the divisor is the same function of y
         last = np.log(self._work(self._cracks[-1], float(np.exp(self._log_y[-1]))))
         return float(np.exp(max(last + slope * (y - self._log_y[-1]), 0.0)))
 
     def _walk(self, before: float, crack: Solution, aim: float) -> tuple[Solution, float] | None:
-        """Return the crack at ln y, from one at another, and its work; None if there is none."""
+        """Return the crack at ln y and its interface energy, from another crack, or None."""
         works = [1.0]
 
         def system(y: float, crack: Solution) -> System:
@@ -212,7 +213,7 @@ class Grown:
         return System(self._mesh, law, opening_matrix(self._mesh, modes))
 
     def _curve(self) -> tuple[Array, Array]:
-        """Return ln of speeds and of what is gained there, both rising."""
+        """Return ln of speeds and of Gamma - 1, both increasing."""
         if self._table is None or self._table[0] != len(self._log_y):
             y = np.array(self._log_y)
             fine = np.interp(np.arange(_FINE * (y.size - 1) + 1) / _FINE, np.arange(y.size), y)
@@ -224,5 +225,5 @@ class Grown:
 
 
 def _first_slope(speed: Array, gained: Array) -> float:
-    """Return the slope between the first two cracks; what they gain is little, and not smooth."""
+    """Return the slope between the first two cracks, whose small Gamma - 1 is not smooth."""
     return float((gained[_FINE] - gained[0]) / (speed[_FINE] - speed[0]))

@@ -1,15 +1,15 @@
-r"""What the solid remembers along a steady crack: its modes as matrices.
+r"""Memory of the solid along a steady crack: its modes as matrices.
 
-In the frame of the crack a material point's time is its place. A crack that opens advances to
--x, so that each mode lags behind the opening e of the relaxed solid,
-:math:`l_j d_j' = e - d_j` with :math:`l_j = v \tau_j`, and the opening is :math:`w = c e + \sum w_j
-d_j`. A crack that closes advances to +x. There w is what is universal, as e is in front of a crack
-that opens: the contact forces it to zero. By the correspondence principle the same solid says
+In the frame of the crack, the time of a material point corresponds to its position. An opening
+crack advances to -x, so each mode lags behind the opening e of the relaxed solid, :math:`l_j d_j' =
+e - d_j` with :math:`l_j = v \tau_j`, and the opening is :math:`w = c e + \sum w_j d_j`. A closing
+crack advances to +x. Its universal quantity is w, as e is ahead of an opening crack, because the
+contact forces w to zero. By the correspondence principle
 
 .. math:: -\frac{1}{2\pi} PV \int \frac{w'(s)}{x - s} ds = c \, \sigma + \sum_j w_j T_j, \quad
           l_j T_j' = T_j - \sigma,
 
-so that the memory acts on the tractions, which are zero where the material comes from.
+so the memory acts on the tractions, which are zero where the material comes from.
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ from viscotack.arrays import Array
 
 from ._mesh import Mesh
 
-# A mode shorter than this part of the finest element has no memory, one longer than so many
-# reaches of the mesh has not begun to creep where there are tractions.
+# A mode shorter than this fraction of the finest element has no memory; one longer than this many
+# lengths of the mesh has not begun to creep.
 _SHORT, _LONG = 1e-3, 1e4
-# Decay lengths after which nothing is left: e^-50, and no numbers too small for the processor.
+# Number of decay lengths after which the memory is neglected (e^-50, avoids denormal numbers).
 _FORGOTTEN = 50.0
-# Places at which the tractions beyond the mesh are summed, in lengths of a mode.
+# Positions at which the tractions beyond the mesh are summed, in lengths of a mode.
 _BEYOND = np.geomspace(1e-4, 50.0, 60)
 
 
 class Lengths(NamedTuple):
-    """The modes of a solid at a speed: what yields at once, and the lengths over which others do.
+    """Modes of a solid at a speed: instantaneous compliance, and lengths of delayed modes.
 
     Attributes
     ----------
     instantaneous : float
         Compliance over that of the relaxed solid.
     weights, lengths : ndarray
-        Of the modes that lag.
+        Weights and lengths of the delayed modes.
     """
 
     instantaneous: float
@@ -52,16 +52,16 @@ class Lengths(NamedTuple):
 
 
 def lengths_of(mesh: Mesh, instantaneous: float, weights: Array, lengths: Array) -> Lengths:
-    """Return the modes that matter on a mesh."""
+    """Return the relevant modes on a mesh."""
     fast = lengths < _SHORT * np.min(mesh.dx)
     lagging = ~fast & (lengths < _LONG * mesh.x[-1])
     return Lengths(instantaneous + float(np.sum(weights[fast])), weights[lagging], lengths[lagging])
 
 
 def lagged(mesh: Mesh, length: float) -> Array:
-    """Return the matrix that takes openings e at the nodes to the lagging d, straight between.
+    """Return the matrix from openings e at the nodes to the delayed d, for piecewise linear e.
 
-    The first opening is the one of all that came before.
+    The first opening also holds for all earlier positions.
     """
     behind, decay, late, early = _steps(mesh, length)
     matrix = np.zeros_like(decay)
@@ -72,18 +72,18 @@ def lagged(mesh: Mesh, length: float) -> Array:
 
 
 def lagged_far(mesh: Mesh, length: float) -> Array:
-    """Return the lagging d of the far field of amplitude 1 at the nodes."""
+    """Return the delayed d of the far field of amplitude 1 at the nodes."""
     z = mesh.x + 1j * mesh.width
     root = np.sqrt(np.pi * length) / 2
     return np.real(np.sqrt(z) + 1j * root * scipy.special.wofz(np.sqrt(z / length)))
 
 
 def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
-    """Return the openings w at the nodes, of (e - A far field, A); see `lagged`."""
+    """Return the matrix of the openings w at the nodes, from (e - A far field, A); see `lagged`."""
     size = mesh.x.size
     later, earlier = _pairs(size)
     distance = mesh.x[later] - mesh.x[earlier]
-    # what an opening leaves at its own node and later, and what it has left before the next one
+    # contributions of an opening to its own and later nodes, and before the next node
     own, before = np.zeros(distance.size), np.zeros(distance.size)
     far = modes.instantaneous * mesh.far
     for weight, length in zip(modes.weights, modes.lengths, strict=True):
@@ -103,9 +103,9 @@ def opening_matrix(mesh: Mesh, modes: Lengths) -> Array:
 
 
 def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:
-    """Return the tractions c sigma + sum w_j T_j, means of the elements, of the mean sigma."""
+    """Return the matrix of the mean tractions c sigma + sum w_j T_j, from the mean sigma."""
     size = mesh.dx.size
-    # of two elements the one where the material comes from, and where it goes
+    # of two elements, the upstream and the downstream one
     source, place = _pairs(size)
     distance = np.maximum(mesh.x[source] - mesh.x[place + 1], 0.0)
     reached, kept_here = np.zeros(distance.size), np.zeros(size)
@@ -123,7 +123,7 @@ def closing_matrix(mesh: Mesh, modes: Lengths) -> Array:
 
 @lru_cache(maxsize=16)
 def _pairs(size: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """Return all pairs of numbers, the first not below the second."""
+    """Return all pairs of indices, the first not below the second."""
     first, second = np.tril_indices(size)
     return first, second
 
@@ -131,7 +131,7 @@ def _pairs(size: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
 def closing_inflow(
     mesh: Mesh, modes: Lengths, traction: Callable[[Array], Array]
 ) -> Callable[[float], Array]:
-    """Return what tractions beyond the open end of the mesh leave, as a function of A."""
+    """Return the effect of tractions beyond the open end of the mesh, as a function of A."""
     if not modes.lengths.size:
         return lambda amplitude: np.zeros(mesh.dx.size)
     l = modes.lengths[:, None]

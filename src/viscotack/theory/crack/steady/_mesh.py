@@ -1,10 +1,10 @@
-r"""The line along which a steady crack is solved: nodes, kernel, far field.
+r"""Mesh of a steady crack: nodes, kernel and far field.
 
-The traction that an opening e takes in the relaxed solid, :math:`\sigma = -\frac{1}{2\pi} \, PV
-\int e'(s)/(x - s) \, ds`, as the mean over each element, for an e that is straight in each. Means
-of straight pieces make the matrix of :math:`\int \sigma e' dx` antisymmetric, whatever the
-spacing: the field of the residual does no work on itself, and the energy balance of the crack
-holds on coarse elements as well. Far away :math:`e \to A \sqrt x`; that field is taken off in
+The traction caused by an opening e in the relaxed solid, :math:`\sigma = -\frac{1}{2\pi} \, PV
+\int e'(s)/(x - s) \, ds`, is averaged over each element, for piecewise linear e. This
+makes the matrix of :math:`\int \sigma e' dx` antisymmetric for any
+spacing: the residual field does no work on itself, and the energy balance of the crack
+holds on coarse elements as well. Far away :math:`e \to A \sqrt x`; that field is subtracted in
 closed form, :math:`A \, \mathrm{Re} \sqrt z` with :math:`z = x + i b`, whose traction is
 :math:`-\frac A4 \mathrm{Im} \, z^{-1/2}`.
 """
@@ -18,23 +18,23 @@ import numpy as np
 
 from viscotack.arrays import Array
 
-# Spacing at the crack over the length of the crack, growth of the spacing per node, and how far
-# from the crack, in its length, the growth itself begins to grow and by how much per decade.
+# Spacing at the crack over its length, growth factor of the spacing per node, distance in crack
+# lengths from which the growth factor itself increases, and its increase per decade.
 SPACING, GROWTH = 0.05, 0.08
 _FAR, _FASTER = 30.0, 0.7
 
 
 class Mesh(NamedTuple):
-    """Nodes x around the crack at 0, and what a field on them does.
+    """Nodes x around the crack at 0, and the linear operators on them.
 
     Attributes
     ----------
     x : ndarray, shape (n,)
-        Nodes [E0* h0^2/dg], ascending; ``middle`` is the number of that at 0.
+        Nodes [E0* h0^2/dg], ascending; ``middle`` is the index of the node at 0.
     dx : ndarray, shape (n - 1,)
         Lengths of the elements.
     kernel : ndarray, shape (n - 1, n)
-        Takes openings at the nodes to mean tractions of the elements.
+        Matrix from openings at the nodes to mean tractions of the elements.
     width : float
         Imaginary part b of the far field.
     far, far_traction : ndarray
@@ -52,7 +52,7 @@ class Mesh(NamedTuple):
 
 @lru_cache(maxsize=8)
 def mesh(length: float, reach: float, *, refined: float = 1.0) -> Mesh:
-    """Return a mesh for cracks of a length, over a distance to both sides of it.
+    """Return a mesh for cracks of a given length, extending to both sides by a distance.
 
     ``refined`` divides spacing and growth.
     """

@@ -1,4 +1,4 @@
-"""The elastic crack of a law, from which all others are reached."""
+"""Elastic crack of a law, the starting point of all other cracks."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from viscotack.traction import Dugdale, Exponential, Traction, effective_range
 from ._balance import Law, Solution, System, solved
 from ._mesh import Mesh
 
-# Dugdale's rise and fall [h0] down to which the crack is found: less is a kink to Newton's method.
+# Smallest rise and fall of Dugdale's law [h0] for which Newton's method converges.
 LEAST_RISE, LEAST_FALL = 0.02, 0.5
 _SOFT_RISE, _SOFT_FALL, _HARDER = 0.2, 1.0, 1.5
-# Parts of the way from one law to another: the first, and the least.
+# First and smallest fraction of the continuation from one law to another.
 _FIRST_PART, _LEAST_PART = 0.25, 1e-3
-# Amplitude of the elastic crack, and the width of its guess over its length.
+# Amplitude of the elastic crack, and width of its guess over its length.
 _AMPLITUDE, _WIDTH = 4 / np.sqrt(np.pi), 0.5
 _FARTHEST_GAP = 1e6
 
 
 def softened(traction: Any) -> Any:
-    """Return the law, that of Dugdale with a rise and a fall for which the crack is found."""
+    """Return the law, with rise and fall of Dugdale's law limited for convergence."""
     if not isinstance(traction, Dugdale):
         return traction
     rise, fall = max(traction.rise, LEAST_RISE), max(traction.fall, LEAST_FALL)
@@ -34,7 +34,7 @@ def softened(traction: Any) -> Any:
 
 
 def pinned(traction: Traction) -> Law:
-    """Return a reduced law as the crack takes it, pinned where half of the work is done."""
+    """Return a reduced law for the crack, pinned where half of the work is done."""
 
     def half_left(gap: float) -> float:
         return float(traction.energy(gap)) + 0.5
@@ -44,12 +44,12 @@ def pinned(traction: Traction) -> Law:
 
 
 def elastic(traction: Traction, mesh: Mesh) -> Solution:
-    """Return the elastic crack of a reduced law.
+    """Compute the elastic crack of a reduced law.
 
     Raises
     ------
     ValueError
-        If none is found: the law is too steep for the mesh.
+        If there is no convergence, because the law is too steep for the mesh.
     """
     decay = effective_range(traction) / effective_range(Exponential(1.0, 1.0, 1.0))
     known = pinned(Exponential(1.0, 1.0, decay))
@@ -68,14 +68,14 @@ def elastic(traction: Traction, mesh: Mesh) -> Solution:
         known = law
     if found is None:
         raise InputError(
-            f"no steady crack was found for the law {traction}: its traction is too steep beside "
-            "its range; smooth it, or simulate the contact"
+            f"no steady crack was found for the law {traction}, because its traction is too steep "
+            "for its range; smooth it, or simulate the contact"
         )
     return found
 
 
 def _stages(traction: Any) -> list[Any]:
-    """Return the laws on the way to a law, itself last: a stiff one is reached by softer ones."""
+    """Return softer laws that lead to a stiff law, which is the last one."""
     if not isinstance(traction, Dugdale):
         return [traction]
     rise, fall = _SOFT_RISE, _SOFT_FALL
@@ -88,7 +88,7 @@ def _stages(traction: Any) -> list[Any]:
 
 
 def _guess(mesh: Mesh, law: Law) -> Array:
-    """Return the far field, its tip where it gives the pinned gap."""
+    """Return the far field, with its tip at the pinned gap."""
     real, width = (law.pinned - 1) / _AMPLITUDE, _WIDTH * mesh.width
     imaginary = width / (2 * real)
     z = mesh.x + real**2 - imaginary**2 + 1j * width

@@ -1,10 +1,9 @@
-r"""How far simpler theories of the moving crack are off, for one solid and one law.
+r"""Deviation of simpler theories from the steady crack, for one solid and one law.
 
-Persson and Brener's and Greenwood's cracks need a length, and have it from the strength of the law:
-:math:`l_0 = \lambda/(\pi \alpha^2 \bar\sigma_0^2)` (Eq. 4.23) with any alpha,
-:math:`l = \pi \lambda/(4 \bar\sigma_0^2)`,
-:math:`\bar\sigma_0 = \sigma_0 h_0/\Delta\gamma_0`. The slow asymptote is :math:`1 + s V`, the
-fast one 1/k. All of them are of cracks that open.
+The theories of Persson and Brener and of Greenwood need a length, which follows from the strength
+of the law: :math:`l_0 = \lambda/(\pi \alpha^2 \bar\sigma_0^2)` (Eq. 4.23) with any alpha, :math:`l
+= \pi \lambda/(4 \bar\sigma_0^2)`, :math:`\bar\sigma_0 = \sigma_0 h_0/\Delta\gamma_0`. The slow
+asymptote is :math:`1 + s V`, the fast one 1/k. All are for opening cracks.
 """
 
 from __future__ import annotations
@@ -22,24 +21,26 @@ from viscotack.traction.growing import check_of_gap_alone
 
 from .cracks import SteadyCrack
 
-# Of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
+# Value of the thesis, fitted to simulations of a sphere at a Tabor number of 3.24.
 THESIS_RATIO = np.pi / 9
-# Ratios among which the best one is sought, and the amplifications over which: parts of ln(1/k).
+# Range of the search for the best ratio, and of its amplifications, as fractions of ln(1/k).
 _RATIOS, _PARTS = (0.05, 5.0), (0.02, 0.98)
 _POINTS = 60
 
 
 class Comparison(NamedTuple):
-    """Amplifications of a crack that opens, by theory; arrays of the shape of the speeds.
+    """Amplifications of an opening crack by theory, returned by :func:`compared`.
+
+    All are dimensionless arrays of the shape of the speeds.
 
     Attributes
     ----------
     speed : ndarray
-        In E0* h0^2/(dg tau).
+        Speed [E0* h0^2/(dg tau)].
     steady, error : ndarray
-        The steady crack with its whole law, and the part by which it may be off.
+        Steady crack with the full law, and its relative error.
     persson_brener, greenwood, slow, fast : ndarray
-        The other ones.
+        Other theories and asymptotes.
     """
 
     speed: Array
@@ -51,23 +52,23 @@ class Comparison(NamedTuple):
     fast: Array
 
     def off(self, theory: str) -> Array:
-        """Return by which part of the steady crack's amplification a theory is off, with sign."""
+        """Return the signed relative deviation of a theory from the steady crack."""
         return getattr(self, theory) / self.steady - 1
 
 
 def compared(
     crack: SteadyCrack, speed: Values, *, strength_ratio: float = THESIS_RATIO
 ) -> Comparison:
-    """Return what the theories say of a crack that opens at speeds [E0* h0^2/(dg tau)].
+    """Compare theories of an opening crack at speeds [E0* h0^2/(dg tau)].
 
     Parameters
     ----------
     crack : SteadyCrack
-        The solid and the law.
+        Solid and law.
     speed : array_like
         Positive.
     strength_ratio : float
-        Alpha of Persson and Brener's length.
+        Alpha of the Persson-Brener length.
 
     Examples
     --------
@@ -97,9 +98,20 @@ def compared(
 
 
 def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
-    """Return the alpha with which Persson and Brener come nearest, and how far they are off then.
+    """Fit the alpha of the Persson-Brener length, and return it with the remaining deviation.
 
-    The largest part of the amplification by which they miss, over all speeds.
+    The deviation is the largest relative one of the amplification, over all speeds; both numbers
+    are dimensionless.
+
+    Returns
+    -------
+    alpha, deviation : float
+        Both dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If the solid is elastic.
 
     Examples
     --------
@@ -111,7 +123,9 @@ def best_strength_ratio(crack: SteadyCrack) -> tuple[float, float]:
     '0.32, 7%'
     """
     if crack.largest == 1:
-        raise InputError("an elastic solid has an amplification of 1 at every speed")
+        raise InputError(
+            "an elastic solid has an amplification of 1 at every speed, so there is nothing to fit"
+        )
     gamma = crack.largest ** np.linspace(*_PARTS, _POINTS)
     speed = np.asarray(crack.speed(gamma))
 

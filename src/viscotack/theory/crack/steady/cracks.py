@@ -1,6 +1,6 @@
-r"""The steady crack with its whole traction law, without a fitted constant.
+r"""Steady crack with a full traction law, without fitted constants.
 
-A crack runs at a constant speed v between a rigid flat and a viscoelastic half-space, plane
+A crack moves at constant speed v between a rigid flat and a viscoelastic half-space in plane
 strain. Along it
 
 .. math:: \sigma(1 + w) = -\frac{1}{2\pi} PV \int \frac{e'(s)}{x - s} ds, \quad
@@ -8,13 +8,13 @@ strain. Along it
 
 with gaps in h0, lengths in :math:`\lambda = E_0^* h_0^2/\Delta\gamma_0` and stresses in
 :math:`\Delta\gamma_0/h_0`. e is the opening that the tractions would cause in the relaxed solid;
-far away :math:`e \to A \sqrt x`, and the crack takes the energy :math:`\Gamma = \pi A^2/16` in
-works of adhesion. Speeds are in :math:`\lambda/\tau`, with the material's ``time_unit`` for tau:
-positive where the crack opens, and Gamma goes from 1 to glassy over rubbery modulus, 1/k; negative
-where it closes, and Gamma, the energy that adhesion can spend on closing, falls from 1 to k.
+far away :math:`e \to A \sqrt x`, and the energy per area of the crack is :math:`\Gamma = \pi
+A^2/16` works of adhesion. Speeds are in :math:`\lambda/\tau`, with the material's ``time_unit`` for
+tau. An opening crack has positive speed, and Gamma rises from 1 to glassy over rubbery modulus,
+1/k; a closing one negative speed, and Gamma, the energy available for closing, falls from 1 to k.
 
 It is the limit of large Tabor numbers of every contact, for any linear solid and any law. Source:
-this package; docs/steady_crack.md derives it. No DOI: for the cohesive zones between
+this package; docs/steady_crack.md derives it. No DOI: for cohesive zones
 see Greenwood (2004), J. Phys. D 37, 2557, and Barber, Donley & Langer (1989),
 doi:10.1103/PhysRevA.40.366.
 """
@@ -38,45 +38,45 @@ from viscotack.traction.growing import reduced
 from . import _branch, _grown, _mesh, _start
 from ._balance import Law, Solution
 
-# Half of the mesh over the length of the glassy zone.
+# Half-length of the mesh over the length of the glassy zone.
 _REACH = 3e4
-# Of the creep, in glassy compliances, and the window of time of its modes [time units].
+# Tolerance of the creep in glassy compliances, and time window of its modes [time units].
 _MODES_TOLERANCE, _WINDOW = 2e-4, (1e-30, 1e30)
-# Weight, of the rubbery compliance, of the slowest modes together that become one.
+# Total weight, relative to the rubbery compliance, of the slowest modes that are merged.
 _FAINT = 1e-8
-# Part of Gamma by which the mesh is off at most: against meshes three times finer, with the laws
+# Largest relative mesh error of Gamma, from meshes three times finer, with the laws
 # of this package, k from 1e-3, both signs (`benchmarks/steady_crack.py`).
 MESH_ERROR = 5e-4
-# What Dugdale's rise and fall change for being softened, over what they are softened by: against
-# Greenwood's crack, which has neither, and against half of them.
+# Relative error per softening of Dugdale's rise and fall, from comparison with
+# Greenwood's crack (without softening) and with half the softening.
 _RISE_ERROR, _FALL_ERROR = 0.25, 0.02
-# Part of the strength at which the zone is said to end.
+# Fraction of the strength that defines the end of the zone.
 _ZONE_ENDS = 0.1
 
 
 @dataclass(frozen=True)
 class Profile:
-    """One steady crack: what it looks like and what it costs.
+    """One steady crack: its shape and its energies, returned by :meth:`SteadyCrack.at`.
 
     Attributes
     ----------
     speed : float
-        In E0* h0^2/(dg tau).
+        Speed [E0* h0^2/(dg tau)].
     amplification : float
         Energy over the work of adhesion.
     heat : float
-        Dissipated in the solid, in works of adhesion, positive; the amplification is 1 + heat
-        of a crack that opens, 1 - heat of one that closes.
+        Dissipation in the solid, in works of adhesion, positive; the amplification is 1 + heat
+        for an opening crack, 1 - heat for a closing one.
     zone_length : float
-        From the gap of the largest tension to where it has fallen to a tenth [E0* h0^2/dg].
+        Length from the gap of the largest tension to that of a tenth of it [E0* h0^2/dg].
     position, gap : ndarray, shape (n,)
-        Place [E0* h0^2/dg], ascending towards the open side; 0 where half of the work is done.
+        Position [E0* h0^2/dg], ascending towards the open side; 0 where half of the work is done.
         Gap [h0].
     middle, traction : ndarray, shape (n - 1,)
-        Places between, and mean tractions there [dg/h0], tension positive.
+        Midpoints of the elements, and mean tractions there [dg/h0], tension positive.
     interface_heat : float
-        Dissipated in an interface that grows with the opening speed [works of adhesion]: what a
-        crack that opens costs beside 1 + heat.
+        Dissipation in an interface that grows with the opening speed [works of adhesion], in
+        addition to 1 + heat of an opening crack.
     """
 
     speed: float
@@ -92,22 +92,22 @@ class Profile:
 
 @dataclass(frozen=True)
 class SteadyCrack:
-    r"""The steady cracks of a solid with a traction law.
+    r"""Steady cracks of a solid with a traction law.
 
     Parameters
     ----------
     material : viscoelastic material of :mod:`viscotack.materials`
-        Its creep in proportion; its contact modulus gives :attr:`speed_unit`.
+        Its normalised creep is used; its contact modulus defines :attr:`speed_unit`.
     traction : LennardJones, Exponential, Dugdale, Tabulated or a law of the user's
-        In SI or reduced. Of Dugdale's a rise below 0.02 and a fall below 0.5 are taken as that;
-        the stated error says what it may change. A law that grows with the opening speed makes a
-        crack that opens cost more; one that closes is that of the law at rest.
+        Law in SI or reduced. A rise below 0.02 and a fall below 0.5 of Dugdale's law are raised to
+        these values; the stated error includes this. A law that grows with the opening speed
+        increases the energy of opening cracks; closing cracks follow the law at rest.
 
     Notes
     -----
-    A speed costs 10 to 40 ms when it is first asked, all later ones nothing: the cracks are solved
-    a quarter of a decade apart, kept for all equal solids and laws, and interpolated.
-    :meth:`error` states how far that may be off.
+    The first evaluation at a speed takes 10 to 40 ms, later ones are immediate: cracks are computed
+    a quarter of a decade apart, cached for equal solids and laws, and interpolated.
+    :meth:`error` states the error.
 
     Examples
     --------
@@ -136,12 +136,12 @@ class SteadyCrack:
 
     @property
     def speed_unit(self) -> float:
-        """Return a speed of 1 in m/s, E0* h0^2/(dg tau)."""
+        """Return the unit of speeds in m/s, E0* h0^2/(dg tau)."""
         return self.length_unit / self.material.time_unit
 
     @property
     def length_unit(self) -> float:
-        """Return a length of 1 in m, E0* h0^2/dg."""
+        """Return the unit of lengths in m, E0* h0^2/dg."""
         law = self.traction
         return self.material.contact_modulus * law.equilibrium_gap**2 / law.work_of_adhesion
 
@@ -149,7 +149,7 @@ class SteadyCrack:
     def largest(self) -> float:
         """Return the amplification at infinite speed, glassy over rubbery modulus.
 
-        Of an interface that grows, which has no such limit, that of the last crack that was found.
+        For a growing interface, which has no such limit, that of the last computed crack.
         """
         return 1 / self.modes.instantaneous if self._grown is None else self._grown.largest
 
@@ -162,9 +162,10 @@ class SteadyCrack:
         return plain(gamma)
 
     def interface_work(self, speed: Values) -> Number:
-        """Return what the interface takes of the energy at speeds [works of adhesion].
+        """Return the energy dissipated by the interface at speeds [works of adhesion].
 
-        1 for a law of the gap alone; else more by the heat in the interface of a crack that opens.
+        1 for a law of the gap alone; otherwise larger by the heat in the interface of an opening
+        crack.
         """
         v = _finite("speed", speed)
         work = np.ones(v.shape)
@@ -173,7 +174,7 @@ class SteadyCrack:
         return plain(work)
 
     def speed(self, amplification: Values) -> Number:
-        """Return speeds [E0* h0^2/(dg tau)]: opening above an amplification of 1, else closing.
+        """Return speeds [E0* h0^2/(dg tau)]: opening for amplifications above 1, otherwise closing.
 
         The amplification must lie between k and 1/k.
         """
@@ -181,8 +182,8 @@ class SteadyCrack:
         most = self.largest
         if np.any((gamma <= k) | (gamma >= most)) and np.any(gamma != 1):
             raise InputError(
-                f"amplification must lie between {k:.6g} and {most:.6g}, which infinite speeds "
-                f"have, got {gamma[(gamma <= k) | (gamma >= most)].flat[0]:g}"
+                f"amplification must lie between {k:.6g} and {most:.6g}, the limits at infinite "
+                f"speed, got {gamma[(gamma <= k) | (gamma >= most)].flat[0]:g}"
             )
         v = np.zeros(gamma.shape)
         for sign, moving, cracks in self._moving(gamma > 1, gamma < 1):
@@ -190,7 +191,7 @@ class SteadyCrack:
         return plain(v)
 
     def error(self, speed: Values) -> Number:
-        """Return the part by which :meth:`amplification` may be off: mesh, steps and softening."""
+        """Return the relative error of :meth:`amplification`: mesh, interpolation and softening."""
         v = _finite("speed", speed)
         if not self.modes.times and self._grown is None:
             return plain(np.zeros(v.shape))
@@ -204,7 +205,7 @@ class SteadyCrack:
         return plain(MESH_ERROR + between + self._softening)
 
     def at(self, speed: float) -> Profile:
-        """Return the crack at one speed [E0* h0^2/(dg tau)], solved there."""
+        """Return the crack at one speed [E0* h0^2/(dg tau)], computed without interpolation."""
         v, found = float(speed), self._elastic
         if v > 0 and self._grown is not None:
             found, work = self._grown.at(float(np.log(v)))
@@ -222,19 +223,19 @@ class SteadyCrack:
 
     @property
     def slow_coefficient(self) -> float:
-        r"""Return s of the slowest cracks, :math:`\Gamma \to 1 + s \, V`, of either sign.
+        r"""Return s of the slowest cracks, :math:`\Gamma \to 1 + s \, V`, for both signs.
 
         .. math:: s = - \langle\tau\rangle \int \sigma'(w) \, (w')^2 dx, \quad
                   \langle\tau\rangle = \sum_j w_j \tau_j
 
-        over the elastic crack: one number of the law times the mean time of the solid.
+        over the elastic crack: a constant of the law times the mean retardation time of the solid.
         """
         mean_time = float(np.dot(self.modes.weights, self.modes.times))
         return mean_time * _slow_of(self._elastic, self._grid)
 
     @cached_property
     def modes(self) -> Modes:
-        """Creep in modes: times in the unit of time, compliances in that of the relaxed solid."""
+        """Creep in modes: times in the time unit, compliances relative to the relaxed solid."""
         return modes_of(self.material)
 
     @property
@@ -274,7 +275,7 @@ class SteadyCrack:
         return _kept(_branch_of, self._reduced, self.modes, sign)
 
     def _moving(self, opening: Any, closing: Any) -> Iterator[tuple[int, Any, Any]]:
-        """Yield the sign and the places of cracks that open and close, and what knows them."""
+        """Yield the sign and the places of opening and closing cracks, and their branch."""
         for sign, moving in ((1, opening), (-1, closing)):
             if np.any(moving):
                 if sign > 0 and self._grown is not None:
@@ -285,7 +286,7 @@ class SteadyCrack:
     def _profile(
         self, speed: float, found: Solution, work: float = 1.0, interface: float = 0.0
     ) -> Profile:
-        """Return a crack as it looks, solved in units in which its interface takes 1."""
+        """Return the profile of a crack computed in units in which its interface energy is 1."""
         mesh, law = self._grid, self._law
         calibrated = work * found.amplification / self._elastic.amplification
         if speed > 0 and self._grown is not None:
@@ -327,7 +328,17 @@ def _finite(name: str, value: Values) -> Array:
 
 
 def modes_of(material: Any) -> Modes:
-    """Return the modes of a solid, times in its unit of time."""
+    """Return the modes of a solid; weights are dimensionless, times in its time unit.
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> solid = StandardSolid(
+    ...     rubbery_modulus=1e6, glassy_modulus=1e7, tau0=1e-3, poisson_ratio=0.5
+    ... )
+    >>> modes_of(solid).times
+    (1.0,)
+    """
     unit, k = material.time_unit, material.modulus_ratio
     shortest, longest = (unit * edge for edge in _WINDOW)
     tolerance = min(_MODES_TOLERANCE * k, 0.5)
@@ -338,11 +349,11 @@ def modes_of(material: Any) -> Modes:
 
 
 def _without_faint_tail(weights: Array, times: Array) -> tuple[Array, Array]:
-    """Merge the slowest modes that weigh next to nothing with the one before.
+    """Merge the slowest modes of negligible weight with the previous one.
 
-    The first crack that is solved is slow even for the slowest mode: if that is a faint one, the
-    crack differs from the elastic one by less than rounding. The merged mode has their weight and
-    their first rate of creep.
+    The first computed crack is slow even for the slowest mode. If that mode has negligible weight,
+    the crack differs from the elastic one by less than round-off. The merged mode has the total
+    weight and the same initial creep rate.
     """
     heavier = int(np.count_nonzero(np.cumsum(weights[::-1]) > _FAINT))
     if heavier in (0, weights.size):
@@ -353,7 +364,7 @@ def _without_faint_tail(weights: Array, times: Array) -> tuple[Array, Array]:
 
 
 def _kept(maker: Any, *key: Any) -> Any:
-    """Return what a maker makes of a key, kept where the key can be."""
+    """Return the result of a function of a key, cached if the key is hashable."""
     try:
         hash(key)
     except TypeError:

@@ -1,14 +1,15 @@
-r"""The crack of a solid that is near to one whose cracks are known: at no cost.
+r"""Crack of a solid similar to one with known cracks, without further computation.
 
-An edge takes up what the solid has crept while the zone passes, :math:`1/\Gamma = \bar c(t)`,
-:math:`t = x \Gamma/V` (Schapery's argument), with x a number of about a third that depends on law
-and spectrum. No zone passes at once, so that the creep is a mean one,
+The energy of an edge follows from the creep of the solid during the passage of the zone,
+:math:`1/\Gamma = \bar c(t)`, :math:`t = x \Gamma/V` (Schapery's argument), with a number x of about
+a third that depends on law and spectrum. Passage times are distributed, so the creep is averaged,
 
 .. math:: \bar c(t) = \int_0^\infty c(s) e^{-s/t} ds/t = k + \sum_j w_j \frac{t}{t + \tau_j} .
 
-The number x is found from the known crack, at every height of :math:`\Gamma` between 1 and 1/k,
-and kept for the neighbour: what is left is how x changes from one solid to the next, of second
-order in what differs. (With c(t) itself instead of the mean, solids of few arms are 5 % off.)
+The number x is determined from the known crack, for every :math:`\Gamma` between 1 and 1/k,
+and used for the neighbour. The error is the change of x between the solids, of second
+order in their difference. (With c(t) itself instead of the mean, the error is 5 % for solids of
+few arms.)
 """
 
 from dataclasses import dataclass
@@ -24,27 +25,37 @@ from viscotack.theory._checks import Values
 from ._branch import energy_of_odds
 from .cracks import SteadyCrack, modes_of
 
-# ln of the odds (Gamma - 1)/(1/k - Gamma) between which both are compared, and how many.
+# ln of the odds (Gamma - 1)/(1/k - Gamma) at which both are compared, and their number.
 _ODDS = np.linspace(-14.0, 12.0, 400)
 _OF = np.exp(_ODDS)
 
 
 @dataclass(frozen=True)
 class NeighbourCrack:
-    r"""The opening cracks of a solid near one whose cracks are known, with the same law.
+    r"""Opening cracks of a solid similar to one with known cracks, with the same law.
 
     Parameters
     ----------
     known : SteadyCrack
-        Of the solid beside it.
+        Crack of the known solid.
     material : Material
-        The neighbour, at most a few ten per cent away in its constants.
+        The neighbour, with constants that differ by at most a few ten per cent.
 
     Notes
     -----
-    Speeds in the neighbour's own unit, as everywhere. Of power laws with a constant changed by 10
-    to 100 %, and Prony series with arms changed by 20 %, energies are those of its own cracks
-    within 1.1 % (`tests/ladder/test_neighbour_crack.py`).
+    Speeds are in the neighbour's own unit. For power laws with a constant changed by 10
+    to 100 %, and Prony series with arms changed by 20 %, the energies agree with those of its own
+    cracks within 1.1 % (`tests/ladder/test_neighbour_crack.py`).
+
+    Examples
+    --------
+    >>> from viscotack.materials import StandardSolid
+    >>> from viscotack.traction import LennardJones
+    >>> solid = dict(rubbery_modulus=1, tau0=1, poisson_ratio=0)
+    >>> known = SteadyCrack(StandardSolid(glassy_modulus=10, **solid), LennardJones(1, 1))
+    >>> neighbour = NeighbourCrack(known, StandardSolid(glassy_modulus=11, **solid))
+    >>> f"{float(neighbour.amplification(10.0)):.2f}, not {known.amplification(10.0):.2f}"
+    '4.05, not 3.96'
     """
 
     known: SteadyCrack
@@ -52,12 +63,12 @@ class NeighbourCrack:
 
     @cached_property
     def modes(self) -> Modes:
-        """Creep in modes, as of :class:`SteadyCrack`."""
+        """Creep in modes, as for :class:`SteadyCrack`."""
         return modes_of(self.material)
 
     @property
     def largest(self) -> float:
-        """The amplification at infinite speed."""
+        """Amplification at infinite speed."""
         return 1 / self.modes.instantaneous
 
     def speed(self, amplification: Values) -> Array:
@@ -67,7 +78,7 @@ class NeighbourCrack:
         return np.exp(np.interp(odds, _ODDS, self._log_speeds))
 
     def amplification(self, speed: Values) -> Array:
-        """Return the energy over the work of adhesion at opening speeds."""
+        """Return the energy over the work of adhesion at opening speeds [E0* h0^2/(dg tau)]."""
         v = np.log(np.asarray(speed, dtype=float))
         return energy_of_odds(
             np.exp(np.interp(v, self._log_speeds, _ODDS)), self.modes.instantaneous
@@ -85,11 +96,11 @@ class NeighbourCrack:
 
 
 def _passing(modes: Modes) -> Array:
-    """Return ln of the times at which the creep has the energies of :data:`_ODDS`."""
+    """Return ln of the times at which the averaged creep has the energies of :data:`_ODDS`."""
     tau, weights = np.array(modes.times), np.array(modes.weights)
     time = np.geomspace(1e-8 * tau[0], 1e8 * tau[-1], 2000)
     part = time[:, None] / (time[:, None] + tau)
     crept, rest = part @ weights, (1 - part) @ weights
-    # odds = k (1 - c)/(c - k), which falls with time
+    # odds = k (1 - c)/(c - k), decreasing with time
     odds = np.log(modes.instantaneous) + np.log(rest) - np.log(crept)
     return np.interp(-_ODDS, -odds, np.log(time))

@@ -1,4 +1,4 @@
-"""Words for an input out of the range of a surrogate."""
+"""Messages for inputs outside the range of a surrogate."""
 
 from __future__ import annotations
 
@@ -6,28 +6,27 @@ from __future__ import annotations
 def out_of_range(
     name: str, value: float, limits: tuple[float, float], unit: str, si: tuple[float, str] | None
 ) -> str:
-    """Return that an input is out of its range, with its value and the range.
+    """Describe an input outside its range, with its value and the range.
 
     Parameters
     ----------
     name : str
     value : float
     limits : tuple of float
-        Least and largest that was learned from.
+        Smallest and largest value of the training range.
     unit : str
-        Of these numbers, empty where they have none.
+        Unit of these numbers; empty if there is none.
     si : tuple, or None
-        What one unit is in SI, and that unit; None where it is not known.
+        SI value of one unit, and its SI unit; None if unknown.
 
     Examples
     --------
     >>> out_of_range("rate", 1e17, (0.01, 1e10), "h0/tau0", (1e-9, "m/s"))
-    'rate is 1e+17 h0/tau0 (1e+08 m/s), and 0.01 to 1e+10 h0/tau0 was learned from'
+    'rate is 1e+17 h0/tau0 (1e+08 m/s), outside the training range of 0.01 to 1e+10 h0/tau0'
     """
     least, most = limits
     own = "" if si is None else f" ({value * si[0]:.3g} {si[1]})"
     return (
         f"{name} is {value:.4g} {unit}".rstrip()
-        + f"{own}, and {least:.4g} to {most:.4g} {unit}".rstrip()
-        + " was learned from"
+        + f"{own}, outside the training range of {least:.4g} to {most:.4g} {unit}".rstrip()
     )

@@ -1,9 +1,9 @@
-"""What a material that is not known exactly does to pull-off forces, at all speeds together.
+"""Propagate the uncertainty of a material to pull-off forces, as a covariance over all speeds.
 
-A passport keeps solids that its measurement allows as well. Each gives its forces; their scatter is
-a covariance of ln(force) over the speeds, of few directions: a stiffer solid raises them all, a
-slower one those of one flank. It is found at one interface near the best, where it hardly changes
-with the interface, and joins the noise of the forces in the fit and in a forecast.
+A passport contains solids sampled from the uncertainty of its measurement. Each gives pull-off
+forces; their scatter is a low-rank covariance of ln(force) over the speeds: a stiffer solid
+raises all forces, a slower one those of one flank. It is computed at one interface near the best
+one, because it hardly depends on the interface, and is added to the noise in fit and prediction.
 """
 
 from collections.abc import Sequence
@@ -21,16 +21,16 @@ from viscotack.materials import Passport
 from .forward import Forward, Growth
 
 _DRAWN = 24
-_RADII = 40  # of a curve: solids are compared with each other
-# Speeds a factor of e apart err together by exp(-1/2.3): a theory is off by decades.
+_RADII = 40  # points of a curve; sufficient for differences between solids
+# Errors of the theory at speeds a factor of e apart correlate by exp(-1/2.3).
 _TOGETHER = log(10.0)
 
 
 def allowed(passport: Passport) -> tuple[Any, ...]:
-    """Return solids that the measurement behind a passport allows as well.
+    """Return solids sampled from the uncertainty of a passport's material.
 
-    Those it keeps; else, of one written by hand, solids drawn from the intervals of its constants,
-    each alone, which is more than the measurement allows. None where it says nothing.
+    These are the solids stored in the passport. For a passport without them, each constant is
+    sampled independently from its interval, which overestimates the uncertainty. Empty if unknown.
     """
     if passport.allowed or passport.evidence is None:
         return passport.allowed
@@ -53,13 +53,13 @@ def allowed(passport: Passport) -> tuple[Any, ...]:
         }
         try:
             solids.append(replace(passport.material, **drawn))
-        except InputError:  # softer at once than after long, or an exponent out of its range
+        except InputError:  # glassy softer than rubbery modulus, or an exponent out of range
             continue
     return tuple(solids)
 
 
 def _width(value: float, low: float, high: float) -> float:
-    """Return the half-width of an interval of ln(value), of the sides that are bounded."""
+    """Return the half-width of an interval of ln(value), from its bounded sides."""
     sides = [log(value / low)] if low > 0 else []
     sides += [log(high / value)] if high < inf else []
     return float(np.mean(sides)) if sides else 0.0
@@ -74,7 +74,7 @@ def log_forces(
     preload: Array,
     growth: Growth | None = None,
 ) -> Array:
-    """Return ln of the pull-off forces of solids beside a known one, shape (solids, speeds)."""
+    """Return ln of the pull-off forces of neighbouring solids, shape (solids, speeds)."""
     pulled = (
         known.beside(solid).pulled(work, gap, speed, preload, _RADII, growth) for solid in solids
     )
@@ -82,12 +82,12 @@ def log_forces(
 
 
 def covariance(rows: Array) -> Array:
-    """Return the covariance of ln(force) over the speeds of rows of solids."""
+    """Return the covariance of ln(force) over the speeds, from rows of solids."""
     away = rows - rows.mean(axis=0)
     return away.T @ away / (len(rows) - 1)
 
 
 def theory_covariance(speed: Array, theory: float) -> Array:
-    """Return that of a theory with a relative standard error: together where speeds are near."""
+    """Return the covariance of the theory's relative error, correlated between near speeds."""
     apart = np.abs(np.subtract.outer(np.log(speed), np.log(speed)))
     return theory**2 * np.exp(-apart / _TOGETHER)

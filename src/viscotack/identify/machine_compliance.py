@@ -1,8 +1,8 @@
-"""What a machine that yields does to pull-offs, for interfaces near one that is likely.
+"""Effect of a compliant machine on pull-offs, near a given interface.
 
-While the tension grows a soft machine stretches, and the sphere goes more slowly than the drive.
-The ratio of the force to that of a rigid machine is computed through the spring at one interface;
-where it is far from 1 it hangs on the interface too, and its slopes are taken beside.
+While the tension grows a compliant machine stretches, so the sphere moves more slowly than the
+drive. The ratio of the force to that of a rigid machine is computed at one interface. Where it is
+far from 1, its derivatives with respect to the interface are computed as well.
 """
 
 from collections.abc import Mapping
@@ -15,22 +15,22 @@ from viscotack.arrays import Array
 
 from .forward import Forward, Growth
 
-# ln of ratios beyond which slopes are taken, and how far beside, ln of work and range.
+# |ln ratio| above which derivatives are computed, and steps in ln of work and range.
 _FAR, _WORK, _GAP = 0.1, 0.1, -0.3
 
 
 @dataclass(frozen=True, eq=False)
 class Yielding:
-    """Forces through a spring over those of a rigid machine.
+    """Ratio of forces with a compliant machine to those with a rigid one.
 
     Parameters
     ----------
     log_ratio : ndarray, shape (S,)
-        At the interface where it was computed.
+        ln of the ratio at the reference interface.
     slopes : ndarray, shape (2, S)
-        By ln of the work of adhesion and of the range.
+        Derivatives with respect to ln of the work of adhesion and of the range.
     work, gap : float
-        That interface [J/m2] and [m].
+        Reference interface [J/m2] and [m].
     """
 
     log_ratio: Array
@@ -40,16 +40,16 @@ class Yielding:
 
     @property
     def much(self) -> bool:
-        """Whether it hangs on the interface."""
+        """Whether the ratio depends on the interface."""
         return bool(np.any(self.slopes != 0))
 
     @classmethod
     def of_a_rigid_machine(cls, speeds: int) -> "Yielding":
-        """Return that of a machine that does not yield."""
+        """Return the ratios of a rigid machine, which are 1."""
         return cls(np.zeros(speeds), np.zeros((2, speeds)))
 
     def __call__(self, values: Mapping[str, Any]) -> Array:
-        """Return ratios of an interface, shape (S,), or of many, shape (N, S)."""
+        """Return the ratios of one interface, shape (S,), or of many, shape (N, S)."""
         away = np.stack(
             [
                 np.log(np.asarray(values["work_of_adhesion"]) / self.work),
@@ -69,7 +69,7 @@ def yielding_near(
     stiffness: float | None,
     growth: Growth | None,
 ) -> tuple[Yielding, dict[int, str]]:
-    """Return what a machine does near an interface, and which speeds are refused there and why."""
+    """Compute the ratios near an interface, and the refused speeds with the reason."""
 
     def log_ratio(w: float, h0: float) -> tuple[Array, dict[int, str]]:
         found = forward.changed(w, h0, speed, preload, stiffness=stiffness, growth=growth)
